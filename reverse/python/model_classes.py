@@ -27,6 +27,7 @@ from rebsync.reverse.python.model_queues import length_of
 from rebsync.reverse.python.model_roles import EnvUse, PyRoles, PySends, plain_name, roles_of
 from rebsync.reverse.python.model_silent import silent_in
 from rebsync.reverse.python.model_types import class_name, markers_above, messages_of
+from rebsync.reverse.python.named_constants import CodeConstants
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import PyCode, Scope, classes_in
 from rebsync.reverse.python.py_tree import named, text_of
@@ -56,6 +57,7 @@ class ModelClasses:
 
     def __post_init__(self) -> None:
         self._values = PyValues(self.code)
+        self._named = CodeConstants(self._values)
         self._owners = [c for c in classes_in(self.code) if not is_runtime_file(c.py.source)]
         self._lines: dict[int, list[Scope]] = {}
         if not any("Mailbox(" in s.py.source.text for s in self.code.modules.values()):
@@ -93,6 +95,7 @@ class ModelClasses:
             self.served,
             self.fields,
             self.constants,
+            self._named,
         )
 
     def families(self) -> dict[str, dict[str, str]]:
@@ -115,7 +118,7 @@ class ModelClasses:
         """All of them in the order of the code, or those of a file."""
         wanted = [o for o in self._owners if path is None or o.py.source.path == path]
         for module in {id(o.module): o.module for o in wanted}.values():
-            for node in odd_at_top(module):
+            for node in odd_at_top(module, self._named):
                 unread = Unread(module.py.span(node), "what this does is not in the model")
                 self.findings.unreadable(module.py.source, unread, "")
         return tuple(
@@ -191,7 +194,7 @@ class ModelClasses:
         names, lineage = self._bodies.names(owner), self.line(owner)[1:]
         before = len(self.findings.all)
         Plumbing(
-            *(roles, self.messages, self.findings, self.code, names.silent, lineage),
+            *(roles, self.messages, self.findings, self._named, names.silent, lineage),
             *(names.posts, self.fields, self._is_lost),
         ).check()
         members: list[m.ClassMember] = []
@@ -215,7 +218,7 @@ class ModelClasses:
         extends = [class_name(c.name) for c in bases if self._has_mailbox(c)]
         return m.ReactiveClass(
             class_name(owner.name),
-            length_of(self.code, owner, roles.queues, roles.queue, self.findings),
+            length_of(self._named, owner, roles.queues, roles.queue, self.findings),
             tuple(members),
             not roles.is_executable,
             extends[0] if extends else None,

@@ -9,7 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.writes import array_of, is_own, own
-from rebsync.reverse.bodies.building import binary
+from rebsync.reverse.bodies.building import binary, located
 from rebsync.reverse.python.model_cuts import other_division
 from rebsync.reverse.python.model_kinds import is_floating
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -307,8 +307,8 @@ def _values(reader: ModelExpressionReader, pattern: Node) -> Iterator[m.Expressi
         if text == "-":  # it stands beside the number
             is_below = True
             continue
-        if "." in text and text in reader.names.constants:
-            yield reader.names.constants[text]
+        if "." in text and (constant := reader.names.constants.get(text)) is not None:
+            yield located(constant, reader.py.span(of))
         elif each.type == "integer":
             read = reader.read(each)
             yield m.Unary("-", read, reader.py.span(of)) if is_below else read
