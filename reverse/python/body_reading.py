@@ -40,7 +40,7 @@ from rebsync.reverse.python.body_scope import (
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
 from rebsync.reverse.python.py_lookup import attribute
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_tree import field, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import External, Function, Made, Ways
 from rebsync.reverse.python.py_worth import Instance as Object
@@ -305,14 +305,8 @@ def nonlocals(scope: Scope) -> set[str]:
     """The names that a function declares to be of the one around it."""
     if b"nonlocal" not in (scope.node.text or b""):
         return set()
-    found: set[str] = set()
-    waiting = [scope.node]
-    while waiting:
-        node = waiting.pop()
-        if node.type == "nonlocal_statement":
-            found |= {text_of(c) for c in node.named_children}
-        waiting += node.named_children
-    return found
+    inside = (n for n in nodes_in(scope.node) if n.type == "nonlocal_statement")
+    return {text_of(c) for n in inside for c in n.named_children}
 
 
 def field_key(message: Message, path: str) -> Key:

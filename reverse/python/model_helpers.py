@@ -5,7 +5,7 @@ The model has them as methods of each class that calls them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -17,7 +17,7 @@ from rebsync.reverse.python.model_names import Helper
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_imports import module_named, module_of
 from rebsync.reverse.python.py_index import FUNCTION, PyCode, PyParameter, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import calls_in, field, named, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
@@ -87,14 +87,6 @@ def called_in(code: PyCode, functions: list[Scope], taken: set[str]) -> dict[str
             found[name] = Helper(helper.name, helper, _object(call, helper))
             waiting.append(helper)
     return found
-
-
-def calls_in(node: Node) -> Iterator[Node]:
-    """All calls in a part of the code."""
-    for child in named(node):
-        if child.type == "call":
-            yield child
-        yield from calls_in(child)
 
 
 def _object(call: Node, function: Scope) -> str:

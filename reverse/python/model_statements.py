@@ -10,7 +10,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import bare
+from rebsync.reverse.bodies.building import bare, cell
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
@@ -177,13 +177,9 @@ class Statements(ModelStatementReader):
 
     def _cell(self, axis: str, node: Node) -> m.Expression:
         found = bare(self.expressions.read(node))
-        match found:
-            case m.IntLiteral(0):
-                return m.Name(axis)
-            case m.Unary("-", operand) if node.type == "unary_operator":
-                return m.Binary("-", m.Name(axis), bare(operand))
-            case _:
-                return m.Binary("+", m.Name(axis), found)
+        if isinstance(found, m.Unary) and node.type != "unary_operator":
+            return m.Binary("+", m.Name(axis), found)
+        return cell(axis, found)
 
     def assigned(self, node: Node) -> list[m.Statement]:
         span, left = self.expressions.py.span(node), field(node, "left")
