@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import field as with_default
 
 from tree_sitter import Node
@@ -43,6 +45,17 @@ class ModelExpressionReader(ABC):
         return kind_of(
             read, lambda n: self.types.get(n, self.names.types.get(n)), self.names.results
         )
+
+    @contextmanager
+    def standing_for(self, names: Sequence[str], values: Sequence[m.Expression]) -> Iterator[None]:
+        """Lets names stand for expressions meanwhile."""
+        outer = dict(self.bound)
+        self.bound.update(zip(names, values, strict=True))
+        try:
+            yield
+        finally:
+            self.bound.clear()
+            self.bound.update(outer)
 
     @abstractmethod
     def read(self, node: Node) -> m.Expression:

@@ -11,7 +11,6 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, cell
-from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python import model_loops as loops
@@ -22,6 +21,7 @@ from rebsync.reverse.python.model_filled import filled
 from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import (
+    annotations_above,
     call_parts,
     is_unset,
     markers_above,
@@ -99,16 +99,10 @@ class Statements(ModelStatementReader):
         return bool(self.cases) and called == f"{self.cases[-1]}.go_on" and is_last
 
     def _with_annotations(self, node: Node, read: list[m.Statement]) -> list[m.Statement]:
-        given = self._notes(node)
+        given = annotations_above(self.expressions.py, node)
         if given and read:
             read[-1] = _annotated(read[-1], given)
         return read
-
-    def _notes(self, node: Node) -> tuple[m.Annotation, ...]:
-        """The annotations of the markers above something."""
-        span = self.expressions.py.span(node)
-        markers = markers_above(self.expressions.py, node)
-        return tuple(a for x in markers if (a := annotation(x, span)) is not None)
 
     def _statement(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         span = self.expressions.py.span(node)
@@ -319,7 +313,12 @@ class Statements(ModelStatementReader):
         is_default = called.endswith(".default")
         value = None if is_default else self.expressions.read(arguments[0])
         body = self.branch(field(node, "consequence"))
-        return m.Case(value, body.statements, self._notes(node), self.expressions.py.span(node))
+        return m.Case(
+            value,
+            body.statements,
+            annotations_above(self.expressions.py, node),
+            self.expressions.py.span(node),
+        )
 
 
 def _asks(node: Node) -> str:
