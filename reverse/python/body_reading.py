@@ -42,7 +42,7 @@ from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Sco
 from rebsync.reverse.python.py_lookup import attribute
 from rebsync.reverse.python.py_tree import field, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
-from rebsync.reverse.python.py_worth import External, Function, Made, Ways
+from rebsync.reverse.python.py_worth import External, Function, Made, Module, Ways
 from rebsync.reverse.python.py_worth import Instance as Object
 from rebsync.source import Source, Span
 
@@ -120,6 +120,8 @@ class Reading:
         bindings = module.names.get(text, [])
         if not bindings or any(b.how in ("import", "scope") for b in bindings):
             return Nobody()
+        if self.values.is_stored(text, Module):
+            return Nobody()
         if len(bindings) == 1 and bindings[0].how == "value":
             found = self.constant(self.values.ways(bindings[0].value, module))
             if found is not None:
@@ -133,6 +135,8 @@ class Reading:
             declared = above.names.get(name, [])
             if bindings:
                 return self._variable(("self", self.unit.lineage[0].node.id, name), name)
+            if declared and self.values.is_stored(name):
+                return Nobody()
             if declared:
                 holder = Object(above)
                 ways = tuple(attribute(self.values, holder, name, node, frame.scope))

@@ -49,7 +49,6 @@ class CodeConstants:
     """The constants of some files: what is bound once, by its text, and by nothing else."""
 
     values: PyValues
-    _stored: frozenset[str] | None = None
 
     @property
     def code(self) -> PyCode:
@@ -83,7 +82,7 @@ class CodeConstants:
                 return self.of(scope, name)
             case Class(scope) if self._is_plain(scope):
                 return self.of(scope, name)
-            case Record(fields) if name not in self.stored:
+            case Record(fields):
                 return fields.get(name)
             case _:
                 return None
@@ -108,24 +107,17 @@ class CodeConstants:
 
     # --- what is bound --------------------------------------------------------------------------
 
-    @property
-    def stored(self) -> frozenset[str]:
-        """The names of what is stored in other objects than a method's own."""
-        if self._stored is None:
-            scopes = (*self.code.scopes.values(), *self.code.modules.values())
-            self._stored = frozenset(name for scope in scopes for _, name in scope.stores)
-        return self._stored
-
     def _is_stored(self, scope: Scope, name: str) -> bool:
         """Whether an object has another value than its class, or others store one there."""
         others = (s for s in self.code.scopes.values() if scope.kind == CLASS)
-        return name in self.stored or any(name in other.attributes for other in others)
+        return self.values.is_stored(name) or any(name in other.attributes for other in others)
 
     def _is_steady(self, value: Node) -> bool:
         """Whether an expression gives the same at any time: it calls nothing, nor asks what may."""
         parts = list(nodes_in(value))
         names = {text_of(field(n, "attribute")) for n in parts if n.type == "attribute"}
-        return not names & self.stored and all(n.type != "call" for n in parts)
+        is_stored = any(map(self.values.is_stored, names))
+        return not is_stored and all(n.type != "call" for n in parts)
 
     def _is_kept(self, scope: Scope, name: str) -> bool:
         """Whether a list only gives choices, in its own module."""
