@@ -23,8 +23,9 @@ class ModelExpressionReader(ABC):
     """Reads the expressions of one body; `locals` are its variables by their names in Python.
 
     `types` are those of the locals, by their names in the model; `bound` names that stand for an
-    expression while a comprehension is read; `own` is what the object is called; `cuts` are the
-    integers that are cut to the width that they have in the model.
+    expression while a comprehension is read; `closures` what functions of the body give, which do
+    nothing; `own` is what the object is called; `cuts` are the integers that are cut to the width
+    that they have in the model.
     """
 
     py: Py

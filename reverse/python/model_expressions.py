@@ -52,12 +52,7 @@ _TEMPORARY = re.compile(r"op\d+_\Z")
 
 @dataclass(eq=False, slots=True)
 class Expressions(ModelExpressionReader):
-    """Reads the expressions of one body; `locals` are its variables by their names in Python.
-    `types` are those of the locals, by their names in the model; `bound` names that stand for an
-    expression while a comprehension is read, `closures` what functions of the body give, which do
-    nothing; `own` is what the object is called; `cuts` are the
-    integers that are cut to the width that they have in the model.
-    """
+    """Reads the expressions of one body."""
 
     def read(self, node: Node) -> m.Expression:
         """An expression. Unread: the model has none for it."""
@@ -235,11 +230,8 @@ class Expressions(ModelExpressionReader):
 
     def _put_item(self, node: Node, arguments: list[Node]) -> m.Expression:
         values, index, value = arguments
-        target = m.Index(self._kept_values(values), self._index(index), self.py.span(node))
+        target = m.Index(self.read(values), self._index(index), self.py.span(node))
         return self.stored(target, index, value, node)
-
-    def _kept_values(self, node: Node) -> m.Expression:
-        return self.read(node)
 
     def _before(self, node: Node, arguments: list[Node]) -> m.Expression:
         target = self.read(arguments[0])

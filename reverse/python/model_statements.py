@@ -37,12 +37,7 @@ _HOISTED = "local "
 
 @dataclass(eq=False, slots=True)
 class Statements(ModelStatementReader):
-    """Reads the bodies of one function; `within` names it where something is listed.
-
-    `hoisted` are the locals that a switch declares before it, `cases` the names of the switches
-    around a statement, innermost last. `implied` are the locals of a block without a type, `inner`
-    are functions within.
-    """
+    """Reads the bodies of one function."""
 
     def block(self, nodes: list[Node], span_of: Node) -> m.Block:
         """The statements of a suite."""

@@ -75,9 +75,6 @@ class CodeConstants:
     def part(self, holder: Constant | None, name: str) -> Constant | None:
         """The same of an attribute of what is constant."""
         match holder:
-            case Module(scope) if name not in scope.names and _is_package(scope):
-                inner = module_named(self.code, f".{name}", scope)
-                return Module(inner) if inner is not None else None
             case Module(scope):
                 return self.of(scope, name)
             case Class(scope) if self._is_plain(scope):
@@ -215,6 +212,8 @@ class NamedConstants:
         if head == "self":
             owner = next((c for c in self.line if rest and rest[0] in c.names), None)
             found = self.code.of(owner, rest.pop(0)) if owner is not None else None
+        elif (inner := self._whole_module((head, *rest))) is not None:
+            found, rest = inner
         else:
             found = self.code.of(self.module, head)
         for name in rest:
@@ -223,6 +222,16 @@ class NamedConstants:
             return _literal(found)
         at, each = int(match[3]), found.each if isinstance(found, Items) else ()
         return _literal(each[at][0]) if at < len(each) and len(each[at]) == 1 else None
+
+    def _whole_module(self, names: Sequence[str]) -> tuple[Constant, list[str]] | None:
+        """The module that `import package.limits` brings, and the names behind it."""
+        match self.module.names.get(names[0]):
+            case [Binding("import", item, Node(type="import_statement"))]:
+                dotted = text_of(item).split(".")
+                inner = module_named(self.code.code, text_of(item), self.module)
+                if inner is not None and [*names[: len(dotted)]] == dotted and len(dotted) > 1:
+                    return Module(inner), [*names[len(dotted) :]]
+        return None
 
 
 def _literal(constant: Constant | None) -> m.Expression | None:
@@ -246,10 +255,6 @@ def _is_known(constant: Constant | None) -> bool:
 def _is_new(scope: Scope, name: str) -> bool:
     """Whether a name stands for nothing else."""
     return len(scope.names.get(name, ())) == 1 and not hasattr(builtins, name)
-
-
-def _is_package(module: Scope) -> bool:
-    return module.py.source.path.endswith("__init__.py")
 
 
 def _bases(owner: Scope) -> list[Node]:

@@ -132,6 +132,14 @@ def nodes_in(node: Node) -> Iterator[Node]:
         waiting += reversed(current.named_children)
 
 
+def decorators_of(definition: Node) -> list[str]:
+    """The decorators of a function or class, as they are written."""
+    above = definition.parent
+    if above is None or above.type != "decorated_definition":
+        return []
+    return [text_of(c).lstrip("@ ") for c in above.children if c.type == "decorator"]
+
+
 def calls_in(node: Node) -> Iterator[Node]:
     """All calls in a part of the code."""
     return (n for n in nodes_in(node) if n.type == "call")
