@@ -7,7 +7,7 @@ called in the middle of any body. The class must be alone, and all that it does 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 from enum import Enum, auto
 
@@ -107,7 +107,7 @@ def _fixpoint(
 ) -> _Round | None:
     """The round over all bodies after which nothing is new; None if there are too many."""
     held = _Held(dict.fromkeys(widths, exactly(0)), dict.fromkeys(widths, exactly(0)))
-    thresholds = sorted({*_literals(bodies), INT32.low, INT32.high})
+    thresholds = sorted({*limits_in(_nodes(bodies)), INT32.low, INT32.high})
     called = _called(bodies)
     within = [s for body in bodies if body.name in called for s in body.statements]
     changed = frozenset(name for statement in within for name in written(statement))
@@ -191,9 +191,9 @@ def _called(bodies: Sequence[Body]) -> frozenset[str]:
     return frozenset(call.name for call in calls)
 
 
-def _literals(bodies: Sequence[Body]) -> Iterator[int]:
+def limits_in(nodes: Iterable[m.Node]) -> Iterator[int]:
     """The numbers that bounds are likely to stop at: those of the code, and their neighbours."""
-    for node in _nodes(bodies):
+    for node in nodes:
         if isinstance(node, m.IntLiteral):
             for sign in (1, -1):
                 yield from (sign * node.value - 1, sign * node.value, sign * node.value + 1)

@@ -30,6 +30,15 @@ def chosen(condition: m.Expression, then: m.Expression, otherwise: m.Expression)
     return m.Conditional(tight(condition, precedence.CHAIN), then, otherwise)
 
 
+def selected(
+    asked: m.Expression, values: dict[int, m.Expression], otherwise: m.Expression
+) -> m.Expression:
+    """The value by a number that is asked; another one if it has none."""
+    for number, value in reversed(values.items()):
+        otherwise = chosen(binary("==", asked, m.IntLiteral(number)), value, otherwise)
+    return otherwise
+
+
 def cast(type_: m.Type, operand: m.Expression) -> m.Cast:
     """`(type) operand`."""
     return m.Cast(type_, tight(operand, precedence.CAST))

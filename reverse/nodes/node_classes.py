@@ -14,7 +14,7 @@ from rebsync.reverse.bodies.cpp_timers import without_stale
 from rebsync.reverse.bodies.cpp_unknowns import choice
 from rebsync.reverse.bodies.rewriting import STATEMENTS, rewritten
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.graph import SubscriptionFact, TimerFact
+from rebsync.reverse.graph import TimerFact
 from rebsync.reverse.nodes.node_bodies import Bodies, repeated, takes_time
 from rebsync.reverse.nodes.node_functions import Functions
 from rebsync.reverse.nodes.node_lifecycle import is_transition
@@ -78,7 +78,12 @@ class NodeClass:
             members.append(m.StateVars(tuple(_declared(t, n) for n, t in state.items())))
         members.append(m.Constructor(self.name, arguments, constructor))
         members += [*servers, *methods]
-        return m.ReactiveClass(self.name, self._queue(), tuple(members), span=self._span())
+        return m.ReactiveClass(
+            self.name,
+            self.bodies.unit.queue(len(self.bodies.setup.loops)),
+            tuple(members),
+            span=self._span(),
+        )
 
     def _servers(self, methods: Sequence[m.Method]) -> list[m.MessageServer]:
         """The servers of callbacks, timers and loops; those of timers send to themselves again."""
@@ -170,14 +175,6 @@ class NodeClass:
             return unit.owner.cpp.span(unit.owner.node)
         assert unit.program is not None
         return unit.program.main.cpp.span(unit.program.main.node)
-
-    def _queue(self) -> int:
-        """The largest depth of the subscriptions, and enough for its own timers and loops."""
-        facts = self.bodies.unit.facts
-        depths = [f.depth for f in facts if isinstance(f, SubscriptionFact)]
-        known = [d for d in depths if isinstance(d, int) and not isinstance(d, bool)]
-        own = sum(isinstance(f, TimerFact) for f in facts) + len(self.bodies.setup.loops) + 1
-        return max([*known, own + (1 if depths else 0)])
 
 
 def too_deep(

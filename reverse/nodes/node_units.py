@@ -57,6 +57,13 @@ class Unit:
         """The classes that its functions belong to."""
         return frozenset(c.name for c in self.lineage)
 
+    def queue(self, loops: int) -> int:
+        """The largest depth of the subscriptions, and enough for its own timers and loops."""
+        depths = [f.depth for f in self.facts if isinstance(f, SubscriptionFact)]
+        known = [d for d in depths if isinstance(d, int) and not isinstance(d, bool)]
+        own = sum(isinstance(f, TimerFact) for f in self.facts) + loops + 1
+        return max([*known, own + (1 if depths else 0)])
+
     def constructors(self, of: CppClass) -> list[CppFunction]:
         """The constructors, with bodies, of one of its classes."""
         return [f for f in self.functions if f.owner == of.name == f.name]

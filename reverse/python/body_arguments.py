@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.python.py_index import PyParameter, Scope, arguments_of
 from rebsync.reverse.python.py_tree import field, text_of
-
-if TYPE_CHECKING:
-    pass
 
 
 def arguments(

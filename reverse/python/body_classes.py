@@ -14,7 +14,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.graph import SubscriptionFact, TimerFact
+from rebsync.reverse.graph import TimerFact
 from rebsync.reverse.nodes.node_bodies import takes_time, without_end
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_servers import ParameterField, Server
@@ -203,7 +203,10 @@ class PyClass:
         unit = self.reading.unit
         first = unit.lineage[0] if unit.lineage else unit.module
         return m.ReactiveClass(
-            name, self._queue(), (*members, *servers), span=first.py.span(first.node)
+            name,
+            self.reading.unit.unit.queue(len(self.loops)),
+            (*members, *servers),
+            span=first.py.span(first.node),
         )
 
     def _as_server(self, served: ReadServer, variables: Mapping[str, m.Type]) -> m.MessageServer:
@@ -213,14 +216,6 @@ class PyClass:
         if served.node is None:
             return m.MessageServer(served.name, parameters, body)
         return m.MessageServer(served.name, parameters, body, span=py.span(served.node))
-
-    def _queue(self) -> int:
-        """The largest depth of the subscriptions, and enough for its own timers and loops."""
-        facts = self.reading.unit.unit.facts
-        depths = [f.depth for f in facts if isinstance(f, SubscriptionFact)]
-        known = [d for d in depths if isinstance(d, int) and not isinstance(d, bool)]
-        own = sum(isinstance(f, TimerFact) for f in facts) + len(self.loops) + 1
-        return max([*known, own + (1 if depths else 0)])
 
     def note(self) -> None:
         """Lists what the model does otherwise than the node, as a whole."""

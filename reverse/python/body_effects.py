@@ -13,7 +13,7 @@ from rebsync.reverse.python.body_reading import Reading, nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_index import Scope, last_name
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.python.py_tree import decorators_of, field, named, nodes_in, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Instance, Made, Value, Ways
 
 _LOCK = re.compile(LOCKS)
@@ -72,9 +72,9 @@ def defines_only(reading: Reading, node: Node, frame: Frame) -> bool:
     """Whether defining a function or class changes nothing: decorators, defaults, class bodies."""
     match node.type:
         case "decorated_definition":
-            decorators = (text_of(c).lstrip("@ ") for c in node.children if c.type == "decorator")
             inner = field(node, "definition")
-            return all(d in _DECORATORS for d in decorators) and defines_only(reading, inner, frame)
+            is_plain = _DECORATORS.issuperset(decorators_of(inner))
+            return is_plain and defines_only(reading, inner, frame)
         case "function_definition":
             parameters = named(field(node, "parameters"))
             values = (p.child_by_field_name("value") for p in parameters)

@@ -50,8 +50,10 @@ class BodyExpressionReader(ABC):
             return self.reading.attribute(name, node, self.frame), ""
         if isinstance(meaning, Message):
             return meaning, f"{path}.{name}" if path else name
+        if self.reading.values.is_stored(name) or not isinstance(meaning, Nobody):
+            return Nobody(), ""
         found = self.reading.constant(self.reading.values.ways(node, self.frame.scope))
-        return (found, "") if found is not None and isinstance(meaning, Nobody) else (Nobody(), "")
+        return found or Nobody(), ""
 
     def real(self, value: Value, node: Node, what: str = "real") -> m.Expression:
         """A number where the model is to compute with 64 bits."""

@@ -30,7 +30,7 @@ from rebsync.reverse.python.body_scope import (
     literal,
     unknown,
 )
-from rebsync.reverse.python.py_tree import field, named, number_of, text_of
+from rebsync.reverse.python.py_tree import field, is_asked, named, number_of, text_of
 
 _POSITIVE = Interval(1, INT32.high)
 _COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!=", "<>"})
@@ -285,27 +285,9 @@ class PyExpressions(BodyExpressionReader):
             return Value(chosen(asked, one.expression, other.expression), one.kind)
         return Value(chosen(asked, self.real(one, then), self.real(other, otherwise)), REAL)
 
-    # --- needs ----------------------------------------------------------------------------------
-
 
 def _is_float(value: Value) -> bool:
     return value.kind == REAL and not value.mixed
-
-
-def is_asked(node: Node) -> bool:
-    """Whether only its truth counts: it is a condition, or part of one."""
-    at, above = node, node.parent
-    while above is not None and above.type in (
-        "parenthesized_expression",
-        "boolean_operator",
-        "not_operator",
-    ):
-        at, above = above, above.parent
-    if above is None:
-        return False
-    if above.type == "conditional_expression":
-        return named(above)[1] == at
-    return above.child_by_field_name("condition") == at
 
 
 def short(node: Node) -> str:

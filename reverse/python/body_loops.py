@@ -17,7 +17,7 @@ from rebsync.reverse.python.body_node_loops import Loop, forever
 from rebsync.reverse.python.body_rounds import leaves_nothing
 from rebsync.reverse.python.body_scope import WHOLE, Key, Value
 from rebsync.reverse.python.py_index import arguments_of, last_name
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import field, is_label, named, text_of
 from rebsync.static.types import INT
 
 if TYPE_CHECKING:
@@ -218,19 +218,10 @@ def _only_here(reader: BodyStatementReader, node: Node, variable: str) -> bool:
         current = waiting.pop()
         if current in loops:
             continue
-        if current.type == "identifier" and text_of(current) == variable and not _is_field(current):
+        if current.type == "identifier" and text_of(current) == variable and not is_label(current):
             return False
         waiting += current.named_children
     return True
-
-
-def _is_field(node: Node) -> bool:
-    above = node.parent
-    if above is None:
-        return False
-    if above.type == "attribute":
-        return above.child_by_field_name("attribute") == node
-    return above.type == "keyword_argument" and above.child_by_field_name("name") == node
 
 
 def _holds(outer: Node, inner: Node) -> bool:

@@ -12,6 +12,7 @@ from rebsync import model as m
 from rebsync.intervals import INT32, Interval, exactly
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
+from rebsync.reverse.analysis.invariants import limits_in
 from rebsync.reverse.analysis.needs import Mark, Need
 from rebsync.reverse.analysis.writes import written
 
@@ -46,7 +47,7 @@ class ClassBodies:
 
 def proved(bodies: ClassBodies) -> Proved:
     """Looks at all bodies until it is known what their state variables can hold."""
-    thresholds = sorted({*_literals(bodies), INT32.low, INT32.high, 0, -1, 1})
+    thresholds = sorted({*limits_in(_nodes(bodies)), INT32.low, INT32.high, 0, -1, 1})
     ranges = _first(bodies)
     repeated = _repeated(bodies)
     for number in range(_MOST_ROUNDS):
@@ -128,14 +129,6 @@ def _analysis(
         needs=bodies.needs,
         wraps=False,
     )
-
-
-def _literals(bodies: ClassBodies) -> Iterator[int]:
-    """The numbers that bounds are likely to stop at: those of the code, and their neighbours."""
-    for node in _nodes(bodies):
-        if isinstance(node, m.IntLiteral):
-            for sign in (1, -1):
-                yield from (sign * node.value - 1, sign * node.value, sign * node.value + 1)
 
 
 def _repeated(bodies: ClassBodies) -> frozenset[str]:

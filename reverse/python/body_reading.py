@@ -40,9 +40,9 @@ from rebsync.reverse.python.body_scope import (
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
 from rebsync.reverse.python.py_lookup import attribute
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_tree import field, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
-from rebsync.reverse.python.py_worth import External, Function, Made, Ways
+from rebsync.reverse.python.py_worth import External, Function, Made, Module, Ways
 from rebsync.reverse.python.py_worth import Instance as Object
 from rebsync.source import Source, Span
 
@@ -120,6 +120,8 @@ class Reading:
         bindings = module.names.get(text, [])
         if not bindings or any(b.how in ("import", "scope") for b in bindings):
             return Nobody()
+        if self.values.is_stored(text, Module):
+            return Nobody()
         if len(bindings) == 1 and bindings[0].how == "value":
             found = self.constant(self.values.ways(bindings[0].value, module))
             if found is not None:
@@ -133,6 +135,8 @@ class Reading:
             declared = above.names.get(name, [])
             if bindings:
                 return self._variable(("self", self.unit.lineage[0].node.id, name), name)
+            if declared and self.values.is_stored(name):
+                return Nobody()
             if declared:
                 holder = Object(above)
                 ways = tuple(attribute(self.values, holder, name, node, frame.scope))
@@ -305,14 +309,8 @@ def nonlocals(scope: Scope) -> set[str]:
     """The names that a function declares to be of the one around it."""
     if b"nonlocal" not in (scope.node.text or b""):
         return set()
-    found: set[str] = set()
-    waiting = [scope.node]
-    while waiting:
-        node = waiting.pop()
-        if node.type == "nonlocal_statement":
-            found |= {text_of(c) for c in node.named_children}
-        waiting += node.named_children
-    return found
+    inside = (n for n in nodes_in(scope.node) if n.type == "nonlocal_statement")
+    return {text_of(c) for n in inside for c in n.named_children}
 
 
 def field_key(message: Message, path: str) -> Key:

@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from rebsync import model as m
 from rebsync.reverse.bodies.building import negated
-
-if TYPE_CHECKING:
-    pass
 
 
 def without_returns(statements: tuple[m.Statement, ...]) -> tuple[m.Statement, ...] | None:

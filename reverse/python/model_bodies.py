@@ -21,7 +21,6 @@ from rebsync.reverse.analysis.writes import own as hidden
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.sensors import list_unseen
-from rebsync.reverse.python.model_constants import constants_in, constants_of, enumerations_of
 from rebsync.reverse.python.model_expressions import Expressions
 from rebsync.reverse.python.model_filled import fillings_of
 from rebsync.reverse.python.model_helpers import called_in, first_of, own_name, without_object
@@ -34,6 +33,7 @@ from rebsync.reverse.python.model_silent import silent_in
 from rebsync.reverse.python.model_statements import Statements
 from rebsync.reverse.python.model_types import passed_on, type_of
 from rebsync.reverse.python.model_widths import WidthContext, hint_of, wanted_of
+from rebsync.reverse.python.named_constants import CodeConstants, NamedConstants
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -62,7 +62,8 @@ class ModelBodies:
 
     `served` is the server of a function, if it serves one, `types` are the names of classes and
     messages, `serving` what classes serve, and `fields` what messages have in the model's types.
-    `constants` are the integers that some names of the model always stand for.
+    `constants` are the integers that some names of the model always stand for, `named` those of
+    the code.
     """
 
     code: PyCode
@@ -74,6 +75,7 @@ class ModelBodies:
     serving: Served
     fields: Mapping[str, Mapping[str, m.Type]]
     constants: Mapping[str, Interval]
+    named: CodeConstants
     known: dict[int, ModelNames] = with_default(default_factory=dict)
     passed: dict[int, Mapping[str, Sequence[m.Type | None]]] = with_default(default_factory=dict)
     noted: dict[int, list[_Noted]] = with_default(default_factory=dict)
@@ -197,8 +199,7 @@ class ModelBodies:
         """What reads statements of a function."""
         names = self.names(owner)
         if function.module is not owner.module:
-            constants = constants_in(self.code, function.module)
-            names = replace(names, constants=constants | enumerations_of(function.module))
+            names = replace(names, constants=NamedConstants(self.named, function.module))
         expressions = Expressions(function.py, names, own=self._own(owner, function))
         return Statements(expressions, self.findings, within, self.types)
 
@@ -261,7 +262,6 @@ class ModelBodies:
         variables: dict[str, str] = {}
         sends: dict[str, PySends] = {}
         types: dict[str, m.Type] = {}
-        constants = constants_in(self.code, owner.module) | enumerations_of(owner.module)
         for above in reversed(self.line(owner)):
             roles = self.roles(above)
             variables |= {a: v[0] for a, v in (roles.state | roles.known).items()}
@@ -270,10 +270,9 @@ class ModelBodies:
             types |= {e.name: e.type for e in roles.env.values()}
             given = ((f, s, roles.functions[f]) for f, s in roles.sends.items())
             sends |= {f: resolved(self.serving, owner, s, of) for f, s, of in given}
-            own = {n: v for n, v in constants_of(above).items() if n not in above.attributes}
-            constants |= {f"self.{name}": value for name, value in own.items()}
         types |= {hidden(name): type_ for name, type_ in types.items()}
-        names = ModelNames(variables, sends, {}, constants=constants, types=types)
+        constants = NamedConstants(self.named, owner.module, self.line(owner))
+        names = ModelNames(variables, sends, {}, constants, types=types)
         return self._with_messages(owner, self._with_functions(owner, names))
 
     def _with_functions(self, owner: Scope, names: ModelNames) -> ModelNames:

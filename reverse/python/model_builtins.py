@@ -5,13 +5,13 @@ What goes through an array of the model is said element by element; the array is
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary, chosen, negated
+from rebsync.reverse.bodies.building import binary, chosen, negated, selected
 from rebsync.reverse.python.model_idioms import grouped, is_plain, truth, type_of
 from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -90,13 +90,11 @@ def _looked_up(
         return None
     if not all(k.type == "integer" for k, _ in pairs):
         return None
-    asked, found = reader.read(key), reader.read(default)
+    asked, otherwise = reader.read(key), reader.read(default)
     if reader.kind(asked) != m.Type("int"):
         return None
     numbered = {int(text_of(k), 0): reader.read(value) for k, value in pairs}  # the last counts
-    for number, value in reversed(numbered.items()):
-        found = chosen(binary("==", asked, m.IntLiteral(number)), value, found)
-    return grouped(node, found)
+    return grouped(node, selected(asked, numbered, otherwise))
 
 
 def drawn(
@@ -198,14 +196,9 @@ def _comprehended(
     left, right = field(loops[0], "left"), field(loops[0], "right")
     names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]
     for values in rows(reader, right, len(names)):
-        outer = dict(reader.bound)
-        reader.bound.update(zip(names, values, strict=True))
-        try:
+        with reader.standing_for(names, values):
             condition = reader.condition(tests[0]) if tests else None
             yield reader.read(body), condition
-        finally:
-            reader.bound.clear()
-            reader.bound.update(outer)
 
 
 def is_calm(node: Node) -> bool:
@@ -294,11 +287,22 @@ def _extreme(
     kinds = {reader.kind(value) for value in values}
     if len(kinds) != 1 or kinds & {None, m.Type("boolean")} or not values:
         raise reader.unread(node, f'nobody knows of which type "{called}" is here')
-    found = values[0]
+    return _first(reader, node, called, values, lambda value: value)
+
+
+def _first(
+    reader: ModelExpressionReader,
+    node: Node,
+    called: str,
+    values: list[m.Expression],
+    measured: Callable[[m.Expression], m.Expression],
+) -> m.Expression:
+    """The first value of which what is measured is the least or greatest."""
+    found, sign = values[0], "<" if called == "min" else ">"
     for value in values[1:]:
         if len(list(m.walk(found))) > _LARGEST:
             raise reader.unread(node, "the model compares two values at a time")
-        found = chosen(binary("<" if called == "min" else ">", value, found), value, found)
+        found = chosen(binary(sign, measured(value), measured(found)), value, found)
     return found
 
 
@@ -315,24 +319,12 @@ def _best(
         raise reader.unread(node, "the model has no such expression")
 
     def measured(value: m.Expression) -> m.Expression:
-        outer = dict(reader.bound)
-        reader.bound[names[0]] = value
-        try:
+        with reader.standing_for(names, [value]):
             read = reader.read(body)
-        finally:
-            reader.bound.clear()
-            reader.bound.update(outer)
         _assert_whole(reader, node, read)
         return read
 
-    first, *others = [value for (value,) in rows(reader, given, 1)]
-    found = first
-    for value in others:
-        if len(list(m.walk(found))) > _LARGEST:
-            raise reader.unread(node, "the model compares two values at a time")
-        sign = "<" if called == "min" else ">"
-        found = chosen(binary(sign, measured(value), measured(found)), value, found)
-    return found
+    return _first(reader, node, called, [value for (value,) in rows(reader, given, 1)], measured)
 
 
 def _as_int(reader: ModelExpressionReader, node: Node, read: m.Expression) -> m.Expression:

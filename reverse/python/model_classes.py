@@ -16,7 +16,6 @@ from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES, OFFERS, RUNTIME_TOPICS
 from rebsync.reverse.bodies.building import is_default
 from rebsync.reverse.bodies.overloads import Served
-from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.own_parameters import Stored, with_own
 from rebsync.reverse.python.model_bodies import ModelBodies
@@ -26,7 +25,13 @@ from rebsync.reverse.python.model_posts import learn_servers
 from rebsync.reverse.python.model_queues import length_of
 from rebsync.reverse.python.model_roles import EnvUse, PyRoles, PySends, plain_name, roles_of
 from rebsync.reverse.python.model_silent import silent_in
-from rebsync.reverse.python.model_types import class_name, markers_above, messages_of
+from rebsync.reverse.python.model_types import (
+    annotations_above,
+    class_name,
+    markers_above,
+    messages_of,
+)
+from rebsync.reverse.python.named_constants import CodeConstants
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import PyCode, Scope, classes_in
 from rebsync.reverse.python.py_tree import named, text_of
@@ -56,6 +61,7 @@ class ModelClasses:
 
     def __post_init__(self) -> None:
         self._values = PyValues(self.code)
+        self._named = CodeConstants(self._values)
         self._owners = [c for c in classes_in(self.code) if not is_runtime_file(c.py.source)]
         self._lines: dict[int, list[Scope]] = {}
         if not any("Mailbox(" in s.py.source.text for s in self.code.modules.values()):
@@ -93,6 +99,7 @@ class ModelClasses:
             self.served,
             self.fields,
             self.constants,
+            self._named,
         )
 
     def families(self) -> dict[str, dict[str, str]]:
@@ -115,7 +122,7 @@ class ModelClasses:
         """All of them in the order of the code, or those of a file."""
         wanted = [o for o in self._owners if path is None or o.py.source.path == path]
         for module in {id(o.module): o.module for o in wanted}.values():
-            for node in odd_at_top(module):
+            for node in odd_at_top(module, self._named):
                 unread = Unread(module.py.span(node), "what this does is not in the model")
                 self.findings.unreadable(module.py.source, unread, "")
         return tuple(
@@ -172,7 +179,9 @@ class ModelClasses:
         line = _once(self.line(owner)[1:])
         extends = tuple(class_name(c.name) for c in line if self._is_base(owner, c))
         span = owner.py.span(owner.node)
-        return m.Interface(class_name(owner.name), servers, extends, _annotations(owner), span)
+        return m.Interface(
+            class_name(owner.name), servers, extends, annotations_above(owner.py, owner.node), span
+        )
 
     def _is_lost(self, sends: PySends) -> bool:
         """Whether a message goes to a server that no subscription takes messages to."""
@@ -191,7 +200,7 @@ class ModelClasses:
         names, lineage = self._bodies.names(owner), self.line(owner)[1:]
         before = len(self.findings.all)
         Plumbing(
-            *(roles, self.messages, self.findings, self.code, names.silent, lineage),
+            *(roles, self.messages, self.findings, self._named, names.silent, lineage),
             *(names.posts, self.fields, self._is_lost),
         ).check()
         members: list[m.ClassMember] = []
@@ -215,7 +224,7 @@ class ModelClasses:
         extends = [class_name(c.name) for c in bases if self._has_mailbox(c)]
         return m.ReactiveClass(
             class_name(owner.name),
-            length_of(self.code, owner, roles.queues, roles.queue, self.findings),
+            length_of(self._named, owner, roles.queues, roles.queue, self.findings),
             tuple(members),
             not roles.is_executable,
             extends[0] if extends else None,
@@ -243,7 +252,7 @@ class ModelClasses:
         """The annotations of the markers; without markers, those that the set-up shows."""
         markers = markers_above(owner.py, owner.node)
         if any(x.startswith("reactiveclass ") for x in markers):
-            yield from _annotations(owner)
+            yield from annotations_above(owner.py, owner.node)
             return
         if self._of(owner).has_drive:
             yield m.Annotation("Robot")
@@ -253,7 +262,7 @@ class ModelClasses:
     def _variable(self, owner: Scope, name: str, type_: m.Type, statement: Node) -> m.Declaration:
         span = owner.py.span(statement)
         declarator = m.Declarator(name, None, span)
-        return m.Declaration(type_, (declarator,), _annotations_above(owner, statement), span)
+        return m.Declaration(type_, (declarator,), annotations_above(owner.py, statement), span)
 
     # --- functions ------------------------------------------------------------------------------
 
@@ -304,7 +313,7 @@ class ModelClasses:
         """The annotations of the markers; priorities, services and actions the set-up says."""
         shown = self._set_up(owner, function)
         said = {a.name: a for a in shown or () if a.name in _SHOWN}
-        for each in _annotations(function):
+        for each in annotations_above(function.py, function.node):
             if each.name not in _SHOWN or shown is None:
                 yield each
             elif (own := said.pop(each.name, None)) is not None:
@@ -329,7 +338,7 @@ class ModelClasses:
             self._bodies.parameters(owner, function, within),
             self._bodies.body(owner, function, within),
             _is_abstract(function),
-            _annotations(function),
+            annotations_above(function.py, function.node),
             function.py.span(function.node),
         )
 
@@ -346,7 +355,7 @@ class ModelClasses:
                 name,
                 self._bodies.parameters(owner, function, name),
                 body,
-                _annotations(function),
+                annotations_above(function.py, function.node),
                 function.py.span(function.node),
             )
         if not found and roles.initial:
@@ -380,14 +389,3 @@ def _is_constructor(name: str) -> bool:
 
 def _is_abstract(function: Scope) -> bool:
     return "abstractmethod" in function.decorators
-
-
-def _annotations(scope: Scope) -> tuple[m.Annotation, ...]:
-    """The annotations that markers above something hold."""
-    return _annotations_above(scope, scope.node)
-
-
-def _annotations_above(scope: Scope, node: Node) -> tuple[m.Annotation, ...]:
-    span = scope.py.span(node)
-    markers = markers_above(scope.py, node)
-    return tuple(a for x in markers if (a := annotation(x, span)) is not None)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import field as with_default
 
 from tree_sitter import Node
@@ -21,8 +23,9 @@ class ModelExpressionReader(ABC):
     """Reads the expressions of one body; `locals` are its variables by their names in Python.
 
     `types` are those of the locals, by their names in the model; `bound` names that stand for an
-    expression while a comprehension is read; `own` is what the object is called; `cuts` are the
-    integers that are cut to the width that they have in the model.
+    expression while a comprehension is read; `closures` what functions of the body give, which do
+    nothing; `own` is what the object is called; `cuts` are the integers that are cut to the width
+    that they have in the model.
     """
 
     py: Py
@@ -43,6 +46,17 @@ class ModelExpressionReader(ABC):
         return kind_of(
             read, lambda n: self.types.get(n, self.names.types.get(n)), self.names.results
         )
+
+    @contextmanager
+    def standing_for(self, names: Sequence[str], values: Sequence[m.Expression]) -> Iterator[None]:
+        """Lets names stand for expressions meanwhile."""
+        outer = dict(self.bound)
+        self.bound.update(zip(names, values, strict=True))
+        try:
+            yield
+        finally:
+            self.bound.clear()
+            self.bound.update(outer)
 
     @abstractmethod
     def read(self, node: Node) -> m.Expression:

@@ -16,7 +16,7 @@ from rebsync.reverse.python import model_formats as formats
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_helpers import arguments_for
-from rebsync.reverse.python.model_kinds import is_single
+from rebsync.reverse.python.model_kinds import float_literal
 from rebsync.reverse.python.model_sends import of_mailbox, sent
 from rebsync.reverse.python.model_types import (
     call_parts,
@@ -52,12 +52,7 @@ _TEMPORARY = re.compile(r"op\d+_\Z")
 
 @dataclass(eq=False, slots=True)
 class Expressions(ModelExpressionReader):
-    """Reads the expressions of one body; `locals` are its variables by their names in Python.
-    `types` are those of the locals, by their names in the model; `bound` names that stand for an
-    expression while a comprehension is read, `closures` what functions of the body give, which do
-    nothing; `own` is what the object is called; `cuts` are the
-    integers that are cut to the width that they have in the model.
-    """
+    """Reads the expressions of one body."""
 
     def read(self, node: Node) -> m.Expression:
         """An expression. Unread: the model has none for it."""
@@ -66,8 +61,7 @@ class Expressions(ModelExpressionReader):
             case "integer":
                 return m.IntLiteral(int(text_of(node), 0), span)
             case "float":
-                exact = "" if is_single(text_of(node)) else "d"
-                return m.FloatLiteral(f"{text_of(node)}{exact}", span)
+                return float_literal(text_of(node), span)
             case "true" | "false":
                 return m.BoolLiteral(node.type == "true", span)
             case "string":
@@ -174,17 +168,17 @@ class Expressions(ModelExpressionReader):
             return self.bound[text]
         if text in self.kept:
             return self.read(self.kept[text])
-        if text not in self.locals and text in self.names.constants:
-            return self.names.constants[text]
         if text not in self.locals:
-            raise self.unread(node, f'the model has no variable "{text}"')
+            if (constant := self.names.constants.get(text)) is None:
+                raise self.unread(node, f'the model has no variable "{text}"')
+            return located(constant, span)
         return m.Name(self.locals[text], span)
 
     def _attribute(self, node: Node) -> m.Expression:
         span, name = self.py.span(node), text_of(field(node, "attribute"))
         variable = self.names.variables.get(name)
-        if text_of(node) in self.names.constants:
-            return self.names.constants[text_of(node)]
+        if (constant := self.names.constants.get(text_of(node))) is not None:
+            return located(constant, span)
         is_own = text_of(field(node, "object")) == self.own
         if is_own and name in self.names.properties:
             return m.Call(None, self.names.functions[name], span=span)
@@ -195,8 +189,8 @@ class Expressions(ModelExpressionReader):
         return m.Name(variable, span)
 
     def _element(self, node: Node) -> m.Expression:
-        if text_of(node) in self.names.constants:
-            return self.names.constants[text_of(node)]
+        if (constant := self.names.constants.get(text_of(node))) is not None:
+            return located(constant, self.py.span(node))
         target = self.read(field(node, "value"))
         return m.Index(target, self._index(field(node, "subscript")), self.py.span(node))
 
@@ -236,11 +230,8 @@ class Expressions(ModelExpressionReader):
 
     def _put_item(self, node: Node, arguments: list[Node]) -> m.Expression:
         values, index, value = arguments
-        target = m.Index(self._kept_values(values), self._index(index), self.py.span(node))
+        target = m.Index(self.read(values), self._index(index), self.py.span(node))
         return self.stored(target, index, value, node)
-
-    def _kept_values(self, node: Node) -> m.Expression:
-        return self.read(node)
 
     def _before(self, node: Node, arguments: list[Node]) -> m.Expression:
         target = self.read(arguments[0])

@@ -6,7 +6,7 @@ The model has them as methods of each class that calls them.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -18,7 +18,7 @@ from rebsync.reverse.python.model_names import Helper
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_imports import module_named, module_of
 from rebsync.reverse.python.py_index import FUNCTION, PyCode, PyParameter, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import calls_in, field, named, text_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
 
 if TYPE_CHECKING:
@@ -131,14 +131,6 @@ def _is_free(helper: Scope, found: Mapping[str, Helper], taken: set[str]) -> boo
     """Whether a class has nothing else by the name of a function."""
     others = (h.function for h in found.values() if h.name == helper.name)
     return helper.name not in taken and all(other is helper for other in others)
-
-
-def calls_in(node: Node) -> Iterator[Node]:
-    """All calls in a part of the code."""
-    for child in named(node):
-        if child.type == "call":
-            yield child
-        yield from calls_in(child)
 
 
 def _object(call: Node, function: Scope) -> str:

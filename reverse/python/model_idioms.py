@@ -9,10 +9,10 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.writes import array_of, is_own, own
-from rebsync.reverse.bodies.building import binary
+from rebsync.reverse.bodies.building import binary, located
 from rebsync.reverse.python.model_cuts import other_division
 from rebsync.reverse.python.model_kinds import is_floating
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import calls_in, field, is_asked, named, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
@@ -128,24 +128,9 @@ def sides(
 ) -> tuple[m.Expression, m.Expression]:
     """The sides of `and` and `or` as conditions. Unread: Python gives an integer, not its truth."""
     asked = truth(reader, left), truth(reader, right)
-    if asked != (left, right) and not _is_condition(node):
+    if asked != (left, right) and not is_asked(node, _ASKING):
         raise reader.unread(node, "this is one of the two numbers in Python, in the model a truth")
     return asked
-
-
-def _is_condition(node: Node) -> bool:
-    """Whether only the truth of an expression matters where it stands."""
-    above = node.parent
-    while above is not None and above.type in ("parenthesized_expression", "boolean_operator"):
-        node, above = above, above.parent
-    if above is None or above.type in ("not_operator", "assert_statement", "if_clause"):
-        return above is not None
-    if above.type == "conditional_expression":
-        return named(above)[1] == node
-    call = above.parent if above.type in ("argument_list", "generator_expression") else None
-    if call is not None and call.type == "call":
-        return text_of(field(call, "function")).rpartition(".")[2] in _ASKING
-    return above.child_by_field_name("condition") == node
 
 
 def kind_at(reader: ModelExpressionReader, node: Node) -> m.Type | None:
@@ -307,8 +292,8 @@ def _values(reader: ModelExpressionReader, pattern: Node) -> Iterator[m.Expressi
         if text == "-":  # it stands beside the number
             is_below = True
             continue
-        if "." in text and text in reader.names.constants:
-            yield reader.names.constants[text]
+        if "." in text and (constant := reader.names.constants.get(text)) is not None:
+            yield located(constant, reader.py.span(of))
         elif each.type == "integer":
             read = reader.read(each)
             yield m.Unary("-", read, reader.py.span(of)) if is_below else read
@@ -355,13 +340,12 @@ def _is_steady(reader: ModelExpressionReader, node: Node, body: Node) -> bool:
 
 def _calls_own(reader: ModelExpressionReader, node: Node) -> bool:
     """Whether a block calls functions of the object that are no sends, and may store something."""
-    if node.type == "call":
-        holder, _, name = text_of(field(node, "function")).rpartition(".")
-        if holder in (reader.own, "super()") and name not in reader.names.sends:
-            return True
-        if not holder and name not in _QUIET:
-            return True
-    return any(_calls_own(reader, each) for each in node.named_children)
+    parts = (text_of(field(call, "function")).rpartition(".") for call in calls_in(node))
+    return any(
+        name not in (reader.names.sends if holder in (reader.own, "super()") else _QUIET)
+        for holder, _, name in parts
+        if not holder or holder in (reader.own, "super()")
+    )
 
 
 def stored_in(node: Node) -> set[str]:

@@ -12,6 +12,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.analysis.writes import is_own, own, variable_of
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.source import NOWHERE, Span
 
 _INT, _DOUBLE, _BOOLEAN = m.Type("int"), m.Type("double"), m.Type("boolean")
 _INTEGERS = frozenset({"byte", "short", "int"})
@@ -104,14 +105,14 @@ def real_type(
     return found.name if found is not None and found.name in _FLOATING else None
 
 
-def is_single(literal: str) -> bool:
-    """Whether 32 bits hold the very number that a literal of the code says."""
-    value = float(literal.replace("_", ""))
+def float_literal(text: str, span: Span = NOWHERE) -> m.FloatLiteral:
+    """A number of the code, of 64 bits where 32 do not hold it."""
+    value = float(text.replace("_", ""))
     try:
         (single,) = struct.unpack("f", struct.pack("f", value))
     except OverflowError:
-        return False
-    return bool(single == value)
+        single = None
+    return m.FloatLiteral(text if single == value else f"{text}d", span)
 
 
 def literal_kind(node: Node, variables: Known) -> m.Type | None:

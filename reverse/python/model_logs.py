@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Container, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
@@ -13,7 +13,7 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.python.log_words import LOOKS, ON_CLOCKS
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import CLASS, PyCode, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
 
 _DESCRIBES = frozenset({"__repr__", "__str__"})
@@ -164,15 +164,9 @@ def only_describes(function: Scope, members: Container[str]) -> bool:
         function.node.parent.type == "block" and len(values) == 1 and _PLAIN.is_pure(values[0])
     )
     return is_plain and not any(
-        text_of(field(a, "attribute")) in members for a in _reads(values[0])
+        n.type == "attribute" and text_of(field(n, "attribute")) in members
+        for n in nodes_in(values[0])
     )
-
-
-def _reads(node: Node) -> Iterator[Node]:
-    if node.type == "attribute":
-        yield node
-    for child in node.named_children:
-        yield from _reads(child)
 
 
 def _branch_only_logs(part: Node, looks: Looks) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain, count
 from typing import TYPE_CHECKING
@@ -11,11 +10,11 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary, chosen
+from rebsync.reverse.bodies.building import binary, selected
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_types import call_parts
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
@@ -28,8 +27,13 @@ _LEAVING = frozenset({"break_statement", "continue_statement", "function_definit
 def counted(reader: ModelStatementReader, node: Node, name: str) -> m.For:
     """`for i in range(...)`."""
     start, end, step = idioms.rounds(reader.expressions, node)
-    body = _body(reader, node, name, m.Type("int"), ())
+    body = _counting(reader, node, name)
     return _for(reader, node, reader.local(name), start, end, step, body)
+
+
+def _counting(reader: ModelStatementReader, node: Node, name: str) -> m.Block:
+    """The body of a loop whose variable counts."""
+    return _round(reader, node, [(name, m.Type("int"))], reader.local(name), [])
 
 
 def through(
@@ -72,8 +76,7 @@ def _numbered(
             raise reader.expressions.unread(node, "the model has no such loop")
         first.append((name, element, m.Index(read.target, m.Name(index))))
     body = _round(reader, node, [(number, m.Type("int"))] if number else [], index, first)
-    zero, one = m.IntLiteral(0), m.IntLiteral(1)
-    return _for(reader, node, index, zero, m.IntLiteral(length), one, body)
+    return _times(reader, node, index, length, body)
 
 
 def _listed(reader: ModelStatementReader, node: Node, name: str, values: list[Node]) -> m.For:
@@ -84,34 +87,25 @@ def _listed(reader: ModelStatementReader, node: Node, name: str, values: list[No
         raise reader.expressions.unread(node, "the model has no such loop")
     (kind,) = kinds
     index = _free(reader, node, name)
-    value, count_ = read[-1], len(read)
-    for i in range(count_ - 2, -1, -1):
-        value = chosen(binary("==", m.Name(index), m.IntLiteral(i)), read[i], value)
-    first = [(name, kind or m.Type("int"), value)]
-    body = _round(reader, node, [], index, first)
-    zero, one = m.IntLiteral(0), m.IntLiteral(1)
-    return _for(reader, node, index, zero, m.IntLiteral(count_), one, body)
+    value = selected(m.Name(index), dict(enumerate(read[:-1])), read[-1])
+    body = _round(reader, node, [], index, [(name, kind or m.Type("int"), value)])
+    return _times(reader, node, index, len(read), body)
 
 
 def _unrolled(reader: ModelStatementReader, node: Node, names: list[str]) -> m.Block:
     """What a loop through values that are written out does, once for each of them."""
     body, expressions = field(node, "body"), reader.expressions
     stored = idioms.stored_in(body)
-    given = {text_of(n) for n in _names_in(field(node, "right"))}
-    leaves = any(n.type in _LEAVING for n in _all_in(body))
+    given = {text_of(n) for n in nodes_in(field(node, "right")) if n.type == "identifier"}
+    leaves = any(n.type in _LEAVING for n in nodes_in(body))
     if leaves or {*names, *given} & set(stored) or set(names) & expressions.locals.keys():
         raise expressions.unread(node, "the model has no such loop")
     statements: list[m.Statement] = []
     for values in builtins.rows(expressions, field(node, "right"), len(names)):
         if not all(_is_steady(expressions, v) for v in values):
             raise expressions.unread(node, "the model has no such loop")
-        outer = dict(expressions.bound)
-        expressions.bound.update(zip(names, values, strict=True))
-        try:
+        with expressions.standing_for(names, values):
             statements.append(reader.suite(body))
-        finally:
-            expressions.bound.clear()
-            expressions.bound.update(outer)
     return m.Block(tuple(statements), span=expressions.py.span(node))
 
 
@@ -119,16 +113,6 @@ def _is_steady(expressions: ModelExpressionReader, value: m.Expression) -> bool:
     """Whether only a store into a local changes a value."""
     is_local = isinstance(value, m.Name) and value.name in expressions.locals.values()
     return is_local or isinstance(value, m.IntLiteral | m.BoolLiteral)
-
-
-def _all_in(node: Node) -> Iterator[Node]:
-    yield node
-    for child in named(node):
-        yield from _all_in(child)
-
-
-def _names_in(node: Node) -> Iterator[Node]:
-    return (n for n in _all_in(node) if n.type == "identifier")
 
 
 def _backwards(reader: ModelStatementReader, node: Node, name: str, inner: Node) -> m.For:
@@ -143,7 +127,7 @@ def _backwards(reader: ModelStatementReader, node: Node, name: str, inner: Node)
     ends = [int(text_of(a), 0) for a in arguments]
     low, high = (0, *ends) if len(ends) == 1 else (ends[0], ends[1])
     place, index = m.Name(reader.local(name)), reader.local(name)
-    body = _body(reader, node, name, m.Type("int"), ())
+    body = _counting(reader, node, name)
     declared = m.Declaration(m.Type("int"), (m.Declarator(index, m.IntLiteral(high - 1)),))
     condition = binary(">=", place, m.IntLiteral(low))
     span = reader.expressions.py.span(node)
@@ -160,7 +144,8 @@ def _round(
     """The body of a loop that begins with what its variables are this time."""
     body, known = field(node, "body"), reader.expressions.locals
     names = [(name, type_) for name, type_, _ in first] + counting
-    if any(n in known or n in idioms.stored_in(body) for n, _ in names):
+    taken = {*known, *idioms.stored_in(body)}
+    if not all(n.isidentifier() and n not in taken for n, _ in names):
         raise reader.expressions.unread(node, "the variable of this loop is used elsewhere")
     known[f"index of {names[0][0]}"] = index
     for name, type_ in names:
@@ -188,12 +173,8 @@ def each(reader: ModelStatementReader, node: Node, name: str) -> m.For:
     index = _free(reader, node, name)
     read = m.Index(values, m.Name(index))
     element = reader.expressions.kind(read) or m.Type(type_.name)
-    first = m.Local(m.Declaration(element, (m.Declarator(reader.local(name), read),)))
-    reader.expressions.locals[f"index of {name}"] = index
-    body = _body(reader, node, name, element, (first,))
-    del reader.expressions.locals[f"index of {name}"]
-    zero, end, one = m.IntLiteral(0), m.IntLiteral(type_.dimensions[0]), m.IntLiteral(1)
-    return _for(reader, node, index, zero, end, one, body)
+    body = _round(reader, node, [], index, [(name, element, read)])
+    return _times(reader, node, index, type_.dimensions[0], body)
 
 
 def _assert_kept(reader: ModelStatementReader, node: Node, array: Node) -> None:
@@ -220,23 +201,12 @@ def _free(reader: ModelStatementReader, node: Node, name: str) -> str:
     return next(n for n in chain(("i", "j", "k"), numbered) if n not in taken)
 
 
-def _body(
-    reader: ModelStatementReader,
-    node: Node,
-    name: str,
-    type_: m.Type,
-    first: tuple[m.Statement, ...],
-) -> m.Block:
-    """The body of a loop over something, whose variable is known in it only."""
-    body, known = field(node, "body"), reader.expressions.locals
-    is_one = field(node, "left").type == "identifier"
-    if not is_one or name in known or name in idioms.stored_in(body):
-        raise reader.expressions.unread(node, "the variable of this loop is used elsewhere")
-    known[name] = reader.local(name)
-    reader.expressions.types[known[name]] = type_
-    found = reader.suite(body)
-    del known[name]
-    return replace(found, statements=(*first, *found.statements))
+def _times(
+    reader: ModelStatementReader, node: Node, index: str, count_: int, body: m.Block
+) -> m.For:
+    """A loop that is done so often."""
+    zero, one = m.IntLiteral(0), m.IntLiteral(1)
+    return _for(reader, node, index, zero, m.IntLiteral(count_), one, body)
 
 
 def _for(

@@ -10,6 +10,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.python.model_posts import Post
 from rebsync.reverse.python.model_roles import PySends
 from rebsync.reverse.python.model_silent import NOTHING, Silent
+from rebsync.reverse.python.named_constants import NamedConstants
 from rebsync.reverse.python.py_index import Scope
 
 
@@ -28,8 +29,8 @@ class ModelNames:
     variables: Mapping[str, str]
     sends: Mapping[str, PySends]
     functions: Mapping[str, str]
+    constants: NamedConstants
     servers: frozenset[str] = frozenset()
-    constants: Mapping[str, m.Expression] = with_default(default_factory=dict)
     types: Mapping[str, m.Type] = with_default(default_factory=dict)
     results: Mapping[str, m.Type] = with_default(default_factory=dict)
     properties: frozenset[str] = frozenset()

@@ -14,7 +14,6 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
-from rebsync.reverse.python.model_constants import constants_of, is_quiet
 from rebsync.reverse.python.model_filled import made_of
 from rebsync.reverse.python.model_helpers import is_transparent
 from rebsync.reverse.python.model_parameters import declared_by, parameter_read
@@ -32,8 +31,9 @@ from rebsync.reverse.python.model_types import (
     type_of,
     without_parentheses,
 )
+from rebsync.reverse.python.named_constants import CodeConstants
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import PyCode, Scope
+from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
 from rebsync.static.types import PRIMITIVES
 
@@ -81,7 +81,7 @@ class Plumbing:
     roles: PyRoles
     fields: Mapping[str, Sequence[str]]
     findings: Findings
-    code: PyCode
+    constants: CodeConstants
     silent: Silent
     above: Sequence[Scope]
     posts: Mapping[int, Post]
@@ -100,15 +100,16 @@ class Plumbing:
             if any(c.type == "async" for c in function.node.children):
                 self._list(owner.py, function.node, _LATE, function.name)
             odd = [d for d in function.decorators if not self._is_plain(function, d)]
-            if odd := [d for d in odd if not is_transparent(self.code, owner.module, d)]:
+            if odd := [d for d in odd if not is_transparent(self.constants.code, owner.module, d)]:
                 why = f'nobody knows what "@{odd[0]}" makes of it'
                 self._list(owner.py, function.node, why, function.name)
         for node, why in self._overridden():
             self._list(owner.py, node, why, "")
         for statement in named(field(owner.node, "body")):
-            if statement.type in _IN_CLASS or _is_text(statement) or self._is_constant(statement):
+            if statement.type in _IN_CLASS or _is_text(statement):
                 continue
-            self._list(owner.py, statement, _WHY, "")
+            if not self.constants.is_quiet(owner, statement):
+                self._list(owner.py, statement, _WHY, "")
 
     def _is_plain(self, function: Scope, decorator: str) -> bool:
         """Whether the model knows what a function is with it: what is called is no property."""
@@ -120,19 +121,13 @@ class Plumbing:
 
     def _overridden(self) -> Iterator[tuple[Node, str]]:
         """The constants that functions above use by the value of a class above."""
-        owner, own = self.roles.owner, constants_of(self.roles.owner)
+        owner = self.roles.owner
+        values = {n: bound[0] for n, bound in owner.names.items() if bound[0].how == "value"}
         for above in self.above:
-            for name in sorted(own.keys() & constants_of(above).keys()):
-                why = f'this counts in functions of "{above.name}" as well, in place of its own'
-                yield owner.names[name][0].node, why
-
-    def _is_constant(self, statement: Node) -> bool:
-        """Whether it names a constant that no instance has another value for."""
-        inner = _inner(statement)
-        name = (
-            text_of(field(inner, "left")) if inner is not None and len(inner.children) > 1 else ""
-        )
-        return is_quiet(self.roles.owner, statement) and name not in self.roles.owner.attributes
+            for name in sorted(values.keys() & above.names.keys()):
+                if None not in (self.constants.of(c, name) for c in (owner, above)):
+                    why = f'this counts in functions of "{above.name}" as well, in place of its own'
+                    yield values[name].node, why
 
     def _list(self, py: Py, node: Node, why: str, function: str) -> None:
         within = ".".join(filter(None, (self.roles.owner.name, function)))
@@ -302,7 +297,7 @@ class Plumbing:
         )
 
 
-def odd_at_top(module: Scope) -> Iterator[Node]:
+def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
     """The statements of a module of a class that are none of the model's."""
     for statement in named(module.node):
         inner = _inner(statement)
@@ -313,7 +308,7 @@ def odd_at_top(module: Scope) -> Iterator[Node]:
             continue
         if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
             continue
-        if is_quiet(module, statement):
+        if constants.is_quiet(module, statement):
             continue
         if definition is not None and definition.type == "class_definition":
             continue

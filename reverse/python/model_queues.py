@@ -6,8 +6,8 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.python.model_constants import constants_in
-from rebsync.reverse.python.py_index import PyCode, Scope
+from rebsync.reverse.python.named_constants import CodeConstants, NamedConstants
+from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import field, text_of
 
 PASSED = "queue_length"  # what a class hands on that others extend
@@ -25,7 +25,11 @@ def queue_in(arguments: list[Node]) -> Node | None:
 
 
 def length_of(
-    code: PyCode, owner: Scope, queues: list[Node], default: Node | None, findings: Findings
+    code: CodeConstants,
+    owner: Scope,
+    queues: list[Node],
+    default: Node | None,
+    findings: Findings,
 ) -> int:
     """The length that the last of some arguments gives, or else a default.
 
@@ -39,7 +43,7 @@ def length_of(
     text = text_of(given)
     if text.isdecimal():
         return int(text)
-    known = constants_in(code, owner.module).get(text)
+    known = NamedConstants(code, owner.module).get(text)
     if isinstance(known, m.IntLiteral):
         return known.value
     unread = Unread(owner.py.span(given), "this is no number of messages that is known here")

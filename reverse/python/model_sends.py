@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import takewhile
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -51,9 +50,7 @@ def of_mailbox(
 
 def _constants(reader: ModelExpressionReader, name: str) -> tuple[m.Expression, ...]:
     """The elements of a constant tuple or list."""
-    known = reader.names.constants
-    keys = [f"{name}[{i}]" for i in range(len(known))] if name not in reader.locals else []
-    return tuple(known[key] for key in takewhile(known.__contains__, keys))
+    return reader.names.constants.elements(name) if name not in reader.locals else ()
 
 
 def _posted(reader: ModelExpressionReader, node: Node) -> m.Expression:

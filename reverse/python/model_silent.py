@@ -22,7 +22,7 @@ from rebsync.reverse.python.model_timers import Timers
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import PyCode, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import field, is_label, named, nodes_in, text_of
 
 _SET_UP = ("__init__", "_wire")
 _VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
@@ -264,16 +264,14 @@ def _messages(function: Scope, makers: frozenset[str]) -> Iterator[str]:
 def _odd(silent: Silent, root: Node) -> set[str]:
     """The members and locals that something else than a statement for people names."""
     members = silent.members
-    found, waiting = set[str](), [root]
-    while waiting:
-        node = waiting.pop()
-        waiting += node.named_children
+    found = set[str]()
+    for node in nodes_in(root):
         if node.type == "attribute" and text_of(field(node, "attribute")) in members:
             name = text_of(field(node, "attribute"))
             is_own = text_of(field(node, "object")) == "self"
             if not (is_own and _is_quiet(silent, node, name)):
                 found.add(name)
-        elif node.type == "identifier" and not _is_of_other(node):
+        elif node.type == "identifier" and not is_label(node):
             name = text_of(node)
             is_local = name in silent.locals.get(_function(node), ())
             if is_local and not _is_quiet(silent, node, name):
@@ -281,18 +279,6 @@ def _odd(silent: Silent, root: Node) -> set[str]:
         elif node.type == "string_content" and text_of(node) in members:
             found.add(text_of(node))  # as getattr names it
     return found
-
-
-def _is_of_other(node: Node) -> bool:
-    """Whether a name is that of an attribute or of an argument."""
-    above = node.parent
-    if above is not None and above.type == "attribute":
-        return above.child_by_field_name("attribute") == node
-    return (
-        above is not None
-        and above.type == "keyword_argument"
-        and above.child_by_field_name("name") == node
-    )
 
 
 def _is_quiet(silent: Silent, node: Node, name: str) -> bool:

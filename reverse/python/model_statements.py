@@ -10,8 +10,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import bare
-from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.bodies.building import bare, cell
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python import model_loops as loops
@@ -22,6 +21,7 @@ from rebsync.reverse.python.model_filled import filled
 from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import (
+    annotations_above,
     call_parts,
     is_unset,
     markers_above,
@@ -37,12 +37,7 @@ _HOISTED = "local "
 
 @dataclass(eq=False, slots=True)
 class Statements(ModelStatementReader):
-    """Reads the bodies of one function; `within` names it where something is listed.
-
-    `hoisted` are the locals that a switch declares before it, `cases` the names of the switches
-    around a statement, innermost last. `implied` are the locals of a block without a type, `inner`
-    are functions within.
-    """
+    """Reads the bodies of one function."""
 
     def block(self, nodes: list[Node], span_of: Node) -> m.Block:
         """The statements of a suite."""
@@ -99,16 +94,10 @@ class Statements(ModelStatementReader):
         return bool(self.cases) and called == f"{self.cases[-1]}.go_on" and is_last
 
     def _with_annotations(self, node: Node, read: list[m.Statement]) -> list[m.Statement]:
-        given = self._notes(node)
+        given = annotations_above(self.expressions.py, node)
         if given and read:
             read[-1] = _annotated(read[-1], given)
         return read
-
-    def _notes(self, node: Node) -> tuple[m.Annotation, ...]:
-        """The annotations of the markers above something."""
-        span = self.expressions.py.span(node)
-        markers = markers_above(self.expressions.py, node)
-        return tuple(a for x in markers if (a := annotation(x, span)) is not None)
 
     def _statement(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         span = self.expressions.py.span(node)
@@ -177,13 +166,9 @@ class Statements(ModelStatementReader):
 
     def _cell(self, axis: str, node: Node) -> m.Expression:
         found = bare(self.expressions.read(node))
-        match found:
-            case m.IntLiteral(0):
-                return m.Name(axis)
-            case m.Unary("-", operand) if node.type == "unary_operator":
-                return m.Binary("-", m.Name(axis), bare(operand))
-            case _:
-                return m.Binary("+", m.Name(axis), found)
+        if isinstance(found, m.Unary) and node.type != "unary_operator":
+            return m.Binary("+", m.Name(axis), found)
+        return cell(axis, found)
 
     def assigned(self, node: Node) -> list[m.Statement]:
         span, left = self.expressions.py.span(node), field(node, "left")
@@ -323,7 +308,12 @@ class Statements(ModelStatementReader):
         is_default = called.endswith(".default")
         value = None if is_default else self.expressions.read(arguments[0])
         body = self.branch(field(node, "consequence"))
-        return m.Case(value, body.statements, self._notes(node), self.expressions.py.span(node))
+        return m.Case(
+            value,
+            body.statements,
+            annotations_above(self.expressions.py, node),
+            self.expressions.py.span(node),
+        )
 
 
 def _asks(node: Node) -> str:

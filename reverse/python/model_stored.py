@@ -14,7 +14,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_types import call_parts, string_value
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import calls_in, field, named, nodes_in, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_statement_reader import ModelStatementReader
@@ -212,8 +212,7 @@ def _may_skip(walrus: Node, node: Node) -> Iterator[str]:
 
 
 def _count(node: Node, name: str) -> int:
-    is_it = node.type == "identifier" and text_of(node) == name
-    return is_it + sum(_count(each, name) for each in node.named_children)
+    return sum(n.type == "identifier" and text_of(n) == name for n in nodes_in(node))
 
 
 def _of_all_branches(node: Node) -> dict[str, Node]:
@@ -287,7 +286,7 @@ def _leaves(node: Node, in_loop: bool = False) -> bool:
 def inner(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """A function in a body, which stands for what it does where it is called."""
     name, body = text_of(field(node, "name")), field(node, "body")
-    calls = {text_of(field(c, "function")) for c in _calls(body)}
+    calls = {text_of(field(c, "function")) for c in calls_in(body)}
     is_plain = not named(field(node, "parameters")) and name not in calls
     if is_plain and (value := _only_value(body)) is not None:
         reader.expressions.closures[name] = value
@@ -307,13 +306,6 @@ def _only_value(body: Node) -> Node | None:
             return values[0] if len(values) == 1 and builtins.is_calm(values[0]) else None
         case _:
             return None
-
-
-def _calls(node: Node) -> Iterator[Node]:
-    for child in named(node):
-        if child.type == "call":
-            yield child
-        yield from _calls(child)
 
 
 def done_inside(

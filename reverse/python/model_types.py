@@ -10,6 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.names import uncarry
 from rebsync.reserved import NO_PYTHON_CLASSES
+from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import Py, field, named, text_of
 
@@ -97,6 +98,12 @@ def markers_above(py: Py, node: Node) -> list[str]:
             found.append(match[1])
         number -= 1
     return found[::-1]
+
+
+def annotations_above(py: Py, node: Node) -> tuple[m.Annotation, ...]:
+    """The annotations that the markers above something hold."""
+    span = py.span(node)
+    return tuple(a for x in markers_above(py, node) if (a := annotation(x, span)) is not None)
 
 
 def markers_beside(py: Py, node: Node) -> list[str]:

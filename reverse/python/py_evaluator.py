@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import field as with_default
 from itertools import product
+from types import UnionType
 
 from tree_sitter import Node
 
@@ -18,7 +19,9 @@ from rebsync.reverse.python.py_worth import (
     MOST,
     Class,
     External,
+    Instance,
     Items,
+    Module,
     Table,
     Value,
     Ways,
@@ -27,6 +30,8 @@ from rebsync.reverse.python.py_worth import (
 )
 
 _Key = tuple[str, int]
+# What may have a name that others read: of all other objects it is known that they do not.
+_SHARED = Module | Class | Instance | Unresolved
 
 
 @dataclass(eq=False, slots=True)
@@ -38,6 +43,8 @@ class PyEvaluator(ABC):
     under_way: set[_Key] = with_default(default_factory=set)
     cycles: list[set[_Key]] = with_default(default_factory=list)
     steps: int = 0
+    stores: dict[str, list[tuple[Binding, Scope]]] | None = None
+    holders: dict[str, Ways] = with_default(default_factory=dict)
 
     def value(self, node: Node, scope: Scope) -> Resolved:
         """The value of an expression as it stands in a graph."""
@@ -64,6 +71,25 @@ class PyEvaluator(ABC):
         if count > MOST:
             return none
         return tuple(joined(chosen, lambda: none[0]) for chosen in product(*filled))
+
+    def is_stored(self, name: str, kinds: type | UnionType = _SHARED) -> bool:
+        """Whether something is stored under a name in such an object that is no method's own."""
+        if self.stores is None:
+            self.stores = {}
+            for scope in (*self.code.scopes.values(), *self.code.modules.values()):
+                for (_, stored), bindings in scope.stores.items():
+                    self.stores.setdefault(stored, []).extend((b, scope) for b in bindings)
+        if name not in self.holders:
+            stores = self.stores.get(name, ())
+            self.holders[name] = tuple(w for b, scope in stores for w in self._holder(b, scope))
+        return any(isinstance(way, kinds) for way in self.holders[name])
+
+    def _holder(self, binding: Binding, scope: Scope) -> Ways:
+        """The object in whose attribute a statement stores."""
+        left = binding.node.child_by_field_name("left")
+        holder = left.child_by_field_name("object") if left is not None else None
+        found = self.ways(holder, scope) if holder is not None else ()
+        return found or (self.unknown("what this stores in", binding.node, scope),)
 
     @abstractmethod
     def bound(self, binding: Binding, name: str, scope: Scope) -> Ways:

@@ -9,7 +9,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.python.py_bindings import BINDING, Binding, bindings_of
-from rebsync.reverse.python.py_tree import Py, field, named, text_of
+from rebsync.reverse.python.py_tree import Py, decorators_of, field, named, text_of
 
 MODULE, CLASS, FUNCTION, LAMBDA = "module", "class", "function", "lambda"
 
@@ -74,14 +74,8 @@ class Scope:
     @property
     def decorators(self) -> list[str]:
         if self._decorators is None:
-            self._decorators = self._read_decorators()
+            self._decorators = decorators_of(self.node)
         return self._decorators
-
-    def _read_decorators(self) -> list[str]:
-        above = self.node.parent
-        if above is None or above.type != "decorated_definition":
-            return []
-        return [text_of(c).lstrip("@ ") for c in above.children if c.type == "decorator"]
 
     @property
     def parameters(self) -> list[PyParameter]:

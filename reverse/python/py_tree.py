@@ -6,7 +6,7 @@ The grammar reads what both generations of Python write: `print` as a statement,
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from functools import cache
 
 import tree_sitter_python
@@ -124,9 +124,47 @@ def number_of(node: Node) -> int | float | None:
 
 
 def nodes_in(node: Node) -> Iterator[Node]:
-    """A node and all that are in it."""
+    """A node and all that are in it, in the order of the text."""
     waiting = [node]
     while waiting:
         current = waiting.pop()
         yield current
-        waiting += current.named_children
+        waiting += reversed(current.named_children)
+
+
+def decorators_of(definition: Node) -> list[str]:
+    """The decorators of a function or class, as they are written."""
+    above = definition.parent
+    if above is None or above.type != "decorated_definition":
+        return []
+    return [text_of(c).lstrip("@ ") for c in above.children if c.type == "decorator"]
+
+
+def calls_in(node: Node) -> Iterator[Node]:
+    """All calls in a part of the code."""
+    return (n for n in nodes_in(node) if n.type == "call")
+
+
+def is_label(node: Node) -> bool:
+    """Whether a name is that of an attribute or of an argument."""
+    above = node.parent
+    part = {"attribute": "attribute", "keyword_argument": "name"}
+    name = part.get(above.type) if above is not None else None
+    return above is not None and name is not None and above.child_by_field_name(name) == node
+
+
+def is_asked(node: Node, asking: Container[str] = ()) -> bool:
+    """Whether only the truth of an expression matters where it stands: in a condition, or where
+    one of these functions is given it.
+    """
+    above = node.parent
+    while above is not None and above.type in ("parenthesized_expression", "boolean_operator"):
+        node, above = above, above.parent
+    if above is None or above.type in ("not_operator", "assert_statement", "if_clause"):
+        return above is not None
+    if above.type == "conditional_expression":
+        return named(above)[1] == node
+    call = above.parent if above.type in ("argument_list", "generator_expression") else None
+    if call is not None and call.type == "call":
+        return text_of(field(call, "function")).rpartition(".")[2] in asking
+    return above.child_by_field_name("condition") == node

@@ -11,7 +11,7 @@ from rebsync.reverse.ir.operators import ImplicitCall, Operator
 from rebsync.reverse.ir.program import Class, Field, Property
 from rebsync.reverse.ir.python.names import Names
 from rebsync.reverse.ir.python.symbols import Binder, ScopeKind, Symbols
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import decorators_of, field, named, text_of
 from rebsync.source import NOWHERE
 
 _ARITHMETIC = {
@@ -84,7 +84,7 @@ def class_of(names: Names, binder: Binder, scope: Symbols) -> Class:
     """A class of the text; it is complete where nothing but plain methods and values is in it."""
     methods: dict[str, str] = {}
     properties: dict[str, Property] = {}
-    complete = not _decorators(scope.node) and not _keywords(scope.node)
+    complete = not decorators_of(scope.node) and not _keywords(scope.node)
     for child in scope.children:
         if child.kind is ScopeKind.FUNCTION:
             complete &= _add(child, scope, methods, properties)
@@ -115,7 +115,7 @@ def _add(
 ) -> bool:
     """Adds a method or a part of a property; whether nothing else is made of it."""
     name = scope.mangled(text_of(field(child.node, "name")))
-    decorators = _decorators(child.node)
+    decorators = decorators_of(child.node)
     if "property" in decorators:
         properties[name] = Property(name, getter=child.name)
         return len(decorators) == 1
@@ -151,7 +151,7 @@ def base_name(names: Names, node: Node, scope: Symbols) -> str | None:
             ]
             is_one = bound == 1 and len(classes) == 1
             is_one &= name not in module_names.assigned_globals
-            return classes[0].name if is_one and not _decorators(classes[0].node) else None
+            return classes[0].name if is_one and not decorators_of(classes[0].node) else None
         case _:
             return None
 
@@ -184,10 +184,3 @@ def _keywords(node: Node) -> list[Node]:
     arguments = node.child_by_field_name("superclasses")
     found = named(arguments) if arguments is not None else []
     return [a for a in found if a.type == "keyword_argument"]
-
-
-def _decorators(node: Node) -> list[str]:
-    above = node.parent
-    if above is None or above.type != "decorated_definition":
-        return []
-    return [text_of(c).lstrip("@ ") for c in above.children if c.type == "decorator"]

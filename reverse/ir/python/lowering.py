@@ -20,7 +20,7 @@ from rebsync.reverse.ir.python.references import unsupported
 from rebsync.reverse.ir.python.statements import lower_statement
 from rebsync.reverse.ir.python.symbols import Binder, ScopeKind, Symbols
 from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import decorators_of, field, named
 
 
 def python_program(code: PyCode) -> Program:
@@ -113,8 +113,4 @@ def _owner(scope: Symbols) -> str | None:
 
 def _is_bound(scope: Symbols) -> bool:
     """Whether a method is called on an object, which is its first argument."""
-    above = scope.node.parent
-    if above is None or above.type != "decorated_definition":
-        return True
-    decorators = [text_of(c).lstrip("@ ") for c in above.children if c.type == "decorator"]
-    return "staticmethod" not in decorators and "classmethod" not in decorators
+    return {"staticmethod", "classmethod"}.isdisjoint(decorators_of(scope.node))
