@@ -186,11 +186,14 @@ def _odd(
 
     There are none where the model has no element for it.
     """
-    from rebsync.roundtrip.package.models import read_model
-    from rebsync.roundtrip.verdict.wiring.differences import told
     from rebsync.roundtrip.verdict.wiring.facts import odd_facts
 
     found = odd_facts(begun.package, record, begun.state, of_code)
     left = [o for o in found if o.finding.diagnostics[0].message not in record.accepted]
-    today = read_model(begun.model) if left else None
-    return [(o, told([o], today) if today is not None else ()) for o in left]
+    if not left:
+        return []
+    from rebsync.roundtrip.package.models import read_model
+    from rebsync.roundtrip.verdict.wiring.differences import told
+
+    today = read_model(begun.model)
+    return [(o, told([o], today)) for o in left]
