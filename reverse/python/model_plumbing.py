@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
@@ -207,12 +208,14 @@ class Plumbing:
         return called in _CALLED or (declared is not None and declared[1].own() is not None)
 
     def _is_connected(self, member: str, arguments: list[Node]) -> bool:
-        """Whether it leads to a server, or is a publisher; whom the name joins is another fact."""
+        """Whether topics are called after the servers they lead to."""
         # The feedback of an action stands behind the shim.
         shims = [handed_over(a).removeprefix("self.") for a in (*arguments[5:6], arguments[-1])]
         shim = next((s for s in shims if s in self.roles.topics), None)
         if shim is not None:
-            return bool(self.roles.topics[shim]) and self.roles.served_by(shim) is not None
+            key = self.roles.topics[shim].removeprefix("port/")
+            server = self.roles.served_by(shim)
+            return server is not None and key.startswith(graph_name(server))
         return member in self.roles.publishers
 
     # --- messages -------------------------------------------------------------------------------
