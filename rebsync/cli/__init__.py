@@ -73,6 +73,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 raise
     except SystemExit as error:  # click's own answer to a broken pipe
         status = Status.BROKEN_PIPE if error.code == 1 else error.code
+    if arguments is None and hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_REAL, 0)  # to be ended while it ends has no handler any more
     _tell_of_cache()
     ended = _closed(int(status or Status.CLEAN))
     try:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from rebsync.diagnostics import RebsyncError
 from rebsync.files import source_below
 from rebsync.reverse.scaffold.stand_ins import STAND_IN
 from rebsync.roundtrip.merge.code import LABELS, as_here
 from rebsync.roundtrip.merge.source import merged_source
 from rebsync.roundtrip.package.state import is_of_model
+from rebsync.source import Source
 
 
 def consequent_files(
@@ -23,7 +25,7 @@ def consequent_files(
     """
     found, is_written = [], False
     for path in _changing(before, now):
-        old, new, source = before.get(path), now.get(path), source_below(root, path)
+        old, new, source = before.get(path), now.get(path), _source(root, path)
         if old is None or new is None or source is None or recorded.get(path) != old:
             return ()
         ours = source.text
@@ -35,6 +37,14 @@ def consequent_files(
         else:
             is_written = True
     return tuple(found) if is_written else ()
+
+
+def _source(root: str, path: str) -> Source | None:
+    """A file of the package; None for one that is kept elsewhere, behind a link, or unreadable."""
+    try:
+        return source_below(root, path)
+    except RebsyncError:
+        return None
 
 
 def _changing(before: Mapping[str, str], now: Mapping[str, str]) -> Iterator[str]:
