@@ -77,29 +77,18 @@ def dump_expression(expression: e.Expression) -> str:
             return f"function {name}"
         case e.Closure(function, captures, defaults):
             return _closure(function, captures, defaults)
+        case e.Attribute() | e.Index() | e.Dereference() | e.AddressOf() | e.Slice():
+            return _place(expression)
+        case e.Unary() | e.Binary() | e.And() | e.Or() | e.Conditional():
+            return _operation(expression)
         case _:
-            return _compound(expression)
+            return _new_value(expression)
 
 
-def _compound(
-    expression: e.Attribute
-    | e.Index
-    | e.Dereference
-    | e.Slice
-    | e.AddressOf
-    | e.Unary
-    | e.Binary
-    | e.And
-    | e.Or
-    | e.Conditional
-    | e.Convert
-    | e.Copy
-    | e.Move
-    | e.Build
-    | e.BuildMapping
-    | e.BuildRecord
-    | e.Format,
+def _place(
+    expression: e.Attribute | e.Index | e.Dereference | e.AddressOf | e.Slice,
 ) -> str:
+    """A part of an object, or what a reference leads to."""
     match expression:
         case e.Attribute(target, name):
             return f"{_inner(target)}{_mark(expression.dynamic)}.{name}"
@@ -113,6 +102,15 @@ def _compound(
             return f"&{_inner(place)}"
         case e.Slice(low, high, step):
             return ":".join("" if p is None else dump_expression(p) for p in (low, high, step))
+        case _:
+            assert_never(expression)
+
+
+def _operation(
+    expression: e.Unary | e.Binary | e.And | e.Or | e.Conditional,
+) -> str:
+    """What operators make of values."""
+    match expression:
         case e.Unary(operator, operand):
             space = " " if operator.value.isalpha() else ""
             return f"{operator.value}{_mark(expression.dynamic)}{space}{_inner(operand)}"
@@ -126,6 +124,15 @@ def _compound(
         case e.Conditional(test, then, otherwise):
             mark = _mark(expression.dynamic)
             return f"{_inner(test)} ?{mark} {_inner(then)} : {_inner(otherwise)}"
+        case _:
+            assert_never(expression)
+
+
+def _new_value(
+    expression: e.Convert | e.Copy | e.Move | e.Build | e.BuildMapping | e.BuildRecord | e.Format,
+) -> str:
+    """A value that is converted, copied or built."""
+    match expression:
         case e.Convert(conversion, operand, type_):
             mark = _mark(expression.dynamic)
             return f"{conversion.value}{mark}<{dump_type(type_)}>({dump_expression(operand)})"
