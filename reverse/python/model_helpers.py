@@ -21,6 +21,9 @@ from rebsync.reverse.python.py_index import FUNCTION, PyCode, PyParameter, Scope
 from rebsync.reverse.python.py_tree import calls_in, field, named, text_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
 
+# What stores in an object by a name that is a value, or replaces a module.
+_BY_NAME = re.compile(r"\b(?:setattr|__dict__|vars|globals|reload|sys\.modules)\b")
+
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
@@ -102,11 +105,17 @@ def _called(code: PyCode, function: Scope, called: Node) -> Scope | None:
     name, module = text_of(field(called, "attribute")), _module(code, function, text_of(holder))
     if module is None or is_runtime(module):
         return None
-    stored = re.compile(rf"\.{name}\s*(?::[^=\n]*)?=(?!=)|\bsetattr\b|\b__dict__\b|\bvars\(")
-    own = (m.py.source for m in code.modules.values() if not is_runtime_file(m.py.source))
-    if any(stored.search(source.text) for source in own):
-        return None  # the module may have another function by that name
+    if _may_be_replaced(code, name):
+        return None
     return _function(code, module, name)
+
+
+def _may_be_replaced(code: PyCode, name: str) -> bool:
+    """Whether somebody may store another function under a name of a module."""
+    own = [m for m in code.modules.values() if not is_runtime_file(m.py.source)]
+    stores = (key for scope in (*own, *code.scopes.values()) for key in scope.stores)
+    by_name = any(_BY_NAME.search(module.py.source.text) for module in own)
+    return by_name or any(stored == name for _, stored in stores)
 
 
 def _module(code: PyCode, function: Scope, name: str) -> Scope | None:
