@@ -195,6 +195,7 @@ EXTRACTION = {
     "RS944": "a file of code that no program of the package is made of: it is not read",
     "RS945": "an accepted finding that is not there as it was",
     "RS946": "a place where there is nothing that may be accepted",
+    "RS947": "a place of which the model says what the code does only under an assumption",
 }
 
 STEP = {

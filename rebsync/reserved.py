@@ -39,6 +39,8 @@ RUNTIME_TOPICS = frozenset({"cmd_vel", "state"})
 RUNTIME_FIELDS = ("timing", "sender")
 # The annotations that offer a message server to clients from outside.
 OFFERS = frozenset({"Action", "Service"})
+# That of a message server that gets messages from outside of the model, which is then open.
+OPEN = "Open"
 # What the response of a service has beside the fields of the reply.
 RESPONSE_FIELD = "answered"
 STATE_FIELDS = ("server", "arguments", "arrival", "start", "now")

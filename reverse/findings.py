@@ -15,9 +15,14 @@ if TYPE_CHECKING:
 
 
 class Grade(Enum):
-    """How much of a place of the code is in the model; what is not built need not be in it."""
+    """How much of a place of the code is in the model; what is not built need not be in it.
+
+    Over-approximated: the model can do all that the code can, and more. Assumed: it says what the
+    code does only if what is assumed there is true.
+    """
 
     APPROXIMATED = "over-approximated"
+    ASSUMED = "assumed"
     UNREADABLE = "unreadable"
     UNBUILT = "not built"
 
@@ -95,3 +100,9 @@ class Findings:
     ) -> None:
         """Lists a place of which the model allows more than the code does."""
         self.all.append(Finding(Grade.APPROXIMATED, source, span, why, hint, within))
+
+    def assumed(
+        self, source: Source, span: Span, why: str, hint: str = "", within: str = ""
+    ) -> None:
+        """Lists a place of which the model says what the code does only under an assumption."""
+        self.all.append(Finding(Grade.ASSUMED, source, span, why, hint, within))

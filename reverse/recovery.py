@@ -33,6 +33,7 @@ from rebsync.reverse.nodes.node_launch import System, system_of
 from rebsync.reverse.nodes.node_presence import is_generated, may_have_nodes
 from rebsync.reverse.nodes.node_programs import Program, programs, with_nodes
 from rebsync.reverse.nodes.node_system import Nodes, NodeSystem
+from rebsync.reverse.nodes.open_ends import OpenEnd, open_ends, with_open_servers
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.reverse.syntax.unparsed import unparsed
@@ -54,7 +55,7 @@ class Extracted:
     """The model of some files, what in them is not in it, and how many statements each body has.
 
     `asking` are the calls to ROS of its C++, of which `graph` is made when it is first asked for;
-    `in_python` those of its Python.
+    `in_python` those of its Python. `ends` are the servers that something outside sends to.
     """
 
     model: m.Model
@@ -62,6 +63,7 @@ class Extracted:
     statements: tuple[tuple[str, int], ...]
     asking: Asking = field(default_factory=lambda: Asking(Code()), compare=False)
     in_python: Graph = field(default_factory=Graph, compare=False)
+    ends: tuple[OpenEnd, ...] = field(default=(), compare=False)
 
     @property
     def graph(self) -> Graph:
@@ -91,9 +93,10 @@ def extract(
     part = people.part if people is not None else Part.empty()
     python = at.python(in_python, listed, part, classes) if in_python is not None else None
     joined = python.nodes.joined if python is not None else None
+    joined = joined if joined is not None else Joined.of([part])
     nodes = Nodes((), (), False)
     if in_cpp is not None and people is not None:
-        nodes = in_cpp.read(people, joined if joined is not None else Joined.of([part]))
+        nodes = in_cpp.read(people, joined)
     if read or nodes.classes or (python is not None and python.classes):
         at.note_launch(python, is_by_hand=bool(nodes.classes))
     findings.take(listed)
@@ -103,11 +106,12 @@ def extract(
     system = GeneratedSystem(at.code, classes, read, at.launched, at.programs, python)
     main = _main(system, nodes, at.only is not None and len(files) > 1)
     findings.all += out_of_order((*read, *nodes.classes), findings.ordered)
-    of_people = tuple(marked_lacking(c, findings.all) for c in nodes.classes)
+    ends = open_ends(joined)
+    of_people = with_open_servers((marked_lacking(c, findings.all) for c in nodes.classes), ends)
     model = m.Model(tuple(system.heads() if read else ()), (*read, *of_people), main)
     statements = tuple(findings.statements.items())
     asked_for = python.graph if python is not None else Graph()
-    return Extracted(model, tuple(findings.all), statements, at.asking, asked_for)
+    return Extracted(model, tuple(findings.all), statements, at.asking, asked_for, ends)
 
 
 @dataclass(frozen=True, slots=True)

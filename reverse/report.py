@@ -6,13 +6,41 @@ from collections import Counter
 from collections.abc import Iterable
 
 from rebsync.diagnostics import Diagnostic, Findings, Severity
+from rebsync.records import dataclass
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.graph_json import Data, Item
 from rebsync.reverse.recovery import Extracted
 from rebsync.source import Source
 from rebsync.terminal import json_text, lines_text
 
-_CODES = {Grade.UNREADABLE: "RS941", Grade.APPROXIMATED: "RS942", Grade.UNBUILT: "RS944"}
+_CODES = {
+    Grade.UNREADABLE: "RS941",
+    Grade.APPROXIMATED: "RS942",
+    Grade.UNBUILT: "RS944",
+    Grade.ASSUMED: "RS947",
+}
+# Grades of what is not exact, the worst last, and what the report calls their numbers.
+_INEXACT = {
+    Grade.APPROXIMATED: "over_approximated",
+    Grade.ASSUMED: "assumed",
+    Grade.UNREADABLE: "unreadable",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """How many statements a body has, and how many places of each grade are not exact."""
+
+    statements: int
+    inexact: tuple[int, ...]
+
+    @property
+    def text(self) -> str:
+        """The share as a part of a sentence."""
+        exact = max(self.statements - sum(self.inexact), 0)
+        found = [f"{exact} of {self.statements} statements exact"]
+        found += [f"{n} {g.value}" for n, g in zip(self.inexact, _INEXACT, strict=True) if n]
+        return ", ".join(found)
 
 
 def diagnostics(found: Iterable[Finding]) -> tuple[Findings, ...]:
@@ -40,25 +68,25 @@ def _diagnostic(finding: Finding) -> Diagnostic:
     return Diagnostic(code, finding.span, message, hint, severity=severity)
 
 
-def shares(extracted: Extracted) -> list[tuple[str, int, int, int]]:
-    """Each body with its number of statements, and how many are not exact: of either grade."""
+def shares(extracted: Extracted) -> list[tuple[str, Share]]:
+    """Each body with its share."""
     grades = Counter((f.within, f.grade) for f in extracted.findings)
     return [
-        (name, count, grades[name, Grade.APPROXIMATED], grades[name, Grade.UNREADABLE])
+        (name, Share(count, tuple(grades[name, grade] for grade in _INEXACT)))
         for name, count in extracted.statements
     ]
 
 
 def grade_of(extracted: Extracted) -> str:
-    """The worst grade of all: exact, over-approximated or unreadable."""
+    """The worst grade of all: exact, over-approximated, assumed or unreadable."""
     grades = {f.grade for f in extracted.findings}
-    worst = next((g for g in (Grade.UNREADABLE, Grade.APPROXIMATED) if g in grades), None)
+    worst = next((g for g in reversed(_INEXACT) if g in grades), None)
     return worst.value if worst is not None else "exact"
 
 
 def as_text(extracted: Extracted) -> str:
     """A line for each body, and one for all."""
-    rows = [(name, _share(*counts)) for name, *counts in shares(extracted)]
+    rows = [(name, share.text) for name, share in shares(extracted)]
     if outside := _outside(extracted):
         rows.append(("elsewhere", outside))
     rows.append(("all", summary(extracted)))
@@ -68,8 +96,9 @@ def as_text(extracted: Extracted) -> str:
 
 def summary(extracted: Extracted) -> str:
     """How many statements of all bodies are exact, and how many are not."""
-    rows = [counts for _, *counts in shares(extracted)]
-    return _share(*(sum(column) for column in zip([0, 0, 0], *rows, strict=True)))
+    found = [share for _, share in shares(extracted)]
+    columns = zip([0] * len(_INEXACT), *(s.inexact for s in found), strict=True)
+    return Share(sum(s.statements for s in found), tuple(map(sum, columns))).text
 
 
 def _outside(extracted: Extracted) -> str:
@@ -77,16 +106,6 @@ def _outside(extracted: Extracted) -> str:
     bodies = {name for name, _ in extracted.statements}
     grades = Counter(f.grade for f in extracted.findings if f.within not in bodies)
     return ", ".join(f"{grades[grade]} {grade.value}" for grade in Grade if grades[grade])
-
-
-def _share(statements: int, approximated: int, unreadable: int) -> str:
-    exact = max(statements - approximated - unreadable, 0)
-    text = f"{exact} of {statements} statements exact"
-    if approximated:
-        text += f", {approximated} {Grade.APPROXIMATED.value}"
-    if unreadable:
-        text += f", {unreadable} {Grade.UNREADABLE.value}"
-    return text
 
 
 def as_json(extracted: Extracted) -> str:
@@ -97,8 +116,12 @@ def as_json(extracted: Extracted) -> str:
 def report_data(extracted: Extracted) -> Item:
     """The worst grade, the share of each body, the findings with their places."""
     bodies: list[Data] = [
-        {"name": name, "statements": count, "over_approximated": approximated, "unreadable": unread}
-        for name, count, approximated, unread in shares(extracted)
+        {
+            "name": name,
+            "statements": share.statements,
+            **dict(zip(_INEXACT.values(), share.inexact, strict=True)),
+        }
+        for name, share in shares(extracted)
     ]
     findings: list[Data] = [_finding(f) for f in different(extracted.findings)]
     return {"grade": grade_of(extracted), "bodies": bodies, "findings": findings}

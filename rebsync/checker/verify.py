@@ -13,6 +13,7 @@ from rebsync.checker.engines import explore
 from rebsync.checker.exploration import Event, Exploration, Faults, Progress, Report, Search
 from rebsync.checker.formulas import Atom, NamedFormula
 from rebsync.checker.graph import Graph
+from rebsync.checker.incomplete import limited
 from rebsync.checker.look import Stopped
 from rebsync.checker.lowering import lower
 from rebsync.checker.memory import peak_memory, used_memory
@@ -25,7 +26,6 @@ from rebsync.checker.standstill import ENDLESS, LEAVES, cycle_from, may_stand_st
 from rebsync.checker.steps import Failure, Semantics, ViolationKind
 from rebsync.checker.telling import Teller
 from rebsync.checker.trace import Trace
-from rebsync.checker.unreadable import limited
 from rebsync.checker.views import view_of
 from rebsync.checker.watch import Watch
 from rebsync.properties import Property

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 _STATUS = {
     "exact": Status.CLEAN,
     "over-approximated": Status.FINDINGS,
+    "assumed": Status.FINDINGS,
     "unreadable": Status.UNDETERMINED,
 }
 
@@ -55,8 +56,8 @@ def command(paths: tuple[str, ...], form: str, style: str | None, output: str) -
     """Read the code of packages back into models.
 
     PATH is a package, a directory with several, or a file: then the classes of that file. What has
-    no meaning in the model is listed. Exit status: 0 all exact, 1 over-approximated, 4 something
-    unreadable, 2 nothing read.
+    no meaning in the model is listed. Exit status: 0 all exact, 1 over-approximated or assumed,
+    4 something unreadable, 2 nothing read.
     """
     from rebsync.reverse.answer import answer
     from rebsync.reverse.files.parallel import each

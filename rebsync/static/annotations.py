@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync.model import Annotation, Empty, Name, Statement
-from rebsync.reserved import OFFERS
+from rebsync.reserved import OFFERS, OPEN
 from rebsync.static.constants import constant
 from rebsync.static.expressions import type_of
 from rebsync.static.facts import Facts, Move
@@ -19,11 +19,12 @@ _PLACES = {
     "Port": "a message server",
     "Service": "a message server",
     "Action": "a message server",
+    OPEN: "a message server",
     "Move": "an empty statement: @Move(X+1, Y);",
 }
 _LEGAL = {
     "a class": frozenset(("Robot", "Controller")),
-    "a message server": frozenset(("Sensor", "Port")) | OFFERS | _PRIORITIES,
+    "a message server": frozenset(("Sensor", "Port", OPEN)) | OFFERS | _PRIORITIES,
     "an instance": _PRIORITIES,
 }
 _EXCLUSIVE = frozenset(("Robot", "Controller", "Sensor", "Port"))

@@ -7,7 +7,7 @@ from dataclasses import field
 from rebsync.diagnostics import Severity
 from rebsync.model import Main
 from rebsync.records import dataclass
-from rebsync.reserved import OFFERS
+from rebsync.reserved import OFFERS, OPEN
 from rebsync.static.facts import Access, Facts, Invocation, Send, Use
 from rebsync.static.symbols import (
     Callable,
@@ -119,7 +119,7 @@ def _check_callables(facts: Facts, info: ClassInfo, uses: _Uses) -> None:
     for server in info.servers:
         if facts.fragment or server.owner != info.name or uses.reaches(server, info):
             continue
-        if any(a.name in OFFERS for a in server.declaration.annotations):
+        if any(a.name in OFFERS | {OPEN} for a in server.declaration.annotations):
             continue  # clients from outside do
         message = f'no one sends the message "{server.name}"'
         hint = "core Rebeca up to 2.0 sends it at the start: verify --language core does, too"

@@ -199,7 +199,7 @@ def _typed(
         initial = reader.expressions.stored(value, local)
     if local.name in reader.scope.overflowing:
         span = reader.cpp.span(declared.node)
-        reader.findings.approximated(reader.cpp.source, span, kept.why, "", reader.within)
+        reader.findings.assumed(reader.cpp.source, span, kept.why, "", reader.within)
     reader.meaning(declared.name, local, own=True)
     yield reader.local(declared.node, local, initial)
 

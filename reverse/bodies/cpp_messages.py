@@ -200,7 +200,7 @@ def declare(
         variable = of_width(of_model, of, width)
         if of_model in reader.scope.overflowing:
             place, why = reader.cpp.span(node), wider(path)
-            reader.findings.approximated(reader.cpp.source, place, why, "", reader.within)
+            reader.findings.assumed(reader.cpp.source, place, why, "", reader.within)
         reader.shared.made.add(variable.name)
         reader.shared.add(variable)
         fields[path] = variable

@@ -137,11 +137,11 @@ class NodeClass:
         for fact in self.bodies.unit.facts:
             if isinstance(fact, TimerFact) and fact.one_shot is not True:
                 place, within = fact.site.place, self.bodies.setup.within
-                self.bodies.findings.approximated(place.source, place.span, _BEAT, within=within)
+                self.bodies.findings.assumed(place.source, place.span, _BEAT, within=within)
         for loop, _ in self.bodies.setup.loops:
             if loop.rate is not None:
                 place, within = loop.rate.site.place, self.bodies.setup.within
-                self.bodies.findings.approximated(place.source, place.span, _PACE, within=within)
+                self.bodies.findings.assumed(place.source, place.span, _PACE, within=within)
 
     def _note_unreached(self) -> None:
         """Lists functions that act on what the model has, and that something not read calls."""

@@ -40,13 +40,13 @@ class System:
         """
         if not self.starts and not in_python and self.launch.nodes:
             first = self.launch.nodes[0]
-            findings.approximated(first.source, first.span, _ELSEWHERE)
+            findings.assumed(first.source, first.span, _ELSEWHERE)
             return
         for source, launch in self.others:
             span = launch.nodes[0].span
             path = self.launch.sources[0].path.rpartition("/")[2]
             why = f'this file starts another system than "{path}", which the model is of'
-            findings.approximated(source, span, why, _HINT)
+            findings.assumed(source, span, why, _HINT)
 
 
 def system_of(

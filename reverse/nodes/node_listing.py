@@ -60,7 +60,7 @@ class FindingList:
             self._fact(unit, fact, id(fact) in served)
             if isinstance(fact, SubscriptionFact | TimerFact) and _is_lost(fact):
                 why = "nothing keeps what this gives: ROS ends it at once, the model does not"
-                self._approximated(fact.site.place, why, unit.name, "keep it in a member")
+                self._assumed(fact.site.place, why, unit.name, "keep it in a member")
         for server in servers:
             self._wide(unit, server)
         for cpp, body in bodies(unit):
@@ -83,20 +83,20 @@ class FindingList:
                 self._unread(fact.site.place, why, unit.name)
             case ServiceFact() if served:
                 why = "a service is a message server to which nobody in the model sends"
-                self._approximated(fact.site.place, why, unit.name, _CALLS)
+                self._assumed(fact.site.place, why, unit.name, _CALLS)
             case ServiceFact():
                 why = "it is not known which function this service calls"
                 self._unread(fact.site.place, why, unit.name)
             case ClientFact():
                 why = "the model has no services: what this one answers is open"
-                self._approximated(fact.site.place, why, unit.name)
+                self._assumed(fact.site.place, why, unit.name)
 
     def _wide(self, unit: Unit, server: Server) -> None:
         for parameter in server.parameters:
             if self.types.holds_more(server.type or "", parameter.path):
                 for fact in server.subscriptions[:1]:
                     why = f'"{parameter.path}" holds more than the model\'s int does'
-                    self._approximated(fact.site.place, why, f"{unit.name}.{server.name}")
+                    self._assumed(fact.site.place, why, f"{unit.name}.{server.name}")
 
     def _words(self, unit: Unit, cpp: Cpp, body: Node) -> None:
         listed = self._listed(cpp)
@@ -128,12 +128,12 @@ class FindingList:
             topic = instance.topic(fact.topic)
             if isinstance(topic, str) and id(instance.start.unit) in asked:
                 why = f'nobody in these files subscribes to "{topic}": it is not sent in the model'
-                self._approximated(fact.site.place, why, instance.start.unit.name, _OPEN)
-        for instance, heard in unfed(wiring):
+                self._assumed(fact.site.place, why, instance.start.unit.name, _OPEN)
+        for instance, _, heard in unfed(wiring):
             topic = instance.topic(heard.topic)
             if isinstance(topic, str) and id(instance.start.unit) in asked:
                 why = f'nobody in these files publishes "{topic}": the model gets no such message'
-                self._approximated(heard.site.place, why, instance.start.unit.name, _CLOSE)
+                self._assumed(heard.site.place, why, instance.start.unit.name, _CLOSE)
         self._services(wiring, wanted)
         self._shared(wanted)
 
@@ -171,7 +171,7 @@ class FindingList:
             launched = instance.launched
             if launched is not None and launched.only_if:
                 why = f"it is started only `{launched.only_if[-1]}`: in the model it always is"
-                self._approximated(Place(launched.source, launched.span), why)
+                self._assumed(Place(launched.source, launched.span), why)
         for together in nodes.values():
             self._common_variables(
                 list({i.start.unit.name: i.start.unit for i in together}.values())
@@ -221,7 +221,7 @@ class FindingList:
         if made is not None and made.statement is not None:
             node = made.statement
         place = Place(program.main.cpp.source, program.main.cpp.span(node))
-        self._approximated(place, why, program.name)
+        self._assumed(place, why, program.name)
 
     # --- once -----------------------------------------------------------------------------------
 
@@ -230,10 +230,10 @@ class FindingList:
         if (id(place.source), place.span) not in self._unreadable:
             self.findings.unreadable(place.source, Unread(place.span, why), within)
 
-    def _approximated(self, place: Place, why: str, within: str = "", hint: str = "") -> None:
+    def _assumed(self, place: Place, why: str, within: str = "", hint: str = "") -> None:
         self._look()
         if (place.span, why) not in self._reasons:
-            self.findings.approximated(place.source, place.span, why, hint, within)
+            self.findings.assumed(place.source, place.span, why, hint, within)
 
     def _look(self) -> None:
         """Takes note of the findings since the last time."""

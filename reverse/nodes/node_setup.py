@@ -144,7 +144,7 @@ class Setup:
         what = "published" if isinstance(fact, PublisherFact) else "subscribed to"
         why = f"what is {what} later, or only sometimes, is so from the start in the model"
         place = fact.site.place
-        self.findings.approximated(place.source, place.span, why, within=self.within)
+        self.findings.assumed(place.source, place.span, why, within=self.within)
 
     def _at_once(self, fact: Fact) -> bool:
         """Whether a call is made once, when the node starts."""
@@ -186,7 +186,7 @@ class Setup:
         others = [f for f in self.facts if isinstance(f, TimerFact) and share_variable(fact, f)]
         if self._is_again(fact) or any(f not in replaced(self.facts) for f in others):
             place = fact.site.place
-            self.findings.approximated(place.source, place.span, _AGAIN, within=within)
+            self.findings.assumed(place.source, place.span, _AGAIN, within=within)
         if fact.autostart is True and period is not None:
             running = self._running(server.name)
             self.instead[statement.id] = (*running, send(server.name, period))
@@ -295,7 +295,7 @@ class Setup:
         self.instead[loop.node.id] = ()
         if loop.rate is not None and self.servers and _serves(loop.node):
             place = loop.rate.site.place
-            self.findings.approximated(place.source, place.span, _ROUND, within=self.within)
+            self.findings.assumed(place.source, place.span, _ROUND, within=self.within)
         if parts:
             mentioned = {text_of(n) for p in parts for n in identifiers_in(p)}
             self.instead |= self.state.outlive(function, mentioned, False, loop.node)

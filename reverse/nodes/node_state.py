@@ -310,7 +310,7 @@ class State:
         for name, wide in self.wide.items():
             if name in names:
                 span = wide.cpp.span(wide.node)
-                findings.approximated(wide.cpp.source, span, wide.why, within=within)
+                findings.assumed(wide.cpp.source, span, wide.why, within=within)
 
 
 def zeros(place: m.Expression, type_: m.Type) -> Iterator[Stores]:

@@ -23,7 +23,7 @@ from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_times import period_of
 from rebsync.reverse.nodes.node_units import Start, Unit
 from rebsync.reverse.nodes.node_values import Instance, of_object
-from rebsync.reverse.unknowns import Open
+from rebsync.reverse.unknowns import Open, Text
 
 # By the publisher's place in the facts of its unit, a receiver and its server.
 Edge = tuple[int, int, str]
@@ -249,17 +249,30 @@ def unheard(wiring: Wiring) -> Iterator[tuple[Instance, PublisherFact]]:
                 yield instance, fact
 
 
-def unfed(wiring: Wiring) -> Iterator[tuple[Instance, SubscriptionFact]]:
-    """The subscriptions to which no rebec publishes."""
-    fed = {(to, server) for edges in wiring.edges.values() for _, to, server in edges}
-    topics = {
-        instance.topic(fact.topic)
+def unfed(wiring: Wiring) -> Iterator[tuple[Instance, Server, SubscriptionFact]]:
+    """The subscriptions to which no rebec publishes, each with the server that gets its messages.
+
+    What nobody starts publishes to others alone that nobody starts.
+    """
+    fed = {
+        (to, server)
         for instance in wiring.instances
-        for fact in instance.start.unit.facts
-        if isinstance(fact, PublisherFact)
+        for _, to, server in wiring.edges[instance.name]
+        if not instance.idle or wiring.instances[to].idle
     }
+    started, topics = (
+        _published(i for i in wiring.instances if not i.idle),
+        _published(wiring.instances),
+    )
     for index, instance in enumerate(wiring.instances):
+        published = topics if instance.idle else started
         for server in wiring.servers[instance.start.unit.name]:
             for fact in server.subscriptions:
-                if (index, server.name) not in fed or instance.topic(fact.topic) not in topics:
-                    yield instance, fact
+                if (index, server.name) not in fed or instance.topic(fact.topic) not in published:
+                    yield instance, server, fact
+
+
+def _published(instances: Iterable[Instance]) -> set[Text]:
+    """The topics to which some rebecs publish."""
+    facts = ((i, f) for i in instances for f in i.start.unit.facts)
+    return {i.topic(f.topic) for i, f in facts if isinstance(f, PublisherFact)}

@@ -225,7 +225,7 @@ class PyClass:
         for fact in self.reading.unit.unit.facts:
             if isinstance(fact, TimerFact) and fact.one_shot is not True:
                 place = fact.site.place
-                self.reading.findings.approximated(
+                self.reading.findings.assumed(
                     place.source, place.span, _BEAT, within=self.reading.unit.name
                 )
 

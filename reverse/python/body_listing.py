@@ -45,7 +45,7 @@ def list_unit(unit: PyUnit, servers: Mapping[int, Server], loops: int, findings:
     if unit.library.threads and len(served) + loops > 1 and served:
         place = served[-1].site.place
         why = unit.library.name + _THREADS
-        findings.approximated(place.source, place.span, why, within=unit.name)
+        findings.assumed(place.source, place.span, why, within=unit.name)
 
 
 def _fact(unit: PyUnit, fact: Fact, served: bool, findings: Findings) -> None:
@@ -61,13 +61,13 @@ def _fact(unit: PyUnit, fact: Fact, served: bool, findings: Findings) -> None:
             findings.unreadable(place.source, Unread(place.span, why), unit.name)
         case ServiceFact() if served:
             why = "a service is a message server to which nobody in the model sends"
-            findings.approximated(place.source, place.span, why, _CALLS, unit.name)
+            findings.assumed(place.source, place.span, why, _CALLS, unit.name)
         case ServiceFact():
             why = "it is not known which function this service calls"
             findings.unreadable(place.source, Unread(place.span, why), unit.name)
         case ClientFact():
             why = "the model has no services: what this one answers is open"
-            findings.approximated(place.source, place.span, why, "", unit.name)
+            findings.assumed(place.source, place.span, why, "", unit.name)
         case _:
             return
 
@@ -139,7 +139,7 @@ def _note_turns(units: Sequence[PyUnit], findings: Findings) -> None:
         if len(together) > 1:
             place = together[1].unit.facts[0].site.place
             why = "objects of one program may take turns; in the model they act by themselves"
-            findings.approximated(place.source, place.span, why, "", together[1].name)
+            findings.assumed(place.source, place.span, why, "", together[1].name)
 
 
 def list_wiring(wiring: Wiring, wanted: Collection[str], findings: Findings) -> None:
@@ -149,7 +149,7 @@ def list_wiring(wiring: Wiring, wanted: Collection[str], findings: Findings) -> 
         launched = instance.launched
         if launched is not None and launched.only_if and name in wanted:
             why = f"it is started only `{launched.only_if[-1]}`: in the model it always is"
-            findings.approximated(launched.source, launched.span, why)
+            findings.assumed(launched.source, launched.span, why)
         for fact in instance.start.unit.facts if name in wanted else ():
             if isinstance(fact, PublisherFact | SubscriptionFact):
                 topic, place = instance.topic(fact.topic), fact.site.place
@@ -160,9 +160,9 @@ def list_wiring(wiring: Wiring, wanted: Collection[str], findings: Findings) -> 
         topic, place = instance.topic(fact.topic), fact.site.place
         if isinstance(topic, str) and instance.start.unit.name in wanted:
             why = f'nobody in these files subscribes to "{topic}": it is not sent in the model'
-            findings.approximated(place.source, place.span, why, _OPEN, instance.start.unit.name)
-    for instance, heard in unfed(wiring):
+            findings.assumed(place.source, place.span, why, _OPEN, instance.start.unit.name)
+    for instance, _, heard in unfed(wiring):
         topic, place = instance.topic(heard.topic), heard.site.place
         if isinstance(topic, str) and instance.start.unit.name in wanted:
             why = f'nobody in these files publishes "{topic}": the model gets no such message'
-            findings.approximated(place.source, place.span, why, _CLOSE, instance.start.unit.name)
+            findings.assumed(place.source, place.span, why, _CLOSE, instance.start.unit.name)

@@ -214,9 +214,7 @@ class _ReadingRound:
             if name in class_.reading.places:
                 source, span = class_.reading.places[name]
                 why = f'"{name}" counts on without end; the model\'s int ends at 2147483647'
-                class_.reading.findings.approximated(
-                    source, span, why, within=class_.reading.unit.name
-                )
+                class_.reading.findings.assumed(source, span, why, within=class_.reading.unit.name)
 
     # --- wiring ---------------------------------------------------------------------------------
 

@@ -122,7 +122,7 @@ def _undecided(cpp: Cpp, plain: str, each: Conditional) -> Iterator[Finding]:
     if _in_body(cpp, each) and not any(map(_asks, code)):
         return  # the reader of the body lists it
     why = f"whether `{each.condition}` holds is not known: all alternatives are read"
-    yield Finding(Grade.APPROXIMATED, cpp.source, span, why, _HINT)
+    yield Finding(Grade.ASSUMED, cpp.source, span, why, _HINT)
 
 
 def _asks(text: str) -> bool:

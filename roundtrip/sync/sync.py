@@ -352,7 +352,7 @@ def _is_settled(found: Findings) -> bool:
 
 def _is_of_records(found: Findings) -> bool:
     """Whether a finding is not about what code can be read."""
-    return not any(d.code in ("RS941", "RS942", "RS943") for d in found.diagnostics)
+    return not any(d.code in ("RS941", "RS942", "RS943", "RS947") for d in found.diagnostics)
 
 
 def _has_unread(findings: tuple[Findings, ...]) -> bool:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from rebsync.roundtrip.diff.difference import Difference, Place
 
 _PLAIN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.DOTALL)
-_FOLLOWING = frozenset({"RS941", "RS942", "RS956"})
+_FOLLOWING = frozenset({"RS941", "RS942", "RS947", "RS956"})
 _WHOLE = frozenset({"reactiveclass", "interface", "rebec"})
 
 

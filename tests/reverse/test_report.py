@@ -61,6 +61,7 @@ def test_the_report_as_json() -> None:
         "name": "Talker.heard",
         "statements": 5,
         "over_approximated": 1,
+        "assumed": 0,
         "unreadable": 1,
     }
     assert found["findings"][0] == {

@@ -57,7 +57,9 @@ def _sentence(outcome: Outcome) -> str:
             said = "undetermined: not all of the code can be told in a model"
             return f"{said} ({count} accepted)" if count else said
         case _:
-            inexact = any(d.code == "RS942" for f in checked.findings for d in f.diagnostics)
+            inexact = any(
+                d.code in ("RS942", "RS947") for f in checked.findings for d in f.diagnostics
+            )
             said = "in step, as far as the code can be told" if inexact else IN_STEP
             count = len(checked.accepted)
             return f"{said}, with {count} accepted" if count else said

@@ -15,7 +15,7 @@ _HEAD = (
     *("repository", "facts", "found", "recall", "reported", "right", "wrong", "precision"),
     *("open", "unresolved", "unknown", "files", "KB", "seconds"),
 )
-_GRADES = ("over-approximated", "unreadable")
+_GRADES = ("over-approximated", "assumed", "unreadable")
 _PACKAGES = ("no model", "exact", *_GRADES)
 _MOST = 15
 

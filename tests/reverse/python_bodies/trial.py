@@ -120,7 +120,9 @@ def compared(seed: int) -> Tally:
         grades |= {f.grade for f in found.findings if "without end" in f.why}
         seen = run.call(name, value)
         if any(abs(n) > (1 << 31) - 1 for n in run.state()[:3]):
-            if not {Grade.UNREADABLE, Grade.APPROXIMATED} & grades and _kept(slots, run.state()):
+            if not {Grade.UNREADABLE, Grade.APPROXIMATED, Grade.ASSUMED} & grades and _kept(
+                slots, run.state()
+            ):
                 tally.unsound.append(f"{seed}: {name}({value}) leaves the int: {run.state()}")
             return tally
         if seen is None and not set("abc") <= set(slots):
@@ -154,7 +156,7 @@ def compared(seed: int) -> Tally:
                 if isinstance(o.result, Local)
             ]
             tally.unsound.append(f"{seed}: {name}({value}) of {before}: {seen}, not {shown}")
-        if Grade.APPROXIMATED in grades:
+        if {Grade.APPROXIMATED, Grade.ASSUMED} & grades:
             tally.approximated += 1
         else:
             tally.exact += 1

@@ -239,7 +239,7 @@ class _Running:
     # --- files --------------------------------------------------------------------------------
 
     def _result(self, status: int, told: str, edited: dict[str, bytes]) -> str:
-        codes = ", ".join(sorted(set(_CODE.findall(told)) - {"RS941", "RS942"}))
+        codes = ", ".join(sorted(set(_CODE.findall(told)) - {"RS941", "RS942", "RS947"}))
         if "nothing was written" in told:
             return f"{'undetermined' if status == 4 else 'refused'}: {codes}"
         if status == 0:

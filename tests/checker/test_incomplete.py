@@ -1,4 +1,4 @@
-"""A model with code that was not read: nothing is known to hold, whatever was searched."""
+"""Models with code that was not read, or that are open: nothing is known to hold of them."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ _MODEL = """reactiveclass A(3) {
     BODY
     self.go() after(1);
   }
+  SERVERS
 }
 main { A a():(); }
 """
@@ -28,8 +29,8 @@ _PROPERTY = """property {
 """
 
 
-def _checked(body: str) -> Result:
-    source = Source("a.rebeca", _MODEL.replace("BODY", body))
+def _checked(body: str, servers: str = "") -> Result:
+    source = Source("a.rebeca", _MODEL.replace("BODY", body).replace("SERVERS", servers))
     analysis = analyse(parse_model(source).model)
     assert not analysis.errors
     properties = Source("a.property", _PROPERTY)
@@ -51,3 +52,21 @@ def test_what_is_violated_is_shown_but_not_certain() -> None:
     assert result.verdict == "undetermined"
     assert dict(result.properties)["Never"] == "violated"
     assert [v.name for v in result.violations if v.name == "Never"] == ["Never"]
+
+
+_OPEN = "@Open msgsrv told(boolean danger) { if (danger) x = 1; }"
+
+
+def test_nothing_holds_of_a_model_that_gets_messages_from_outside() -> None:
+    assert _checked("x = 0;", _OPEN.removeprefix("@Open ")).verdict == "satisfied"
+    result = _checked("x = 0;", _OPEN)
+    assert result.verdict == "undetermined"
+    assert dict(result.properties) == {"Never": "undetermined", "Always": "undetermined"}
+    assert result.reason == "nobody in the model sends what comes from outside to A.told"
+
+
+def test_what_an_open_model_does_by_itself_is_certain() -> None:
+    result = _checked("x = 1;", _OPEN)
+    assert result.verdict == "violated"
+    assert dict(result.properties)["Never"] == "violated"
+    assert _checked("@Unreadable; x = 1;", _OPEN).verdict == "undetermined"

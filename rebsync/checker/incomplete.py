@@ -1,0 +1,79 @@
+"""Models that say less than the code they come from: what a verdict can say of them.
+
+`@Unreadable` statements stand for code that was not read, and `@Open` message servers get messages
+that nobody in the model sends: the model is an open system, and only closed ones are searched.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from rebsync import model as m
+from rebsync.checker.problem import Problem
+from rebsync.checker.result import Result, Verdict
+from rebsync.reserved import OPEN
+from rebsync.statements import UNREADABLE
+
+_SHOWN = 5  # places that a reason names
+
+
+def limited(problem: Problem, result: Result) -> Result:
+    """The result of a search, as far as it holds whatever the model lacks.
+
+    No property is known to hold. A run to a violation is one of the system where the model is only
+    open, as nothing need come from outside; where code was not read, that may do otherwise.
+    """
+    unread, opened = _unreadable(problem), _open(problem)
+    if not unread and not opened:
+        return result
+    verdicts: tuple[tuple[str, Verdict], ...] = tuple(
+        (name, "undetermined" if found == "satisfied" else found)
+        for name, found in result.properties
+    )
+    reasons = [result.reason or ""]
+    reasons += [_unread_reason(unread)] if unread else []
+    reasons += [_open_reason(opened)] if opened else []
+    is_violated = result.verdict == "violated" and not unread
+    verdict: Verdict = "violated" if is_violated else "undetermined"
+    return replace(
+        result, verdict=verdict, reason="; ".join(filter(None, reasons)), properties=verdicts
+    )
+
+
+def _unreadable(problem: Problem) -> list[int]:
+    """The lines of the statements that stand for code that was not read."""
+    found = {
+        problem.source.position(node.span.start).line
+        for node in m.walk(problem.analysis.model)
+        if isinstance(node, m.Annotation) and node.name == UNREADABLE
+    }
+    return sorted(found)
+
+
+def _open(problem: Problem) -> list[str]:
+    """The message servers that get messages from outside."""
+    return [
+        f"{owner.name}.{member.name}"
+        for owner in problem.analysis.model.classes
+        if isinstance(owner, m.ReactiveClass)
+        for member in owner.members
+        if isinstance(member, m.MessageServer) and any(a.name == OPEN for a in member.annotations)
+    ]
+
+
+def _unread_reason(lines: list[int]) -> str:
+    count = len(lines)
+    what = "statement stands" if count == 1 else "statements stand"
+    where = "line" if count == 1 else "lines"
+    shown = _some(lines)
+    return f"{count} {what} for code that was not read, and that may do anything: {where} {shown}"
+
+
+def _open_reason(servers: list[str]) -> str:
+    return f"nobody in the model sends what comes from outside to {_some(servers)}"
+
+
+def _some(places: Iterable[object]) -> str:
+    texts = list(map(str, places))
+    return ", ".join(texts[:_SHOWN]) + (", ..." if len(texts) > _SHOWN else "")
