@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import field
 from enum import Enum
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from rebsync.records import dataclass
@@ -63,14 +64,26 @@ class Unread(Exception):
         self.hint = hint
 
 
+class NotWhole(Unread):
+    """A time in seconds that is no whole number of units of the model's time."""
+
+    def __init__(self, span: Span, why: str, hint: str, seconds: Fraction) -> None:
+        super().__init__(span, why, hint)
+        self.seconds = seconds
+
+
 @dataclass(slots=True)
 class Findings:
-    """Collects findings, and counts the statements of each body, whether they were read or not."""
+    """Collects findings, and counts the statements of each body, whether they were read or not.
+
+    `times` are those in seconds that the model's unit of time does not divide.
+    """
 
     all: list[Finding] = field(default_factory=list)
     statements: Counter[str] = field(default_factory=Counter)
     # Members that get values that the model cannot know: with these outside more can be read.
     open_members: set[str] = field(default_factory=set)
+    times: set[Fraction] = field(default_factory=set)
     ordered: list[Ordered] = field(default_factory=list)
 
     def mark(self) -> tuple[int, int, Counter[str], set[str]]:
@@ -89,11 +102,14 @@ class Findings:
         self.ordered += others.ordered
         self.statements.update(others.statements)
         self.open_members |= others.open_members
+        self.times |= others.times
 
     def unreadable(self, source: Source, unread: Unread, within: str) -> None:
         """Lists a place that the model lacks."""
         grade = Grade.UNREADABLE
         self.all.append(Finding(grade, source, unread.span, unread.why, unread.hint, within))
+        if isinstance(unread, NotWhole):
+            self.times.add(unread.seconds)
 
     def approximated(
         self, source: Source, span: Span, why: str, hint: str = "", within: str = ""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, replace
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from rebsync import model as m
@@ -27,13 +28,13 @@ from rebsync.reverse.generated.system import GeneratedSystem, unit_of_time
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_components import executables
-from rebsync.reverse.nodes.node_joined import Joined, Part
+from rebsync.reverse.nodes.node_joined import Joined, Observed, Part
 from rebsync.reverse.nodes.node_lacking import marked_lacking
 from rebsync.reverse.nodes.node_launch import System, system_of
 from rebsync.reverse.nodes.node_presence import is_generated, may_have_nodes
 from rebsync.reverse.nodes.node_programs import Program, programs, with_nodes
 from rebsync.reverse.nodes.node_system import Nodes, NodeSystem
-from rebsync.reverse.nodes.open_ends import OpenEnd, open_ends, with_open_servers
+from rebsync.reverse.nodes.open_ends import open_ends, with_open_servers
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.reverse.syntax.unparsed import unparsed
@@ -55,7 +56,8 @@ class Extracted:
     """The model of some files, what in them is not in it, and how many statements each body has.
 
     `asking` are the calls to ROS of its C++, of which `graph` is made when it is first asked for;
-    `in_python` those of its Python. `ends` are the servers that something outside sends to.
+    `in_python` those of its Python. `joined` are the nodes that people wrote, wired, and
+    `times` those in seconds that the unit of the model's time does not divide.
     """
 
     model: m.Model
@@ -63,7 +65,8 @@ class Extracted:
     statements: tuple[tuple[str, int], ...]
     asking: Asking = field(default_factory=lambda: Asking(Code()), compare=False)
     in_python: Graph = field(default_factory=Graph, compare=False)
-    ends: tuple[OpenEnd, ...] = field(default=(), compare=False)
+    joined: Joined = field(default_factory=lambda: Joined.of(()), compare=False)
+    times: frozenset[Fraction] = field(default=frozenset(), compare=False)
 
     @property
     def graph(self) -> Graph:
@@ -72,13 +75,17 @@ class Extracted:
 
 
 def extract(
-    files: Mapping[str, Source], only: str | None = None, memory: Memory | None = None
+    files: Mapping[str, Source],
+    only: str | None = None,
+    memory: Memory | None = None,
+    observed: Observed | None = None,
 ) -> Extracted:
     """The model that files say together; paths are relative to the package, with slashes.
 
     With `only` the classes that this file declares or defines, read with the help of the others;
     or, if it is a launch file, the system that this one starts. `memory` knows what generated
-    classes said before: of these only what an edit can have to do with is read again.
+    classes said before: of these only what an edit can have to do with is read again. Of topics
+    that are `observed` the model sends what nodes publish to an observer, too.
     """
     findings = Findings()
     files = {n: s for n, s in files.items() if n == only or not is_monitor(n, s)}
@@ -91,6 +98,7 @@ def extract(
     in_cpp = at.nodes_in_cpp()
     people = in_cpp.find() if in_cpp is not None else None
     part = people.part if people is not None else Part.empty()
+    part = replace(part, observed=observed or {})
     python = at.python(in_python, listed, part, classes) if in_python is not None else None
     joined = python.nodes.joined if python is not None else None
     joined = joined if joined is not None else Joined.of([part])
@@ -106,12 +114,14 @@ def extract(
     system = GeneratedSystem(at.code, classes, read, at.launched, at.programs, python)
     main = _main(system, nodes, at.only is not None and len(files) > 1)
     findings.all += out_of_order((*read, *nodes.classes), findings.ordered)
-    ends = open_ends(joined)
-    of_people = with_open_servers((marked_lacking(c, findings.all) for c in nodes.classes), ends)
+    of_people = with_open_servers(
+        (marked_lacking(c, findings.all) for c in nodes.classes), open_ends(joined)
+    )
     model = m.Model(tuple(system.heads() if read else ()), (*read, *of_people), main)
     statements = tuple(findings.statements.items())
     asked_for = python.graph if python is not None else Graph()
-    return Extracted(model, tuple(findings.all), statements, at.asking, asked_for, ends)
+    times = frozenset(findings.times)
+    return Extracted(model, tuple(findings.all), statements, at.asking, asked_for, joined, times)
 
 
 @dataclass(frozen=True, slots=True)

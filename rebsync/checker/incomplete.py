@@ -12,6 +12,7 @@ from dataclasses import replace
 from rebsync import model as m
 from rebsync.checker.problem import Problem
 from rebsync.checker.result import Result, Verdict
+from rebsync.checker.trace import TraceStep
 from rebsync.reserved import OPEN
 from rebsync.statements import UNREADABLE
 
@@ -21,17 +22,18 @@ _SHOWN = 5  # places that a reason names
 def limited(problem: Problem, result: Result) -> Result:
     """The result of a search, as far as it holds whatever the model lacks.
 
-    No property is known to hold. A run to a violation is one of the system where the model is only
-    open, as nothing need come from outside; where code was not read, that may do otherwise.
+    No property is known to hold of a model with `@Unreadable` or `@Open`, or with gaps. A run to a
+    violation is one of the system unless code was not read, as nothing need come from outside.
     """
+    result = _told_of_code(problem, result)
     unread, opened = _unreadable(problem), _open(problem)
-    if not unread and not opened:
+    if not unread and not opened and not problem.gaps:
         return result
     verdicts: tuple[tuple[str, Verdict], ...] = tuple(
         (name, "undetermined" if found == "satisfied" else found)
         for name, found in result.properties
     )
-    reasons = [result.reason or ""]
+    reasons = [result.reason or "", *problem.gaps]
     reasons += [_unread_reason(unread)] if unread else []
     reasons += [_open_reason(opened)] if opened else []
     is_violated = result.verdict == "violated" and not unread
@@ -39,6 +41,22 @@ def limited(problem: Problem, result: Result) -> Result:
     return replace(
         result, verdict=verdict, reason="; ".join(filter(None, reasons)), properties=verdicts
     )
+
+
+def _told_of_code(problem: Problem, result: Result) -> Result:
+    """The result with what is assumed, and with the places in the code of what its runs do."""
+    if not problem.assumptions and not problem.code:
+        return result
+    caveats = (*result.caveats, *(f"assumed: {each}" for each in problem.assumptions))
+    violations = tuple(
+        replace(v, trace=replace(v.trace, steps=tuple(_in_code(s, problem) for s in v.trace.steps)))
+        for v in result.violations
+    )
+    return replace(result, caveats=caveats, violations=violations)
+
+
+def _in_code(step: TraceStep, problem: Problem) -> TraceStep:
+    return replace(step, code=problem.code.get(step.line, ""))
 
 
 def _unreadable(problem: Problem) -> list[int]:

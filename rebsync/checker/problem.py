@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import field
 from typing import Literal, TypeAlias
 
@@ -18,12 +19,19 @@ Fairness: TypeAlias = Literal["none", "weak", "progress"]
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """A model without errors, and the properties that it is to have, with their texts."""
+    """A model without errors, and the properties that it is to have, with their texts.
+
+    Of a model that was extracted `code` has the places by its lines; what is said of it is true of
+    the code under the `assumptions`, and because of `gaps` nothing is proved.
+    """
 
     source: Source
     analysis: Analysis
     properties: Properties = field(default_factory=Properties)
     property_source: Source | None = None
+    assumptions: tuple[str, ...] = ()
+    gaps: tuple[str, ...] = ()
+    code: Mapping[int, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

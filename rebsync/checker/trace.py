@@ -49,7 +49,8 @@ class TraceStep:
     `kind`: "start" (constructors), "take" (a message), "resume" (after a delay), "time" (time
     passes). `time` is when it happens, `line` where its body starts or goes on (0: nowhere).
     `failure` is what went wrong in it, as a sentence, else None. `rebecs` is the state afterwards
-    (before, when it failed); `until` is the time of that state.
+    (before, when it failed); `until` is the time of that state. `code` is the place in the code
+    that `line` was extracted from, if it was.
     """
 
     number: int
@@ -65,6 +66,7 @@ class TraceStep:
     rebecs: tuple[ShownRebec, ...]
     action: Action
     failure: str | None = None
+    code: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,22 +34,22 @@ def read_problem(model: str, property_file: str | None, *, untimed: bool = False
             f'"{model}" holds properties: name the model, and these with --property'
         )
     source = read_source(model)
-    analysis = _analysed(source, untimed)
+    analysis = analysed(source, untimed)
     path = _beside(model) if property_file is None else property_file
     if path is None:
         return Problem(source, analysis, Properties())
     properties = read_source(path)
-    return Problem(source, analysis, _properties(properties, analysis), properties)
+    return Problem(source, analysis, properties_of(properties, analysis), properties)
 
 
 def with_text(problem: Problem, text: str) -> Problem:
     """The problem with another text of its model, which has no mistakes."""
     source = Source(problem.source.path, text)
-    analysis = _analysed(source, untimed=False)
+    analysis = analysed(source, untimed=False)
     properties = problem.property_source
     if properties is None:
         return replace(problem, source=source, analysis=analysis)
-    checked = _properties(properties, analysis)
+    checked = properties_of(properties, analysis)
     return replace(problem, source=source, analysis=analysis, properties=checked)
 
 
@@ -68,7 +68,8 @@ def _beside(model: str) -> str | None:
     return str(path) if model != STANDARD_INPUT and os.path.lexists(path) else None
 
 
-def _analysed(source: Source, untimed: bool) -> Analysis:
+def analysed(source: Source, untimed: bool) -> Analysis:
+    """The model in a text, checked. RebsyncError: it has mistakes."""
     from rebsync.checker.sizes import check_sizes
     from rebsync.grammars.parser import parse_model
     from rebsync.static import analyse
@@ -80,26 +81,29 @@ def _analysed(source: Source, untimed: bool) -> Analysis:
 
         model = with_initial(model)
     analysis = analyse(model, incomplete=not parsed.ok)
-    _refuse(source, (*parsed.diagnostics, *analysis.diagnostics))
-    _refuse(source, check_sizes(analysis))
+    refuse(source, (*parsed.diagnostics, *analysis.diagnostics))
+    refuse(source, check_sizes(analysis))
     if untimed:
         from rebsync.checker.untimed import check_untimed
 
-        _refuse(source, check_untimed(analysis))
+        refuse(source, check_untimed(analysis))
     return analysis
 
 
-def _properties(source: Source, analysis: Analysis) -> Properties:
+def properties_of(source: Source, analysis: Analysis) -> Properties:
+    """The properties in a text, checked against a model. RebsyncError: they have mistakes."""
+
     from rebsync.grammars.properties import parse_properties
     from rebsync.property_check import check_properties
 
     parsed = parse_properties(source)
     found = check_properties(parsed.properties, analysis, incomplete=not parsed.complete)
-    _refuse(source, (*parsed.diagnostics, *found))
+    refuse(source, (*parsed.diagnostics, *found))
     return parsed.properties
 
 
-def _refuse(source: Source, found: tuple[Diagnostic, ...]) -> None:
+def refuse(source: Source, found: tuple[Diagnostic, ...]) -> None:
+    """A RebsyncError if there are mistakes among what was found."""
     errors = tuple(d for d in dict.fromkeys(found) if d.severity is Severity.ERROR)
     if errors:
         raise RebsyncError([Findings(source, errors)])

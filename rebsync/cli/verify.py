@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from rebsync.checker.problem import Options, Problem
     from rebsync.checker.result import Result, Violation
     from rebsync.checker.steps import Semantics
+    from rebsync.reverse.environment.package import EnvironmentChoice
 
 FORMATS = ("text", "json", "svg", "html")
 MOST_INSTRUCTIONS = 10**10  # their delays together stay within 64 bits
@@ -59,8 +61,14 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 @click.command("verify")
-@click.argument("model", metavar="MODEL")
+@click.argument("model", metavar="MODEL|PACKAGE")
 @view_options
+@click.option(
+    "--environment",
+    type=click.Choice(["free", "none"]),
+    help="Of a package: what comes from outside; free (the default): anything, at any time.",
+)
+@click.option("--model", "written", metavar="FILE", help="Of a package: write its model to FILE.")
 @click.option(
     "--engine",
     type=click.Choice(["auto", "interpreted", "compiled"]),
@@ -128,6 +136,7 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
 def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Status:
     """Check everything that can go wrong in a model, and its properties.
 
+    Of a package its code is read, with an environment that sends what nobody in it does.
     Always checked: deadlock, missed deadlines, full bags, assertions, array indices, division by
     zero, messages to null, time that cannot advance. Exit status: 0 satisfied, 3 violated,
     4 undetermined.
@@ -138,7 +147,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     check_name(given["states"], output)
     if given["replay"] is not None and (given["states"] or given["export"]):
         raise click.UsageError("--replay makes one run: leave --states and --export out")
-    problem = read_problem(model, given["property_file"], untimed=given["language"] == "core")
+    problem = _read(model, given)
     keep_what_is_read(problem, output, given["states"], replayed=given["replay"])
     if given["replay"] is not None:
         from rebsync.cli.runs import replay_file
@@ -155,6 +164,22 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     result = _verified(problem, options)
     _write(result, problem, given, output)
     return _STATUS[result.verdict]
+
+
+def _read(model: str, given: dict[str, Any]) -> Problem:
+    """The model in a file, or that of the code of a package."""
+    is_code = Path(model).is_dir() or Path(model).name == "package.xml"
+    if not is_code:
+        for option in ("environment", "written"):
+            if given[option]:
+                raise click.UsageError("--environment and --model are for packages of code")
+        return read_problem(model, given["property_file"], untimed=given["language"] == "core")
+    if given["language"] == "core":
+        raise click.UsageError("--language core is for models: code has time")
+    from rebsync.cli.packages import read_package
+
+    choice: EnvironmentChoice = given["environment"] or "free"
+    return read_package(model, given["property_file"], choice, given["written"])
 
 
 def _options(given: dict[str, Any], model: str) -> Options:

@@ -14,7 +14,7 @@ from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_widths import check_whole
 from rebsync.reverse.bodies.scope import Variable
-from rebsync.reverse.findings import Unread
+from rebsync.reverse.findings import NotWhole, Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import SLEEPS, SUFFIXES, UNITS
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _SECOND = Fraction(1)
+_FOR_EVER = 10**15  # of any unit
 _OTHER_CLOCK = "this clock is not the time of the model, at which a message server stands still"
 
 
@@ -89,7 +90,11 @@ def units(reader: CppExpressionReader, node: Node, seconds: Fraction) -> m.Expre
     if whole is None:
         span, unit = reader.cpp.span(node), reader.scope.unit
         why = f"this is no whole number of units of {float(unit):g} s that the model's time has"
-        raise Unread(span, why, "choose a time_unit in rebsync.toml of which it is a multiple")
+        hint = "choose a time_unit in rebsync.toml of which it is a multiple"
+        number = constant(value)
+        if isinstance(number, int | float) and abs(number) < _FOR_EVER:
+            raise NotWhole(span, why, hint, Fraction(str(number)) * seconds)
+        raise Unread(span, why, hint)
     return whole
 
 
@@ -100,7 +105,7 @@ def in_units(
     factor = seconds / reader.scope.unit
     number = constant(value)
     if number is not None:
-        if number != number or abs(number) > 10**15:
+        if not abs(number) < _FOR_EVER:
             return None
         exact = Fraction(str(number)) * factor if not isinstance(number, bool) else Fraction(number)
         return _whole(exact)

@@ -6,12 +6,17 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.scope import Target
+from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_wiring import Wiring
 
 Fields = Mapping[tuple[str, str], tuple[str, ...]]
+Observed = Mapping[str, tuple[str, ...]]
+# Who gets what is published to topics that are observed: a rebec that no class knows.
+OBSERVER = "observer"
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,7 +24,8 @@ class Part:
     """The nodes of one language, before their bodies are read.
 
     `classes` are the names in the model of the units by their own; `settings` say what tells
-    rebecs of one unit apart besides who they send to, by the names of the rebecs.
+    rebecs of one unit apart besides who they send to, by the names of the rebecs. `observed` are
+    paths of fields, by topic, whose values are sent to the `OBSERVER` too.
     """
 
     names: Names
@@ -27,6 +33,7 @@ class Part:
     instances: tuple[Instance, ...]
     servers: Mapping[str, tuple[Server, ...]]
     settings: Mapping[str, object] = field(default_factory=dict)
+    observed: Observed = field(default_factory=dict)
 
     @staticmethod
     def empty() -> Part:
@@ -45,6 +52,7 @@ class Joined:
     wiring: Wiring
     kinds: Mapping[int, str]
     fields: Fields = field(default_factory=dict)
+    observed: Observed = field(default_factory=dict)
 
     @staticmethod
     def of(parts: Iterable[Part]) -> Joined:
@@ -55,7 +63,15 @@ class Joined:
         apart = {n: s for part in together for n, s in part.settings.items()}
         wiring = Wiring(instances, served, apart)
         kinds = {k: c for part in together for k, c in _kinds(part, wiring)}
-        return Joined(wiring, kinds)
+        observed = {t: paths for part in together for t, paths in part.observed.items()}
+        return Joined(wiring, kinds, observed=observed)
+
+    def observing(self, instance: Instance) -> Iterator[tuple[int, Target]]:
+        """By the places of a rebec's publishers, what of their messages the observer gets."""
+        for number, fact in enumerate(instance.start.unit.facts):
+            topic = instance.topic(fact.topic) if isinstance(fact, PublisherFact) else None
+            if isinstance(topic, str) and topic in self.observed:
+                yield number, Target(OBSERVER, topic, self.observed[topic])
 
     def class_of(self, instance: Instance) -> str:
         """The class of the model that a rebec is of."""

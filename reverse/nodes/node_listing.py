@@ -25,7 +25,13 @@ from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit, bodies
 from rebsync.reverse.nodes.node_unmodelled import shared_state
 from rebsync.reverse.nodes.node_values import Instance
-from rebsync.reverse.nodes.node_wiring import Wiring, unfed, unheard
+from rebsync.reverse.nodes.node_wiring import (
+    Wiring,
+    nobody_publishes,
+    nobody_subscribes,
+    unfed,
+    unheard,
+)
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Span
@@ -127,12 +133,12 @@ class FindingList:
         for instance, fact in unheard(wiring):
             topic = instance.topic(fact.topic)
             if isinstance(topic, str) and id(instance.start.unit) in asked:
-                why = f'nobody in these files subscribes to "{topic}": it is not sent in the model'
+                why = nobody_subscribes(topic)
                 self._assumed(fact.site.place, why, instance.start.unit.name, _OPEN)
         for instance, _, heard in unfed(wiring):
             topic = instance.topic(heard.topic)
             if isinstance(topic, str) and id(instance.start.unit) in asked:
-                why = f'nobody in these files publishes "{topic}": the model gets no such message'
+                why = nobody_publishes(topic)
                 self._assumed(heard.site.place, why, instance.start.unit.name, _CLOSE)
         self._services(wiring, wanted)
         self._shared(wanted)

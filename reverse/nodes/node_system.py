@@ -37,7 +37,7 @@ from rebsync.reverse.nodes.node_taken import declares
 from rebsync.reverse.nodes.node_times import Times
 from rebsync.reverse.nodes.node_units import Start, Unit, UnitFacts, Units
 from rebsync.reverse.nodes.node_unmodelled import note_unmodelled
-from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.nodes.node_values import Instance, exact_seconds
 from rebsync.reverse.nodes.node_views import all_units
 from rebsync.reverse.nodes.node_wiring import Wiring, idle, instances
 from rebsync.reverse.syntax.cpp_index import Code
@@ -62,7 +62,7 @@ def unit_of_time(files: Mapping[str, Source]) -> Fraction:
     """The seconds that a unit of the model's time takes, as the configuration says."""
     if FILE_NAME not in files:
         return Fraction(1)
-    return Fraction(repr(parse_config(files[FILE_NAME]).time_unit))
+    return exact_seconds(parse_config(files[FILE_NAME]).time_unit)
 
 
 @dataclass(frozen=True, slots=True)
@@ -339,6 +339,8 @@ class _ClassReader:
             unit = wiring.instances[to].start.unit.name
             receiver = known[slots[to]][0] if to in slots else None
             found.setdefault(number, []).append(Target(receiver, name, self._taken(unit, name)))
+        for number, observer in self.joined.observing(instance):
+            found.setdefault(number, []).append(observer)
         return {n: tuple(t) for n, t in found.items()}
 
     def _taken(self, unit: str, name: str) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import gcd
 
 from rebsync.records import dataclass
-from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.findings import Findings, NotWhole, Unread
 from rebsync.reverse.graph import Place, RateFact, Resolved, TimerFact
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.unknowns import Open
@@ -28,7 +28,7 @@ class Times:
             for fact in instance.start.unit.facts:
                 period = period_of(instance, fact) if isinstance(fact, TimerFact | RateFact) else 0
                 if isinstance(period, Fraction) and period > 0:
-                    fitting = _common(fitting, period)
+                    fitting = common_measure(fitting, period)
         return Times(unit, fitting)
 
     def units(
@@ -43,20 +43,22 @@ class Times:
         for period in periods.values():
             if isinstance(period, Open):
                 why = f"the period is not known: {period.why}"
-                _listed(findings, fact.site.place, why, "", within)
+                _listed(findings, fact.site.place, why, within)
                 return None
             units = period / self.unit
             if units.denominator != 1:
                 why = f"{_seconds(period)} s is no multiple of the model's unit of time"
                 if self.unit == 1:
                     why += ", which is a second"
-                fitting = _common(self.fitting, period)
+                fitting = common_measure(self.fitting, period)
                 hint = f"set time_unit = {_seconds(fitting)} in rebsync.toml"
-                _listed(findings, fact.site.place, why, hint, within)
+                place = fact.site.place
+                unread = NotWhole(place.span, why, hint, period)
+                findings.unreadable(place.source, unread, within)
                 return None
         if len(periods) > 1:
             why = "the period differs between the nodes of this class"
-            _listed(findings, fact.site.place, why, "", within)
+            _listed(findings, fact.site.place, why, within)
             return None
         found = next(iter(periods.values()), None)
         return int(found / self.unit) if isinstance(found, Fraction) else None
@@ -73,11 +75,11 @@ def period_of(instance: Instance, fact: TimerFact | RateFact) -> Fraction | Open
     return 1 / hertz if hertz > 0 else Open("its frequency is 0")
 
 
-def _listed(findings: Findings, place: Place, why: str, hint: str = "", within: str = "") -> None:
-    findings.unreadable(place.source, Unread(place.span, why, hint), within)
+def _listed(findings: Findings, place: Place, why: str, within: str) -> None:
+    findings.unreadable(place.source, Unread(place.span, why), within)
 
 
-def _common(one: Fraction, other: Fraction) -> Fraction:
+def common_measure(one: Fraction, other: Fraction) -> Fraction:
     """The greatest time of which both are multiples."""
     return Fraction(
         gcd(one.numerator * other.denominator, other.numerator * one.denominator),

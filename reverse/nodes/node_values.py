@@ -71,7 +71,7 @@ class Instance:
             return Open("it is no number")
         if not abs(value) < _FOR_EVER:
             return Open("it is no time that ends")
-        exact = _exact(resolved, value)
+        exact = exact_seconds(value)
         return exact if exact >= 0 else Open("it is negative")
 
     def parameter(self, name: Resolved) -> Parameter | None:
@@ -136,7 +136,7 @@ def _text(text: Text) -> Plain | Open:
     return text
 
 
-def _exact(resolved: Resolved, value: int | float) -> Fraction:
+def exact_seconds(value: int | float) -> Fraction:
     """The number without the error of binary fractions: 0.1 is a tenth, 1/30 a thirtieth."""
     short = Fraction(repr(value))
     near = Fraction(value).limit_denominator(1000)

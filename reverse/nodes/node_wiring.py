@@ -272,6 +272,16 @@ def unfed(wiring: Wiring) -> Iterator[tuple[Instance, Server, SubscriptionFact]]
                     yield instance, server, fact
 
 
+def nobody_subscribes(topic: str) -> str:
+    """Why what is published to a topic is not in the model."""
+    return f'nobody in these files subscribes to "{topic}": it is not sent in the model'
+
+
+def nobody_publishes(topic: str) -> str:
+    """Why messages of a topic are not in the model."""
+    return f'nobody in these files publishes "{topic}": the model gets no such message'
+
+
 def _published(instances: Iterable[Instance]) -> set[Text]:
     """The topics to which some rebecs publish."""
     facts = ((i, f) for i in instances for f in i.start.unit.facts)

@@ -12,7 +12,7 @@ from rebsync import precedence
 from rebsync.intervals import unsigned
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight, whole_number
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
-from rebsync.reverse.findings import Unread
+from rebsync.reverse.findings import NotWhole, Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.body_arguments import arguments
@@ -180,7 +180,7 @@ def units(reader: BodyExpressionReader, node: Node) -> m.Expression:
     found = value / Fraction(reading.second)
     if found.denominator != 1:
         why = f"{float(value):g} s is no multiple of the model's unit of time"
-        raise Unread(reader.frame.span(node), why, "set time_unit in rebsync.toml")
+        raise NotWhole(reader.frame.span(node), why, "set time_unit in rebsync.toml", value)
     return m.IntLiteral(int(found))
 
 

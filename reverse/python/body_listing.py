@@ -17,7 +17,13 @@ from rebsync.reverse.graph import (
     Unresolved,
 )
 from rebsync.reverse.nodes.node_servers import Server
-from rebsync.reverse.nodes.node_wiring import Wiring, unfed, unheard
+from rebsync.reverse.nodes.node_wiring import (
+    Wiring,
+    nobody_publishes,
+    nobody_subscribes,
+    unfed,
+    unheard,
+)
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import Key, PyUnit
 from rebsync.reverse.python.object_model import list_object_model
@@ -159,10 +165,10 @@ def list_wiring(wiring: Wiring, wanted: Collection[str], findings: Findings) -> 
     for instance, fact in unheard(wiring):
         topic, place = instance.topic(fact.topic), fact.site.place
         if isinstance(topic, str) and instance.start.unit.name in wanted:
-            why = f'nobody in these files subscribes to "{topic}": it is not sent in the model'
+            why = nobody_subscribes(topic)
             findings.assumed(place.source, place.span, why, _OPEN, instance.start.unit.name)
     for instance, _, heard in unfed(wiring):
         topic, place = instance.topic(heard.topic), heard.site.place
         if isinstance(topic, str) and instance.start.unit.name in wanted:
-            why = f'nobody in these files publishes "{topic}": the model gets no such message'
+            why = nobody_publishes(topic)
             findings.assumed(place.source, place.span, why, _CLOSE, instance.start.unit.name)

@@ -18,7 +18,7 @@ from rebsync.reverse.bodies.scope import Target
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.graph import Fact, Graph, ParameterFact, RateFact, TimerFact
-from rebsync.reverse.nodes.node_joined import Joined, Part
+from rebsync.reverse.nodes.node_joined import OBSERVER, Joined, Part
 from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_times import Times
@@ -244,6 +244,8 @@ class _ReadingRound:
             receiver = None if to == own else known[slots.index(to)][0]
             target = Target(receiver, name, self._fields(other, server))
             found.setdefault(number, []).append(PyTarget(other, target, {}))
+        for number, observer in self.joined.observing(instance):
+            found.setdefault(number, []).append(PyTarget(OBSERVER, observer, {}))
         return {n: tuple(t) for n, t in found.items()}
 
     def _fields(self, unit: str, server: Server) -> tuple[str, ...]:

@@ -31,7 +31,7 @@ def correspondence(
 
     `parsed` is the tree of that text, `code` the extracted model, `today` that of the user.
     """
-    places = dict(_code_places(printed, parsed, code.model))
+    places = dict(code_places(printed, parsed, code.model))
     partners = _partners(today, code)
     return {line: Both(partners.get(_key(p)), p) for line, p in places.items()}
 
@@ -40,8 +40,11 @@ def _key(place: Place) -> tuple[str, int]:
     return place.source.path, place.span.start
 
 
-def _code_places(printed: Source, parsed: m.Model, model: m.Model) -> Iterator[tuple[int, Place]]:
-    """The first place in the code of what begins on each line of the text."""
+def code_places(printed: Source, parsed: m.Model, model: m.Model) -> Iterator[tuple[int, Place]]:
+    """By the lines of the printed text of a model the first place in the code of what begins there.
+
+    `parsed` is the tree of that text; the spans of `model` are places in the code.
+    """
     seen: set[int] = set()
     for shown, read in zip(m.walk(parsed), m.walk(model), strict=False):
         if type(shown) is not type(read):

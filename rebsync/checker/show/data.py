@@ -122,6 +122,7 @@ def _step(step: TraceStep) -> Json:
             for change in step.changes
         ],
         "line": step.line,
+        "code": step.code or None,
         "failure": step.failure,
         "action": {"actor": action.actor, "slot": action.slot, "choices": list(action.choices)},
         "state": [rebec_json(rebec) for rebec in step.rebecs],

@@ -119,7 +119,7 @@ def _step(step: TraceStep, gutter: Piece, wide: tuple[int, int], model: str) -> 
     lead = f" {step.number:>{number}}  {step.time:>{time}}  "
     indent = len(lead) + 1
     file = model if columns(model) <= _LONG else PurePath(model).name
-    place = f"  {file}:{step.line}" if step.line else ""
+    place = f"  {step.code or f'{file}:{step.line}'}" if step.line else ""
     style = _WRONG if step.failure is not None else "bold"
     yield line(
         gutter,

@@ -1,0 +1,88 @@
+"""Reading the code of a package as what is to be verified: extracted, and closed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rebsync.cli.problem import refuse
+from rebsync.diagnostics import RebsyncError
+from rebsync.files import read_source
+from rebsync.source import Source
+
+if TYPE_CHECKING:
+    from rebsync.checker.problem import Problem
+    from rebsync.properties import Properties
+    from rebsync.reverse.environment.package import ClosedPackage, EnvironmentChoice
+
+
+def read_package(
+    path: str, property_file: str | None, choice: EnvironmentChoice, written: str | None = None
+) -> Problem:
+    """The code of the package at a path as a closed model, with its properties.
+
+    Mistakes of the properties are RebsyncErrors, as is code in which no node is found, or several
+    packages. The model is written to the file `written`, if there is one.
+    """
+    from rebsync.reverse.environment.package import closed_package
+
+    properties = read_source(property_file) if property_file is not None else None
+    files = _files(path)
+    closed = closed_package(files, _parsed(properties), choice)
+    if closed.model.main is None or not closed.model.classes:
+        hint = "--format json of `rebsync extract` tells what the code asks of ROS"
+        raise RebsyncError.of(path, "RS943", "no node of a model was found here", hint)
+    return _problem(path, closed, properties, written)
+
+
+def _files(path: str) -> dict[str, Source]:
+    from rebsync.reverse.files.reading import read
+    from rebsync.roundtrip.package.units import as_one, units
+
+    found = list(units([path]))
+    if len(found) != 1:
+        hint = "name one of them, or a launch file"
+        message = "several packages are here" if found else "no code is here"
+        raise RebsyncError.of(path, "RS802", message, hint if found else None)
+    return read(as_one(found[0])).files
+
+
+def _parsed(source: Source | None) -> Properties:
+    """The properties of a file, as far as they can be told without a model."""
+    from rebsync.properties import Properties
+
+    if source is None:
+        return Properties()
+    from rebsync.grammars.properties import parse_properties
+
+    parsed = parse_properties(source)
+    refuse(source, parsed.diagnostics)
+    return parsed.properties
+
+
+def _problem(
+    path: str, closed: ClosedPackage, properties: Source | None, written: str | None
+) -> Problem:
+    from rebsync.checker.problem import Problem
+    from rebsync.cli.problem import analysed, properties_of
+    from rebsync.grammars.parser import parse_model
+    from rebsync.printing import print_model
+    from rebsync.roundtrip.diff.correspondence import code_places
+
+    text = print_model(closed.model)
+    if written is not None:
+        from rebsync.cli.options import write_output
+
+        write_output(written, text)
+    source = Source(written or f"{path} as a model", text)
+    analysis = analysed(source, untimed=False)
+    places = code_places(source, parse_model(source).model, closed.model)
+    code = {line: f"{_shown(place.source.path)}:{place.line}" for line, place in places}
+    told = closed.assumptions, closed.gaps, code
+    if properties is None:
+        return Problem(source, analysis, assumptions=told[0], gaps=told[1], code=told[2])
+    return Problem(source, analysis, properties_of(properties, analysis), properties, *told)
+
+
+def _shown(path: str) -> str:
+    return Path(path).as_posix()

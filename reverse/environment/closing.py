@@ -1,0 +1,203 @@
+"""An environment that closes a model: a rebec that sends whatever may come from outside.
+
+It sends at most one message of each topic, and calls each service at most once, in each unit of
+time, from time 0 on; the fields of a message are any of the values that the model tells apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import field, replace
+from math import prod
+
+from rebsync import model as m
+from rebsync.literals import literal_of
+from rebsync.names import unique
+from rebsync.properties import Properties
+from rebsync.records import dataclass
+from rebsync.reserved import OPEN
+from rebsync.reverse.environment.representatives import representatives
+from rebsync.reverse.nodes.node_names import model_word
+from rebsync.reverse.nodes.open_ends import OpenEnd
+from rebsync.static.constants import Value
+
+_MOST = 4096  # messages of one topic that may come at the same time
+_EITHER = m.Choice((m.BoolLiteral(False), m.BoolLiteral(True)))
+
+
+@dataclass(frozen=True, slots=True)
+class Closed:
+    """A closed model; what is assumed of the environment, and where that may be too little.
+
+    `gaps` say of which values only some are sent, so that nothing is proved.
+    """
+
+    model: m.Model
+    assumptions: tuple[str, ...] = ()
+    gaps: tuple[str, ...] = ()
+
+
+def closed(model: m.Model, ends: Sequence[OpenEnd], properties: Properties) -> Closed:
+    """The model with an environment at its open ends; without `main` it stays as it is."""
+    started = {r.name for r in model.main.rebecs} if model.main is not None else set()
+    at = [e for e in ends if e.rebec in started]
+    if not at:
+        return Closed(model)
+    environment = _Environment(model, properties, set(started))
+    for together in _topics(at).values():
+        environment.add(together)
+    return Closed(environment.closed(at), tuple(environment.assumptions), tuple(environment.gaps))
+
+
+def _topics(ends: Iterable[OpenEnd]) -> dict[tuple[str, str], list[OpenEnd]]:
+    """The ends of each topic: those that get the same messages."""
+    found: dict[tuple[str, str], list[OpenEnd]] = {}
+    for end in ends:
+        own = end.name is None or end.is_service
+        key = (end.rebec, end.server) if own else (end.name or "", "")
+        found.setdefault(key, []).append(end)
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class _Field:
+    """A field of the messages of a topic: the local of the environment that has its value."""
+
+    variable: str
+    type: m.Type
+    values: tuple[Value, ...]
+
+
+@dataclass(slots=True)
+class _Environment:
+    """Collects what an environment sends; `used` are names that its class has for other things."""
+
+    model: m.Model
+    properties: Properties
+    used: set[str]
+    assumptions: list[str] = field(default_factory=list)
+    gaps: list[str] = field(default_factory=list)
+    servers: list[m.MessageServer] = field(default_factory=list)
+
+    def add(self, ends: Sequence[OpenEnd]) -> None:
+        """A server that sends the messages of a topic, or calls a service."""
+        name = unique(model_word((ends[0].name or ends[0].server).strip("/")), self.used)
+        parameters = [_parameters(self.model, end) for end in ends]
+        fields = dict(self._fields(ends, parameters))
+        sends = [
+            _sent(end, [fields[path].variable for path in own])
+            for end, own in zip(ends, parameters, strict=True)
+        ]
+        chosen = [
+            m.Local(m.Declaration(f.type, (m.Declarator(f.variable, _choice(f.values)),)))
+            for f in fields.values()
+        ]
+        again = m.ExpressionStatement(m.Call(m.Self(), name, (), m.IntLiteral(1)))
+        body = m.If(_EITHER, m.Block((*chosen, *sends)))
+        self.servers.append(m.MessageServer(name, (), m.Block((body, again))))
+        self._tell(ends[0], fields)
+
+    def _fields(
+        self, ends: Sequence[OpenEnd], parameters: Sequence[dict[str, m.Parameter]]
+    ) -> Iterator[tuple[str, _Field]]:
+        """The fields of a message by their paths, which all its receivers get alike."""
+        for path in dict.fromkeys(path for own in parameters for path in own):
+            given = [(e, own[path]) for e, own in zip(ends, parameters, strict=True) if path in own]
+            places = {(end.owner, parameter.name) for end, parameter in given}
+            type_ = given[0][1].type
+            found = representatives(self.model, places, type_, self.properties)
+            if not found.is_exact:
+                what = f"{ends[0].name or ends[0].server}.{path}"
+                tried = f"only {_some(found.values)} is sent" if found.values else "none is sent"
+                self.gaps.append(f"{what} is more than copied and compared with constants: {tried}")
+            variable = unique(model_word(path.replace(".", "_")), self.used)
+            yield path, _Field(variable, type_, found.values)
+
+    def _tell(self, end: OpenEnd, fields: dict[str, _Field]) -> None:
+        name = end.name or end.server
+        if prod(len(f.values) for f in fields.values()) > _MOST:
+            self.gaps.append(f"{name} has more than {_MOST:,} different messages")
+        what = f"{name} is called" if end.is_service else f"{name} comes"
+        values = [f"{path} {_some(f.values)}" for path, f in fields.items()]
+        said = f"{what} at most once in each unit of time"
+        self.assumptions.append(f"{said}, with {', '.join(values)}" if values else said)
+
+    def closed(self, ends: Sequence[OpenEnd]) -> m.Model:
+        """The model with the environment in it, where no server is open any more."""
+        assert self.model.main is not None
+        names = {c.name for c in self.model.classes} | {r.name for r in self.model.main.rebecs}
+        class_, rebec = unique("Environment", names), unique("environment", names | self.used)
+        owners = {r.name: r.type for r in self.model.main.rebecs}
+        known = [n for n in owners if any(e.rebec == n for e in ends)]
+        declared = tuple(m.Declaration(owners[n], (m.Declarator(n),)) for n in known)
+        first = tuple(m.ExpressionStatement(m.Call(m.Self(), s.name)) for s in self.servers)
+        constructor = m.Constructor(class_, (), m.Block(first))
+        members: tuple[m.ClassMember, ...] = (m.KnownRebecs(declared), constructor, *self.servers)
+        environment = m.ReactiveClass(class_, len(self.servers) + 1, members)
+        more = _more_messages(ends)
+        classes = tuple(without_open(c, more.get(c.name, 0)) for c in self.model.classes)
+        started = m.Rebec(m.Type(class_), rebec, tuple(map(m.Name, known)), ())
+        main = replace(self.model.main, rebecs=(*self.model.main.rebecs, started))
+        return replace(self.model, classes=(*classes, environment), main=main)
+
+
+def _parameters(model: m.Model, end: OpenEnd) -> dict[str, m.Parameter]:
+    """The parameters of an open server by the paths of the fields that they get."""
+    server = next(
+        x
+        for c in model.classes
+        if isinstance(c, m.ReactiveClass) and c.name == end.owner
+        for x in c.members
+        if isinstance(x, m.MessageServer) and x.name == end.server
+    )
+    paths = end.fields if len(end.fields) == len(server.parameters) else None
+    return dict(zip(paths or (p.name for p in server.parameters), server.parameters, strict=True))
+
+
+def _sent(end: OpenEnd, variables: Iterable[str]) -> m.Statement:
+    call = m.Call(m.Name(end.rebec), end.server, tuple(map(m.Name, variables)))
+    return m.ExpressionStatement(call)
+
+
+def _more_messages(ends: Iterable[OpenEnd]) -> dict[str, int]:
+    """By class how many messages from outside may wait at the same time, while none is served."""
+    of_rebecs: dict[tuple[str, str], int] = {}
+    for end in ends:
+        of_rebecs[end.owner, end.rebec] = of_rebecs.get((end.owner, end.rebec), 0) + 1
+    found: dict[str, int] = {}
+    for (owner, _), count in of_rebecs.items():
+        found[owner] = max(found.get(owner, 0), count)
+    return found
+
+
+def without_open(
+    owner: m.ReactiveClass | m.Interface, more: int = 0
+) -> m.ReactiveClass | m.Interface:
+    """A class without `@Open`; with room for `more` messages in each unit that it is busy."""
+    if not isinstance(owner, m.ReactiveClass):
+        return owner
+    members = tuple(
+        replace(x, annotations=tuple(a for a in x.annotations if a.name != OPEN))
+        if isinstance(x, m.MessageServer)
+        else x
+        for x in owner.members
+    )
+    room = more * (1 + sum(_delays(owner)))
+    return replace(owner, members=members, queue_length=owner.queue_length + room)
+
+
+def _delays(owner: m.ReactiveClass) -> Iterator[int]:
+    for node in m.walk(owner):
+        match node:
+            case m.Call(None, "delay", (m.IntLiteral(units),)):
+                yield units
+
+
+def _choice(values: Sequence[Value]) -> m.Expression | None:
+    literals = tuple(map(literal_of, values))
+    return m.Choice(literals) if len(literals) > 1 else next(iter(literals), None)
+
+
+def _some(values: Sequence[Value]) -> str:
+    literals = [str(v).lower() if isinstance(v, bool) else f"{v:g}" for v in values]
+    return f"one of {', '.join(literals)}" if len(literals) > 1 else "".join(literals)

@@ -1,0 +1,172 @@
+"""Messages of topics as state variables, so that properties can name what was said last.
+
+`out_cmd_vel_linear_x` is the field `linear.x` of what a rebec has published to `/cmd_vel` last,
+`in_bumper_data` the field `data` of what it got last from `/bumper`; `out_cmd_vel` and `in_bumper`
+are true from the first message on. They are set together with what sends or serves the message.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import replace
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_messages import zero_of
+from rebsync.reverse.bodies.rewriting import rewritten
+from rebsync.reverse.build.message_types import MessageTypes
+from rebsync.reverse.graph import PublisherFact
+from rebsync.reverse.nodes.node_joined import OBSERVER, Joined, Observed
+from rebsync.reverse.nodes.node_names import model_word
+
+_BOOLEAN = m.Type("boolean")
+
+
+@dataclass(frozen=True, slots=True)
+class Observation:
+    """A state variable that looks at the messages of a topic in one class.
+
+    `path` is that of the field, empty for whether there was a message. `server` is the one that
+    gets the messages, empty for those that the class publishes.
+    """
+
+    owner: str
+    variable: str
+    topic: str
+    path: str
+    type: m.Type
+    server: str = ""
+
+
+def observations(joined: Joined, types: MessageTypes) -> Iterator[tuple[str, Observation]]:
+    """All that can be observed, with the rebec of whom."""
+    for instance in joined.wiring.instances:
+        owner = joined.class_of(instance)
+        for fact in instance.start.unit.facts:
+            topic = instance.topic(fact.topic) if isinstance(fact, PublisherFact) else None
+            if isinstance(fact, PublisherFact) and isinstance(topic, str):
+                for path, type_ in _fields(types, fact.type):
+                    name = _variable("out", topic, path)
+                    yield instance.name, Observation(owner, name, topic, path, type_)
+        for server in joined.wiring.servers[instance.start.unit.name]:
+            topics = {instance.topic(f.topic) for f in server.subscriptions}
+            topic = topics.pop() if len(topics) == 1 else None
+            if isinstance(topic, str):
+                taken = ("", *joined.taken(instance.start.unit.name, server))
+                for path, type_ in _fields(types, server.type):
+                    if path in taken:
+                        name = _variable("in", topic, path)
+                        found = Observation(owner, name, topic, path, type_, server.name)
+                        yield instance.name, found
+
+
+def _fields(types: MessageTypes, type_: object) -> Iterator[tuple[str, m.Type]]:
+    """The fields that the model can hold, and first that there was a message at all."""
+    yield "", _BOOLEAN
+    fields = types.fields(type_) if isinstance(type_, str) else None
+    for path, of in (fields or {}).items():
+        if of is not None and not of.dimensions:
+            yield path, of
+
+
+def _variable(direction: str, topic: str, path: str) -> str:
+    words = [direction, model_word(topic), *([path.replace(".", "_")] if path else [])]
+    return "_".join(words)
+
+
+def observed_fields(wanted: Iterable[Observation]) -> Observed:
+    """By topic the fields of what is published that are asked for."""
+    found: dict[str, dict[str, None]] = {}
+    for each in wanted:
+        if not each.server:
+            paths = found.setdefault(each.topic, {})
+            if each.path:
+                paths[each.path] = None
+    return {topic: tuple(paths) for topic, paths in found.items()}
+
+
+def with_observations(
+    owner: m.ReactiveClass,
+    wanted: Collection[Observation],
+    observed: Observed,
+    fields: Mapping[str, tuple[str, ...]],
+) -> m.ReactiveClass:
+    """The class with the state variables that it is asked for, which its bodies set.
+
+    What it sends to the observer is taken out. `fields` are those that its servers get.
+    """
+    own = [o for o in wanted if o.owner == owner.name]
+    variables = frozenset(o.variable for o in own)
+
+    def stored(part: object) -> object:
+        match part:
+            case m.ExpressionStatement(m.Call(m.Name(name), topic, arguments)) if name == OBSERVER:
+                values = {
+                    "": m.BoolLiteral(True),
+                    **dict(zip(observed[topic], arguments, strict=True)),
+                }
+                sent = [o for o in own if o.topic == topic and not o.server]
+                return m.Block(tuple(_assign(o.variable, values[o.path]) for o in sent))
+            case m.Block(statements):
+                return replace(part, statements=tuple(_flat(statements, variables)))
+            case _:
+                return part
+
+    members: list[m.ClassMember] = []
+    for member in owner.members:
+        member = rewritten(member, stored)
+        if isinstance(member, m.MessageServer) and member.body is not None:
+            heard = [o for o in own if o.server == member.name]
+            member = _after(_received(heard, member, fields.get(member.name, ())), member)
+        if isinstance(member, m.Constructor) and member.body is not None:
+            member = _after([_assign(o.variable, zero_of(o.type)) for o in own], member)
+        members.append(member)
+    if own and not any(isinstance(x, m.Constructor) for x in members):
+        first = tuple(_assign(o.variable, zero_of(o.type)) for o in own)
+        members.append(m.Constructor(owner.name, (), m.Block(first)))
+    declared = tuple(m.Declaration(o.type, (m.Declarator(o.variable),)) for o in own)
+    at = sum(isinstance(x, m.KnownRebecs | m.StateVars) for x in members)
+    section = (m.StateVars(declared),) if declared else ()
+    return replace(owner, members=(*members[:at], *section, *members[at:]))
+
+
+def _flat(statements: Iterable[m.Statement], variables: Collection[str]) -> Iterator[m.Statement]:
+    """The statements of a block, with those that set observations in the place of a block."""
+    for statement in statements:
+        match statement:
+            case m.Block(inner) if all(_sets(s, variables) for s in inner):
+                yield from inner
+            case _:
+                yield statement
+
+
+def _sets(statement: m.Statement, variables: Collection[str]) -> bool:
+    match statement:
+        case m.ExpressionStatement(m.Assign("=", m.Name(name))):
+            return name in variables
+        case _:
+            return False
+
+
+def _received(
+    heard: Iterable[Observation], server: m.MessageServer, fields: tuple[str, ...]
+) -> Iterator[m.Statement]:
+    """What a server notes of the message that it begins to serve."""
+    given = {path: m.Name(p.name) for path, p in zip(fields, server.parameters, strict=False)}
+    for each in heard:
+        value = m.BoolLiteral(True) if not each.path else given.get(each.path)
+        if value is not None:
+            yield _assign(each.variable, value)
+
+
+def _after(
+    first: Iterable[m.Statement], member: m.MessageServer | m.Constructor
+) -> m.MessageServer | m.Constructor:
+    assert member.body is not None
+    body = replace(member.body, statements=(*first, *member.body.statements))
+    return replace(member, body=body)
+
+
+def _assign(name: str, value: m.Expression | None) -> m.Statement:
+    assert value is not None
+    return m.ExpressionStatement(m.Assign("=", m.Name(name), value))

@@ -1,0 +1,171 @@
+"""The closed model of a package: what its code does, in an environment that may do anything."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from functools import reduce
+from typing import Literal, TypeAlias
+
+from rebsync import model as m
+from rebsync.config import FILE_NAME
+from rebsync.properties import Formula, Properties, state_expressions
+from rebsync.records import dataclass
+from rebsync.reverse.build.manifests import name_in
+from rebsync.reverse.build.message_types import MessageTypes
+from rebsync.reverse.environment.closing import Closed, closed, without_open
+from rebsync.reverse.environment.observation import (
+    Observation,
+    observations,
+    observed_fields,
+    with_observations,
+)
+from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.nodes.node_joined import Joined
+from rebsync.reverse.nodes.node_system import unit_of_time
+from rebsync.reverse.nodes.node_times import common_measure
+from rebsync.reverse.nodes.node_wiring import nobody_publishes, nobody_subscribes
+from rebsync.reverse.nodes.open_ends import OpenEnd, open_ends
+from rebsync.reverse.recovery import Extracted, extract
+from rebsync.reverse.report import different
+from rebsync.source import Source
+
+_ROUNDS = 4
+_MANIFEST = "package.xml"
+
+EnvironmentChoice: TypeAlias = Literal["free", "none"]
+
+
+@dataclass(frozen=True, slots=True)
+class ClosedPackage:
+    """A package as a closed model, with what the code was read to.
+
+    A unit of the model's time takes `unit` seconds. What is said of the model is true of the code
+    under the `assumptions`; because of the `gaps` nothing is proved.
+    """
+
+    model: m.Model
+    findings: tuple[Finding, ...]
+    unit: Fraction
+    assumptions: tuple[str, ...]
+    gaps: tuple[str, ...]
+
+
+def closed_package(
+    files: Mapping[str, Source], properties: Properties, choice: EnvironmentChoice
+) -> ClosedPackage:
+    """The model of a package with its environment, where properties can name its topics."""
+    files, extracted = in_fitting_unit(files)
+    manifest = files.get(_MANIFEST)
+    types = MessageTypes.of(files, name_in(manifest) or "" if manifest is not None else "")
+    wanted = tuple(_wanted(extracted, types, properties))
+    observed = observed_fields(wanted)
+    if observed:
+        extracted = extract(files, observed=observed)
+    joined = extracted.joined
+    fields = _fields(joined)
+    model = extracted.model
+    classes = tuple(
+        with_observations(c, wanted, observed, fields.get(c.name, {}))
+        if isinstance(c, m.ReactiveClass)
+        else c
+        for c in model.classes
+    )
+    ends = open_ends(joined)
+    around = _surrounded(replace(model, classes=classes), ends, properties, choice)
+    unit = unit_of_time(files)
+    assumptions = (*_assumed(extracted, joined), *around.assumptions, *_time(unit, around))
+    findings = tuple(different(extracted.findings))
+    return ClosedPackage(around.model, findings, unit, assumptions, around.gaps)
+
+
+def _surrounded(
+    model: m.Model, ends: tuple[OpenEnd, ...], properties: Properties, choice: EnvironmentChoice
+) -> Closed:
+    if choice == "free":
+        return closed(model, ends, properties)
+    names = dict.fromkeys(end.name or f"{end.rebec}.{end.server}" for end in ends)
+    told = (f"nothing comes from outside: {', '.join(names)}",) if names else ()
+    classes = tuple(without_open(c) for c in model.classes)
+    return Closed(replace(model, classes=classes), told)
+
+
+# --- the unit of time ---------------------------------------------------------------------------
+
+
+def in_fitting_unit(files: Mapping[str, Source]) -> tuple[Mapping[str, Source], Extracted]:
+    """The files, read in a unit of time that divides all their times.
+
+    That is a second, or less where the code has other times, unless `rebsync.toml` says it.
+    """
+    extracted = extract(files)
+    settings = files.get(FILE_NAME)
+    if settings is not None and "time_unit" in settings.text:
+        return files, extracted
+    text, path = (settings.text, settings.path) if settings is not None else ("", FILE_NAME)
+    unit = Fraction(1)
+    for _ in range(_ROUNDS):
+        if not extracted.times:
+            break
+        unit = reduce(common_measure, extracted.times, unit)
+        files = {**files, FILE_NAME: Source(path, f"time_unit = {float(unit)!r}\n{text}")}
+        extracted = extract(files)
+    return files, extracted
+
+
+def _time(unit: Fraction, around: Closed) -> Iterator[str]:
+    if around.assumptions or unit != 1:
+        yield f"a unit of time is {float(unit):g} s"
+
+
+# --- what properties name -----------------------------------------------------------------------
+
+
+def _wanted(
+    extracted: Extracted, types: MessageTypes, properties: Properties
+) -> Iterator[Observation]:
+    """The observations that the properties name, each once."""
+    named = set(_named(properties))
+    found = {o: None for r, o in observations(extracted.joined, types) if (r, o.variable) in named}
+    return iter(found)
+
+
+def _named(properties: Properties) -> Iterator[tuple[str, str]]:
+    """The state variables that properties look at, with the rebecs that have them."""
+    formulas: list[Formula] = [d.value for d in properties.defines]
+    formulas += [p.formula for p in properties.all]
+    for formula in formulas:
+        for expression in state_expressions(formula):
+            for node in m.walk(expression):
+                match node:
+                    case m.Member(m.Name(rebec), variable):
+                        yield rebec, variable
+
+
+def _fields(joined: Joined) -> dict[str, dict[str, tuple[str, ...]]]:
+    """By class and server the paths of the fields that are handed on."""
+    found: dict[str, dict[str, tuple[str, ...]]] = {}
+    for instance in joined.wiring.instances:
+        of_class = found.setdefault(joined.class_of(instance), {})
+        for server in joined.wiring.servers[instance.start.unit.name]:
+            of_class[server.name] = joined.taken(instance.start.unit.name, server)
+    return found
+
+
+# --- assumptions --------------------------------------------------------------------------------
+
+
+def _assumed(extracted: Extracted, joined: Joined) -> Iterator[str]:
+    """What the extraction assumed, but for who is at the other end of topics: that is closed."""
+    topics = {
+        topic
+        for instance in joined.wiring.instances
+        for fact in instance.start.unit.facts
+        if isinstance(topic := instance.topic(getattr(fact, "topic", "")), str)
+    }
+    closed_ends = {f(topic) for topic in topics for f in (nobody_publishes, nobody_subscribes)}
+    for finding in different(extracted.findings):
+        if finding.grade is Grade.ASSUMED and finding.why not in closed_ends:
+            line = finding.source.position(finding.span.start).line
+            yield f"{finding.source.path}:{line}: {finding.why}"
