@@ -6,7 +6,7 @@ that nobody in the model sends: the model is an open system, and only closed one
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import replace
 
 from rebsync import model as m
@@ -26,7 +26,7 @@ def limited(problem: Problem, result: Result) -> Result:
     violation is one of the system unless code was not read, as nothing need come from outside.
     """
     result = _told_of_code(problem, result)
-    unread, opened = _unreadable(problem), _open(problem)
+    unread, opened = problem.unread or _unreadable(problem), _open(problem)
     if not unread and not opened and not problem.gaps:
         return result
     verdicts: tuple[tuple[str, Verdict], ...] = tuple(
@@ -59,39 +59,41 @@ def _in_code(step: TraceStep, problem: Problem) -> TraceStep:
     return replace(step, code=problem.code.get(step.line, ""))
 
 
-def _unreadable(problem: Problem) -> list[int]:
-    """The lines of the statements that stand for code that was not read."""
+def _unreadable(problem: Problem) -> tuple[str, ...]:
+    """The statements that stand for code that was not read, by their lines."""
     found = {
         problem.source.position(node.span.start).line
         for node in m.walk(problem.analysis.model)
         if isinstance(node, m.Annotation) and node.name == UNREADABLE
     }
-    return sorted(found)
+    return tuple(f"line {line}" for line in sorted(found))
 
 
 def _open(problem: Problem) -> list[str]:
-    """The message servers that get messages from outside."""
+    """The message servers of rebecs that get messages from outside."""
+    analysis = problem.analysis
+    main = analysis.model.main
+    started = {r.type.name for r in main.rebecs} if main is not None else set()
+    lineages = (c.lineage for name, c in analysis.classes.items() if name in started)
+    above = {name for lineage in lineages for name in lineage}
     return [
         f"{owner.name}.{member.name}"
-        for owner in problem.analysis.model.classes
-        if isinstance(owner, m.ReactiveClass)
+        for owner in analysis.model.classes
+        if isinstance(owner, m.ReactiveClass) and owner.name in above
         for member in owner.members
         if isinstance(member, m.MessageServer) and any(a.name == OPEN for a in member.annotations)
     ]
 
 
-def _unread_reason(lines: list[int]) -> str:
-    count = len(lines)
-    what = "statement stands" if count == 1 else "statements stand"
-    where = "line" if count == 1 else "lines"
-    shown = _some(lines)
-    return f"{count} {what} for code that was not read, and that may do anything: {where} {shown}"
+def _unread_reason(places: Sequence[str]) -> str:
+    count = len(places)
+    what = "a place was" if count == 1 else f"{count} places were"
+    return f"{what} not read and may do anything: {_some(places)}"
 
 
 def _open_reason(servers: list[str]) -> str:
     return f"nobody in the model sends what comes from outside to {_some(servers)}"
 
 
-def _some(places: Iterable[object]) -> str:
-    texts = list(map(str, places))
-    return ", ".join(texts[:_SHOWN]) + (", ..." if len(texts) > _SHOWN else "")
+def _some(places: Sequence[str]) -> str:
+    return ", ".join(places[:_SHOWN]) + (", ..." if len(places) > _SHOWN else "")

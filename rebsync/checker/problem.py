@@ -21,8 +21,9 @@ Fairness: TypeAlias = Literal["none", "weak", "progress"]
 class Problem:
     """A model without errors, and the properties that it is to have, with their texts.
 
-    Of a model that was extracted `code` has the places by its lines; what is said of it is true of
-    the code under the `assumptions`, and because of `gaps` nothing is proved.
+    Of a model that was extracted `code` has the places by its lines, `unread` what it lacks; what
+    is said of it is true of the code under the `assumptions`, and because of `gaps` nothing is
+    proved.
     """
 
     source: Source
@@ -31,6 +32,7 @@ class Problem:
     property_source: Source | None = None
     assumptions: tuple[str, ...] = ()
     gaps: tuple[str, ...] = ()
+    unread: tuple[str, ...] = ()
     code: Mapping[int, str] = field(default_factory=dict)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -67,6 +68,7 @@ def _problem(
     from rebsync.cli.problem import analysed, properties_of
     from rebsync.grammars.parser import parse_model
     from rebsync.printing import print_model
+    from rebsync.properties import Properties
     from rebsync.roundtrip.diff.correspondence import code_places
 
     text = print_model(closed.model)
@@ -78,10 +80,20 @@ def _problem(
     analysis = analysed(source, untimed=False)
     places = code_places(source, parse_model(source).model, closed.model)
     code = {line: f"{_shown(place.source.path)}:{place.line}" for line, place in places}
-    told = closed.assumptions, closed.gaps, code
-    if properties is None:
-        return Problem(source, analysis, assumptions=told[0], gaps=told[1], code=told[2])
-    return Problem(source, analysis, properties_of(properties, analysis), properties, *told)
+    checked = properties_of(properties, analysis) if properties is not None else Properties()
+    unread = tuple(_unread(closed))
+    told = closed.assumptions, closed.gaps, unread, code
+    return Problem(source, analysis, checked, properties, *told)
+
+
+def _unread(closed: ClosedPackage) -> Iterator[str]:
+    """What the model lacks, with the places."""
+    from rebsync.reverse.findings import Grade
+
+    for finding in closed.findings:
+        if finding.grade is Grade.UNREADABLE:
+            line = finding.source.position(finding.span.start).line
+            yield f"{_shown(finding.source.path)}:{line} ({finding.why})"
 
 
 def _shown(path: str) -> str:

@@ -168,8 +168,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
 
 def _read(model: str, given: dict[str, Any]) -> Problem:
     """The model in a file, or that of the code of a package."""
-    is_code = Path(model).is_dir() or Path(model).name == "package.xml"
-    if not is_code:
+    if not _is_package(model):
         for option in ("environment", "written"):
             if given[option]:
                 raise click.UsageError("--environment and --model are for packages of code")
@@ -186,7 +185,6 @@ def _options(given: dict[str, Any], model: str) -> Options:
     """The options of the command line, and what the settings beside the model allow."""
     from rebsync.checker.exploration import INSTRUCTIONS, Limits
     from rebsync.checker.problem import Options
-    from rebsync.config import settings_beside
 
     if given["language"] == "core" and given["fairness"] == "progress":
         raise click.UsageError("--language core has no time: leave --fairness progress out")
@@ -201,11 +199,22 @@ def _options(given: dict[str, Any], model: str) -> Options:
             given["max_instructions"] or INSTRUCTIONS,
         ),
         fairness=given["fairness"],
-        allowed=frozenset({*given["allow"], *settings_beside(model)[1].allow}),
+        allowed=frozenset({*given["allow"], *_allowed(model)}),
         hash_compaction=given["hash_compaction"],
         reduce=given["reduce"],
         first=_first(given),
     )
+
+
+def _is_package(path: str) -> bool:
+    return Path(path).is_dir()
+
+
+def _allowed(model: str) -> tuple[str, ...]:
+    """What the settings beside a model allow; nodes of a package may wait for messages for ever."""
+    from rebsync.config import settings_beside
+
+    return ("deadlock",) if _is_package(model) else settings_beside(model)[1].allow
 
 
 def _first(given: dict[str, Any]) -> bool:

@@ -42,7 +42,7 @@ def closed(model: m.Model, ends: Sequence[OpenEnd], properties: Properties) -> C
     started = {r.name for r in model.main.rebecs} if model.main is not None else set()
     at = [e for e in ends if e.rebec in started]
     if not at:
-        return Closed(model)
+        return Closed(replace(model, classes=tuple(map(without_open, model.classes))))
     environment = _Environment(model, properties, set(started))
     for together in _topics(at).values():
         environment.add(together)
