@@ -186,6 +186,9 @@ PROPERTIES = {
     "RS909": "an index that the array does not have",
     "RS910": "a definition that is never used",
     "RS911": "a property file without its model",
+    "RS912": "a question that is not understood",
+    "RS913": "a topic, field or constant in a question that the package does not have",
+    "RS914": "a topic in a question that several nodes have",
 }
 
 EXTRACTION = {

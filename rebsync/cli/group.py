@@ -10,6 +10,7 @@ from rebsync.diagnostics import did_you_mean
 
 COMMANDS = {
     "accept": "Accept places of which no verdict can be given.",
+    "ask": "Answer a question about what the nodes of a package do.",
     "check": "Tell whether packages and their models are in step.",
     "conform": "Tell whether a recorded run is a run of the model.",
     "diff": "Compare two models, packages of code, or revisions of either.",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,10 +25,31 @@ def read_package(
     Mistakes of the properties are RebsyncErrors, as is code in which no node is found, or several
     packages. The model is written to the file `written`, if there is one.
     """
+    properties = read_source(property_file) if property_file is not None else None
+    return _closed(path, _files(path), properties, choice, written)
+
+
+def read_question(
+    path: str, question: str, choice: EnvironmentChoice, written: str | None = None
+) -> Problem:
+    """The same with a question as its only property. RebsyncError: it cannot be asked."""
+    from rebsync.grammars.questions import parse_question
+    from rebsync.reverse.environment.package import asked_of
+
+    text = Source("the question", question)
+    files, asked = asked_of(_files(path), text, parse_question(text))
+    return _closed(path, files, Source("the question", asked), choice, written)
+
+
+def _closed(
+    path: str,
+    files: Mapping[str, Source],
+    properties: Source | None,
+    choice: EnvironmentChoice,
+    written: str | None,
+) -> Problem:
     from rebsync.reverse.environment.package import closed_package
 
-    properties = read_source(property_file) if property_file is not None else None
-    files = _files(path)
     closed = closed_package(files, _parsed(properties), choice)
     if closed.model.main is None or not closed.model.classes:
         hint = "--format json of `rebsync extract` tells what the code asks of ROS"

@@ -2,7 +2,8 @@
 
 `out_cmd_vel_linear_x` is the field `linear.x` of what a rebec has published to `/cmd_vel` last,
 `in_bumper_data` the field `data` of what it got last from `/bumper`; `out_cmd_vel` and `in_bumper`
-are true from the first message on. They are set together with what sends or serves the message.
+are true from the first message on, `out_count_cmd_vel` counts messages, as far as properties do.
+They are set together with what sends or serves the message.
 """
 
 from __future__ import annotations
@@ -19,15 +20,16 @@ from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.nodes.node_joined import OBSERVER, Joined, Observed
 from rebsync.reverse.nodes.node_names import model_word
 
-_BOOLEAN = m.Type("boolean")
+ANY = ""  # in the place of a field's path: whether there was a message
+COUNT = "#"  # and how many there were
 
 
 @dataclass(frozen=True, slots=True)
 class Observation:
     """A state variable that looks at the messages of a topic in one class.
 
-    `path` is that of the field, empty for whether there was a message. `server` is the one that
-    gets the messages, empty for those that the class publishes.
+    `path` is that of the field, or `ANY` or `COUNT`. `server` is the one that gets the messages,
+    empty for those that the class publishes.
     """
 
     owner: str
@@ -52,7 +54,7 @@ def observations(joined: Joined, types: MessageTypes) -> Iterator[tuple[str, Obs
             topics = {instance.topic(f.topic) for f in server.subscriptions}
             topic = topics.pop() if len(topics) == 1 else None
             if isinstance(topic, str):
-                taken = ("", *joined.taken(instance.start.unit.name, server))
+                taken = (ANY, COUNT, *joined.taken(instance.start.unit.name, server))
                 for path, type_ in _fields(types, server.type):
                     if path in taken:
                         name = _variable("in", topic, path)
@@ -61,8 +63,9 @@ def observations(joined: Joined, types: MessageTypes) -> Iterator[tuple[str, Obs
 
 
 def _fields(types: MessageTypes, type_: object) -> Iterator[tuple[str, m.Type]]:
-    """The fields that the model can hold, and first that there was a message at all."""
-    yield "", _BOOLEAN
+    """What is known of each message, and the fields that the model can hold."""
+    yield ANY, m.Type("boolean")
+    yield COUNT, m.Type("int")
     fields = types.fields(type_) if isinstance(type_, str) else None
     for path, of in (fields or {}).items():
         if of is not None and not of.dimensions:
@@ -70,7 +73,13 @@ def _fields(types: MessageTypes, type_: object) -> Iterator[tuple[str, m.Type]]:
 
 
 def _variable(direction: str, topic: str, path: str) -> str:
-    words = [direction, model_word(topic), *([path.replace(".", "_")] if path else [])]
+    match path:
+        case "":
+            words = [direction, model_word(topic)]
+        case "#":
+            words = [direction, "count", model_word(topic)]
+        case _:
+            words = [direction, model_word(topic), path.replace(".", "_")]
     return "_".join(words)
 
 
@@ -80,7 +89,7 @@ def observed_fields(wanted: Iterable[Observation]) -> Observed:
     for each in wanted:
         if not each.server:
             paths = found.setdefault(each.topic, {})
-            if each.path:
+            if each.path not in (ANY, COUNT):
                 paths[each.path] = None
     return {topic: tuple(paths) for topic, paths in found.items()}
 
@@ -90,10 +99,12 @@ def with_observations(
     wanted: Collection[Observation],
     observed: Observed,
     fields: Mapping[str, tuple[str, ...]],
+    most: int,
 ) -> m.ReactiveClass:
     """The class with the state variables that it is asked for, which its bodies set.
 
-    What it sends to the observer is taken out. `fields` are those that its servers get.
+    What it sends to the observer is taken out. `fields` are those that its servers get. Messages
+    are counted up to `most`.
     """
     own = [o for o in wanted if o.owner == owner.name]
     variables = frozenset(o.variable for o in own)
@@ -101,12 +112,9 @@ def with_observations(
     def stored(part: object) -> object:
         match part:
             case m.ExpressionStatement(m.Call(m.Name(name), topic, arguments)) if name == OBSERVER:
-                values = {
-                    "": m.BoolLiteral(True),
-                    **dict(zip(observed[topic], arguments, strict=True)),
-                }
+                values = dict(zip(observed[topic], arguments, strict=True))
                 sent = [o for o in own if o.topic == topic and not o.server]
-                return m.Block(tuple(_assign(o.variable, values[o.path]) for o in sent))
+                return m.Block(tuple(_noted(sent, values, most)))
             case m.Block(statements):
                 return replace(part, statements=tuple(_flat(statements, variables)))
             case _:
@@ -117,7 +125,9 @@ def with_observations(
         member = rewritten(member, stored)
         if isinstance(member, m.MessageServer) and member.body is not None:
             heard = [o for o in own if o.server == member.name]
-            member = _after(_received(heard, member, fields.get(member.name, ())), member)
+            names = (m.Name(p.name) for p in member.parameters)
+            given = dict(zip(fields.get(member.name, ()), names, strict=False))
+            member = _after(_noted(heard, given, most), member)
         if isinstance(member, m.Constructor) and member.body is not None:
             member = _after([_assign(o.variable, zero_of(o.type)) for o in own], member)
         members.append(member)
@@ -148,15 +158,21 @@ def _sets(statement: m.Statement, variables: Collection[str]) -> bool:
             return False
 
 
-def _received(
-    heard: Iterable[Observation], server: m.MessageServer, fields: tuple[str, ...]
+def _noted(
+    observations: Iterable[Observation], values: Mapping[str, m.Expression], most: int
 ) -> Iterator[m.Statement]:
-    """What a server notes of the message that it begins to serve."""
-    given = {path: m.Name(p.name) for path, p in zip(fields, server.parameters, strict=False)}
-    for each in heard:
-        value = m.BoolLiteral(True) if not each.path else given.get(each.path)
-        if value is not None:
-            yield _assign(each.variable, value)
+    """What is noted of a message with some values of fields."""
+    for each in observations:
+        own = m.Name(each.variable)
+        match each.path:
+            case "":
+                yield _assign(each.variable, m.BoolLiteral(True))
+            case "#":
+                more = m.Binary("+", own, m.IntLiteral(1))
+                fewer = m.Binary("<", own, m.IntLiteral(most))
+                yield _assign(each.variable, m.Conditional(fewer, more, own))
+            case path if path in values:
+                yield _assign(each.variable, values[path])
 
 
 def _after(

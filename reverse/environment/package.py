@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import reduce
@@ -11,9 +11,11 @@ from typing import Literal, TypeAlias
 from rebsync import model as m
 from rebsync.config import FILE_NAME
 from rebsync.properties import Formula, Properties, state_expressions
+from rebsync.questions import LeadsTo, Question
 from rebsync.records import dataclass
 from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.build.message_types import MessageTypes
+from rebsync.reverse.environment.asking import Asked
 from rebsync.reverse.environment.closing import Closed, closed, without_open
 from rebsync.reverse.environment.observation import (
     Observation,
@@ -53,13 +55,13 @@ class ClosedPackage:
 
 
 def closed_package(
-    files: Mapping[str, Source], properties: Properties, choice: EnvironmentChoice
+    files: Mapping[str, Source],
+    properties: Properties,
+    choice: EnvironmentChoice,
 ) -> ClosedPackage:
     """The model of a package with its environment, where properties can name its topics."""
     files, extracted = in_fitting_unit(files)
-    manifest = files.get(_MANIFEST)
-    types = MessageTypes.of(files, name_in(manifest) or "" if manifest is not None else "")
-    wanted = tuple(_wanted(extracted, types, properties))
+    wanted = tuple(_wanted(extracted, message_types(files), properties))
     observed = observed_fields(wanted)
     if observed:
         extracted = extract(files, observed=observed)
@@ -67,7 +69,7 @@ def closed_package(
     fields = _fields(joined)
     model = extracted.model
     classes = tuple(
-        with_observations(c, wanted, observed, fields.get(c.name, {}))
+        with_observations(c, wanted, observed, fields.get(c.name, {}), _counted(properties))
         if isinstance(c, m.ReactiveClass)
         else c
         for c in model.classes
@@ -78,6 +80,18 @@ def closed_package(
     assumptions = (*_assumed(extracted, joined), *around.assumptions, *_time(unit, around))
     findings = tuple(different(extracted.findings))
     return ClosedPackage(around.model, findings, unit, assumptions, around.gaps)
+
+
+def asked_of(
+    files: Mapping[str, Source], text: Source, question: Question
+) -> tuple[Mapping[str, Source], str]:
+    """A question as a property file, and the files with a unit of time that fits it as well."""
+    within = question.within if isinstance(question, LeadsTo) else None
+    files, extracted = in_fitting_unit(files, () if within is None else (within,))
+    types = message_types(files)
+    seen = tuple(observations(extracted.joined, types))
+    asked = Asked(text, seen, types.constants(), unit_of_time(files))
+    return files, asked.property_text(question)
 
 
 def _surrounded(
@@ -94,21 +108,29 @@ def _surrounded(
 # --- the unit of time ---------------------------------------------------------------------------
 
 
-def in_fitting_unit(files: Mapping[str, Source]) -> tuple[Mapping[str, Source], Extracted]:
-    """The files, read in a unit of time that divides all their times.
+def message_types(files: Mapping[str, Source]) -> MessageTypes:
+    """The message types that a package knows."""
+    manifest = files.get(_MANIFEST)
+    return MessageTypes.of(files, (name_in(manifest) or "") if manifest is not None else "")
 
-    That is a second, or less where the code has other times, unless `rebsync.toml` says it.
+
+def in_fitting_unit(
+    files: Mapping[str, Source], times: Collection[Fraction] = ()
+) -> tuple[Mapping[str, Source], Extracted]:
+    """The files, read in a unit of time that divides all their times, and some `times` in seconds.
+
+    That is a second, or less where there are others, unless `rebsync.toml` says it.
     """
     extracted = extract(files)
     settings = files.get(FILE_NAME)
     if settings is not None and "time_unit" in settings.text:
         return files, extracted
     text, path = (settings.text, settings.path) if settings is not None else ("", FILE_NAME)
-    unit = Fraction(1)
+    unit = reduce(common_measure, times, Fraction(1))
     for _ in range(_ROUNDS):
-        if not extracted.times:
-            break
         unit = reduce(common_measure, extracted.times, unit)
+        if unit == unit_of_time(files):
+            break
         files = {**files, FILE_NAME: Source(path, f"time_unit = {float(unit)!r}\n{text}")}
         extracted = extract(files)
     return files, extracted
@@ -141,6 +163,13 @@ def _named(properties: Properties) -> Iterator[tuple[str, str]]:
                 match node:
                     case m.Member(m.Name(rebec), variable):
                         yield rebec, variable
+
+
+def _counted(properties: Properties) -> int:
+    """A number above all that properties name: up to this messages are counted."""
+    formulas = (*(d.value for d in properties.defines), *(p.formula for p in properties.all))
+    parts = (n for f in formulas for e in state_expressions(f) for n in m.walk(e))
+    return 1 + max((n.value for n in parts if isinstance(n, m.IntLiteral)), default=0)
 
 
 def _fields(joined: Joined) -> dict[str, dict[str, tuple[str, ...]]]:
