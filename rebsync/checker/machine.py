@@ -28,11 +28,10 @@ from rebsync.checker.values import (
     quotient,
     real,
     remainder,
-    single,
     whole,
-    wrap,
 )
 from rebsync.records import dataclass
+from rebsync.static.constants import single, wrap
 
 FOREVER = 2**31 - 1  # what currentMessageDeadline reads without a deadline, as in RMC
 

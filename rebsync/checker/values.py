@@ -6,18 +6,12 @@ import math
 import struct
 
 from rebsync.checker.program import Cell, Kind
+from rebsync.static.constants import single, wrap
 
 _BITS: dict[str, int] = {"byte": 8, "short": 16, "int": 32}
 _NAN = 0x7FF8000000000000
 _PACK, _UNPACK = struct.Struct("<d").pack, struct.Struct("<d").unpack
 _PACK_CELL, _UNPACK_CELL = struct.Struct("<q").pack, struct.Struct("<q").unpack
-_SINGLE = struct.Struct("<f")
-
-
-def wrap(value: int, bits: int = 32) -> int:
-    """The value that an integer of so many bits keeps."""
-    half = 1 << (bits - 1)
-    return (value + half) % (2 * half) - half
 
 
 def cell_of(value: float) -> Cell:
@@ -32,15 +26,6 @@ def real(cell: Cell) -> float:
     """The double that a cell holds."""
     value: float = _UNPACK(_PACK_CELL(cell))[0]
     return value
-
-
-def single(value: float) -> float:
-    """The value rounded to a float of 32 bits."""
-    try:
-        rounded: float = _SINGLE.unpack(_SINGLE.pack(value))[0]
-    except OverflowError:
-        return math.copysign(math.inf, value)
-    return rounded
 
 
 def whole(value: float) -> int:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import operator
+import struct
 from collections.abc import Callable
 from typing import TypeAlias
 
@@ -22,6 +24,7 @@ from rebsync.model import (
 Value: TypeAlias = int | float | bool
 Lookup: TypeAlias = Callable[[Name], Value | None]
 
+_SINGLE = struct.Struct("<f")
 _BITS = {"byte": 8, "short": 16, "int": 32}
 
 
@@ -70,6 +73,15 @@ def _chain(expression: Binary, lookup: Lookup) -> Value | None:
 def float_value(text: str) -> float:
     """The value of a float literal as written, suffix and underscores included."""
     return float(text.replace("_", "").rstrip("fFdD"))
+
+
+def single(value: float) -> float:
+    """The value rounded to a float of 32 bits."""
+    try:
+        rounded: float = _SINGLE.unpack(_SINGLE.pack(value))[0]
+    except OverflowError:
+        return math.copysign(math.inf, value)
+    return rounded
 
 
 def wrap(value: int, bits: int = 32) -> int:

@@ -76,7 +76,9 @@ class Asked:
                 return self._after_first([word], self._operand(word), holds)
             case q.Comparison(operator, left, right):
                 words = [w for w in (left, right) if isinstance(w, q.Word)]
-                text = f"{self._operand(left)} {operator} {self._operand(right)}"
+                kinds = {found[1].type.name for w in words if (found := self._field(w))}
+                sides = (self._operand(side, kinds) for side in (left, right))
+                text = f" {operator} ".join(sides)
                 return self._after_first(words, text, holds)
 
     def _after_first(self, words: Collection[q.Word], text: str, holds: bool) -> str:
@@ -93,7 +95,8 @@ class Asked:
             if (r, o.topic, o.server, o.path) == (rebec, seen.topic, seen.server, ANY)
         )
 
-    def _operand(self, operand: q.Operand) -> str:
+    def _operand(self, operand: q.Operand, beside: Collection[str] = ()) -> str:
+        """An operand, which is compared with values of the types `beside` it."""
         match operand:
             case q.Word():
                 found = self._field(operand)
@@ -102,6 +105,8 @@ class Asked:
                 return str(self._constant(operand))
             case bool():
                 return str(operand).lower()
+            case float():
+                return f"{operand!r}{'d' if 'double' in beside else ''}"
             case number:
                 return str(number)
 
@@ -142,6 +147,10 @@ class Asked:
         raise self._mistake("RS914", word.span, f'"{text}" is several', f"name one: {several}")
 
     def _hint(self, text: str) -> str:
+        topic = text.rpartition(":")[2]
+        fields = [_longest(o) for _, o in self.observations if o.path and topic in _topics(o)]
+        if fields := [f for f in dict.fromkeys(fields) if "." in f]:
+            return f"name a field: {', '.join(fields[:_SHOWN])}"
         names = sorted({n for _, o in self.observations for n in _names(o) if o.path != COUNT})
         plain = [n for n in names if not n.startswith("/")]
         return did_you_mean(text, names) or f"there are: {', '.join(plain[:_SHOWN])}"
@@ -150,17 +159,22 @@ class Asked:
         return RebsyncError([Findings(self.source, (Diagnostic(code, span, message, hint),))])
 
 
-def _names(seen: Observation) -> Iterator[str]:
-    """What an observation can be called: with the last words of its topic, or all."""
-    end = f".{seen.path}" if seen.path not in (ANY, COUNT) else ""
+def _topics(seen: Observation) -> Iterator[str]:
+    """What the topic of an observation can be called: its last words, or all."""
     words = seen.topic.strip("/").split("/")
     for first in range(len(words)):
-        yield "/".join(words[first:]) + end
-    yield seen.topic + end
+        yield "/".join(words[first:])
+    yield seen.topic
+
+
+def _names(seen: Observation) -> Iterator[str]:
+    """What an observation can be called."""
+    end = f".{seen.path}" if seen.path not in (ANY, COUNT) else ""
+    return (topic + end for topic in _topics(seen))
 
 
 def _longest(seen: Observation) -> str:
-    return max(_names(seen), key=len)
+    return max(_names(seen), key=len).removeprefix("/")
 
 
 def _assertion(text: str) -> str:

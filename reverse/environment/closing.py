@@ -89,7 +89,7 @@ class _Environment:
             for end, own in zip(ends, parameters, strict=True)
         ]
         chosen = [
-            m.Local(m.Declaration(f.type, (m.Declarator(f.variable, _choice(f.values)),)))
+            m.Local(m.Declaration(f.type, (m.Declarator(f.variable, _choice(f)),)))
             for f in fields.values()
         ]
         again = m.ExpressionStatement(m.Call(m.Self(), name, (), m.IntLiteral(1)))
@@ -193,9 +193,20 @@ def _delays(owner: m.ReactiveClass) -> Iterator[int]:
                 yield units
 
 
-def _choice(values: Sequence[Value]) -> m.Expression | None:
-    literals = tuple(map(literal_of, values))
+def _choice(of: _Field) -> m.Expression | None:
+    literals = tuple(_literal(value, of.type) for value in of.values)
     return m.Choice(literals) if len(literals) > 1 else next(iter(literals), None)
+
+
+def _literal(value: Value, type_: m.Type) -> m.Expression:
+    literal = literal_of(value)
+    match literal:
+        case m.FloatLiteral(text) if type_.name == "double":
+            return m.FloatLiteral(f"{text}d")
+        case m.Unary("-", m.FloatLiteral(text)) if type_.name == "double":
+            return m.Unary("-", m.FloatLiteral(f"{text}d"))
+        case _:
+            return literal
 
 
 def _some(values: Sequence[Value]) -> str:

@@ -18,13 +18,16 @@ from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.asking import Asked
 from rebsync.reverse.environment.closing import Closed, closed, without_open
 from rebsync.reverse.environment.observation import (
+    ANY,
+    COUNT,
     Observation,
     observations,
     observed_fields,
     with_observations,
 )
+from rebsync.reverse.environment.overwriting import overwritten
 from rebsync.reverse.findings import Finding, Grade
-from rebsync.reverse.nodes.node_joined import Joined
+from rebsync.reverse.nodes.node_joined import Joined, Observed
 from rebsync.reverse.nodes.node_system import unit_of_time
 from rebsync.reverse.nodes.node_times import common_measure
 from rebsync.reverse.nodes.node_wiring import nobody_publishes, nobody_subscribes
@@ -78,8 +81,9 @@ def closed_package(
     around = _surrounded(replace(model, classes=classes), ends, properties, choice)
     unit = unit_of_time(files)
     assumptions = (*_assumed(extracted, joined), *around.assumptions, *_time(unit, around))
+    gaps = (*around.gaps, *_overwritten(model, wanted, observed))
     findings = tuple(different(extracted.findings))
-    return ClosedPackage(around.model, findings, unit, assumptions, around.gaps)
+    return ClosedPackage(around.model, findings, unit, assumptions, gaps)
 
 
 def asked_of(
@@ -163,6 +167,16 @@ def _named(properties: Properties) -> Iterator[tuple[str, str]]:
                 match node:
                     case m.Member(m.Name(rebec), variable):
                         yield rebec, variable
+
+
+def _overwritten(
+    model: m.Model, wanted: Collection[Observation], observed: Observed
+) -> Iterator[str]:
+    """Topics of which properties look at fields, and of which not all messages are seen."""
+    asked = {(o.owner, o.topic) for o in wanted if not o.server and o.path not in (ANY, COUNT)}
+    for owner, topic in overwritten(model, observed):
+        if (owner, topic) in asked:
+            yield f"{owner} may publish to {topic} twice in one step: only the last is seen"
 
 
 def _counted(properties: Properties) -> int:

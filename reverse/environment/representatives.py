@@ -16,7 +16,7 @@ from rebsync import model as m
 from rebsync.intervals import INTEGERS
 from rebsync.properties import Properties, state_expressions
 from rebsync.records import dataclass
-from rebsync.static.constants import Value, constant
+from rebsync.static.constants import Value, constant, single
 
 _COMPARISONS = frozenset({"==", "!=", "<", "<=", ">", ">="})
 _LOGIC = frozenset({"&&", "||"})
@@ -51,13 +51,18 @@ def representatives(
         return Representatives((False, True), True)
     flow = DataFlow(type_.name, _constants(model), set(places))
     flow.follow(model, properties)
-    values = _reals(flow.cuts) if type_.name in _REAL else _integers(flow.cuts, type_.name)
+    integer = type_.name in INTEGERS
+    values = _integers(flow.cuts, type_.name) if integer else _reals(flow.cuts, type_.name)
     return Representatives(tuple(values), flow.is_exact)
 
 
-def _reals(cuts: Iterable[Value]) -> Iterator[Value]:
-    """Each cut, and a number of each region: the one that is nearest to 0 below and above all."""
-    points = sorted({float(c) for c in cuts})
+def _reals(cuts: Iterable[Value], type_: str) -> Iterator[Value]:
+    """Each cut, and a number of each region: the one that is nearest to 0 below and above all.
+
+    A literal of the model may be one of single precision, which is another number.
+    """
+    numbers = [float(c) for c in cuts]
+    points = sorted({*map(single, numbers), *(numbers if type_ == "double" else ())})
     if not points:
         yield 0.0
         return

@@ -16,8 +16,9 @@ from rebsync.checker.exploration import Limits
 from rebsync.checker.machine import Machine
 from rebsync.checker.program import NO_DEADLINE, Cell, Instruction, Program, Slot
 from rebsync.checker.state import Message
-from rebsync.checker.values import cell_of, single
+from rebsync.checker.values import cell_of
 from rebsync.model import Type
+from rebsync.static.constants import single
 from tests.checker.comparing import System
 
 pytestmark = pytest.mark.skipif(

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-import struct
 
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.conversions import holds
 from rebsync.reverse.ir.cpp.types import CHAR, FLOAT, INT, LONG, SIZE, STRING, UNSIGNED
 from rebsync.source import Span
+from rebsync.static.constants import single
 
 _ESCAPES = {
     **{"n": "\n", "t": "\t", "r": "\r", "0": "\0", "a": "\a", "b": "\b", "f": "\f", "v": "\v"},
@@ -55,15 +55,6 @@ def _floating(text: str, plain: str, place: Span) -> e.Literal | None:
     if suffix == "f":
         return e.Literal(single(value), FLOAT, text, place)
     return e.Literal(value, t.DOUBLE, text, place)
-
-
-def single(value: float) -> float:
-    """The nearest float of 32 bits."""
-    try:
-        found: float = struct.unpack("f", struct.pack("f", value))[0]
-    except OverflowError:
-        return float("inf") if value > 0 else float("-inf")
-    return found
 
 
 def character(text: str, place: Span) -> e.Literal | None:
