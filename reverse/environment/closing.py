@@ -211,4 +211,5 @@ def _literal(value: Value, type_: m.Type) -> m.Expression:
 
 def _some(values: Sequence[Value]) -> str:
     literals = [str(v).lower() if isinstance(v, bool) else f"{v:g}" for v in values]
-    return f"one of {', '.join(literals)}" if len(literals) > 1 else "".join(literals)
+    told = tuple(dict.fromkeys(literals))
+    return f"one of {', '.join(told)}" if len(told) > 1 else "".join(told)
