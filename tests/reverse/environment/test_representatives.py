@@ -131,6 +131,7 @@ def test_what_does_more_than_to_copy_and_compare_is_not_exact(body: str) -> None
         ("b = v > 3;", "int", (0, 3, 4)),
         ("b = v < -3;", "int", (-4, -3, 0)),
         ("b = v == 1; b = v == 2;", "int", (0, 1, 2, 3)),
+        ("b = v == 1; b = v == 3;", "int", (0, 1, 2, 3, 4)),
         ("b = v > 127;", "byte", (0, 127)),
         ("b = v > 1.5;", "int", (0, 1, 2, 3)),
         ("b = v > 0.5d;", "double", (0.0, 0.5, 1.5)),
