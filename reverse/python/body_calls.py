@@ -194,7 +194,7 @@ def value_of_method(reader: BodyExpressionReader, own: Scope, call: Node) -> Val
             raise Unknown(span, f'the model cannot know what "{own.name}" gives', "")
     if len(body) != 1 or body[0].type != "return_statement" or own.decorators:
         raise Unread(span, f'the value of "{own.name}" is not read')
-    inner = Frame(own, server=reader.frame.server)
+    inner = Frame(own, server=reader.frame.server, outer=reader.frame)
     for parameter, node, given in arguments(own, call, span):
         if node is None or not given:
             ways = reader.reading.values.ways(node, own) if node is not None else ()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 from tree_sitter import Node
 
@@ -11,6 +12,7 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.tables.standard import LOCKS
 from rebsync.reverse.python.body_reading import Reading, nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
+from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_index import Scope, last_name
 from rebsync.reverse.python.py_tree import decorators_of, field, named, nodes_in, text_of
@@ -66,6 +68,38 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     return name in libraries.harmless() or (
         bool(name) and libraries.acting().match(name) is None and _ends(name)
     )
+
+
+def may_be_of_message(reading: Reading, target: Node, frame: Frame) -> bool:
+    """Whether what is stored in may be a message in a variable: it is called like a field of one.
+
+    An object of a class of the files is none, nor is what a call of something external makes, but
+    for messages of such a type.
+    """
+    types, name = reading.learnt.messages(), text_of(target).rpartition(".")[2]
+    held = (reading.types.fields(type_) or {} for type_ in types)
+    if not any(path.rpartition(".")[2] == name for fields in held for path in fields):
+        return False
+    at = target
+    while at.type in ("attribute", "subscript"):
+        inner = at.child_by_field_name("object") or at.child_by_field_name("value")
+        if inner is None or text_of(inner) == frame.scope.self_name:
+            break
+        at = inner
+        ways = reading.values.ways(at, frame.scope)
+        if ways and all(_is_other_object(way, types) for way in ways):
+            return False
+    return at != target
+
+
+def _is_other_object(way: Value, messages: Collection[str]) -> bool:
+    match way:
+        case Instance():
+            return True
+        case Made(by):
+            return interface_of(by) not in messages
+        case _:
+            return False
 
 
 def defines_only(reading: Reading, node: Node, frame: Frame) -> bool:

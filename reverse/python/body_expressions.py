@@ -121,7 +121,8 @@ class PyExpressions(BodyExpressionReader):
         if kind is None:
             self.reading.learnt.pending.add(variable.key)
             raise Pending(self._span(node), f'nothing that is read gives "{short(node)}" a value')
-        if not variable.is_state and text_of(node) not in self.frame.assigned:
+        owner = self.frame.owner_of(variable.key) or self.frame
+        if not variable.is_state and text_of(node) not in owner.assigned:
             raise Unread(self._span(node), f'"{short(node)}" may have no value yet')
         mixed = self.reading.learnt.is_mixed(variable.key)
         return Value(m.Name(variable.name, self._span(node)), kind, mixed=mixed)

@@ -77,6 +77,13 @@ class Learnt:
         kind = self.kinds.get(key)
         return kind if kind is not None and (kind == OTHER or "/" in kind) else ""
 
+    def messages(self) -> frozenset[Kind]:
+        """The types of messages that some variables hold."""
+        return self._noted(self._messages, (), self._messages(()))
+
+    def _messages(self, _: Hashable) -> frozenset[Kind]:
+        return frozenset(kind for kind in self.kinds.values() if "/" in kind)
+
     def is_mixed(self, key: Key) -> bool:
         """Whether a variable of floats also gets whole numbers."""
         return self._noted(self._is_mixed, key, key in self.mixed)

@@ -25,6 +25,7 @@ from rebsync.reverse.python.body_scope import (
     Message,
     PyTarget,
     Value,
+    Var,
     bounds,
     field_kind,
     unknown,
@@ -278,10 +279,11 @@ def set_field(
     reader.reading.learnt.join(key, kind)
     if reader.reading.learnt.kind(key) == OTHER:
         return
-    name = reader.reading.field_name(message, path, reader.frame)
+    name = reader.reading.field_name(message, path, node, reader.frame)
     stored = reader.expressions.real(value, node) if kind == REAL else value.expression
     if kind == WHOLE:
         reader.expressions.need(value, node, f"set {path}")
         reader.reading.wide.add(name)
     local = f"{message.key[2]}.{path}"
-    yield from store(reader, name, TYPES[kind], stored, message.is_state, local, node)
+    variable = Var(message.key, name, message.is_state)
+    yield from store(reader, variable, TYPES[kind], stored, local, node)

@@ -35,7 +35,8 @@ def inlined(reader: BodyStatementReader, own: Scope, call: Node) -> Iterator[m.S
         raise Unread(span, "a function that leads to itself is not read")
     if not set(own.decorators) <= HARMLESS_DECORATORS or text_of(own.node).startswith("async"):
         raise Unread(span, "what decorates this function is not known")
-    frame = Frame(own, is_start=reader.frame.is_start, server=reader.frame.server)
+    outer = reader.frame
+    frame = Frame(own, is_start=outer.is_start, server=outer.server, outer=outer)
     frame.kept = kept_names(reader.reading, own) if frame.is_start else frozenset()
     inner = type(reader)(
         reader.reading, frame, reader.within, own.node, (*reader.running, own.node.id), reader.loops

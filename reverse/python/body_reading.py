@@ -12,7 +12,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.needs import Need
 from rebsync.reverse.build.message_types import MessageTypes
-from rebsync.reverse.findings import Findings
+from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import Fact
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.node_servers import Server
@@ -102,6 +102,9 @@ class Reading:
         if here and (around is None or text not in nonlocals(scope)):
             return self._local(text, scope, frame)
         while around is not None and around.kind not in (MODULE, CLASS) and text not in scope.outer:
+            owner = frame.of_scope(around.node.id)
+            if owner is not None and text in around.names:
+                return self.name(text, node, owner)
             if text in around.names and text not in [p.name for p in around.parameters]:
                 return self._variable(("local", around.node.id, text), text)
             around = around.parent
@@ -284,20 +287,22 @@ class Reading:
             case "other":
                 raise unknown(frame, node, f'"{text_of(node)}"')
             case _:
-                name = m.Name(self.field_name(message, path, frame), frame.span(node))
+                name = m.Name(self.field_name(message, path, node, frame), frame.span(node))
                 return Value(name, field_kind(type_))
 
-    def field_name(self, message: Message, path: str, frame: Frame) -> str:
+    def field_name(self, message: Message, path: str, node: Node, frame: Frame) -> str:
         """The variable that a field of a message in a variable is."""
         key = field_key(message, path)
         wish = f"{message.name}_{path.replace('.', '_')}"
         if message.is_state:
             return self.state_name(key, wish)
-        local = f"{message.key[2]}.{path}"
-        if local not in frame.names:
-            frame.names[local] = self.fresh(wish, key)
-            self.made.add(frame.names[local])
-        return frame.names[local]
+        owner, local = frame.owner_of(message.key), f"{message.key[2]}.{path}"
+        if owner is None:
+            raise Unread(frame.span(node), "a message of a function that is not under way")
+        if local not in owner.names:
+            owner.names[local] = self.fresh(wish, key)
+            self.made.add(owner.names[local])
+        return owner.names[local]
 
     def parameter(self, path: str) -> str:
         """The parameter of a server that a field of its message is."""

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.body_effects import is_harmless
+from rebsync.reverse.python.body_effects import is_harmless, may_be_of_message
+from rebsync.reverse.python.body_scope import Nobody
 from rebsync.reverse.python.body_variables import forget
 from rebsync.reverse.python.py_index import last_name
 from rebsync.reverse.python.py_tree import field, named
@@ -93,5 +94,10 @@ def _is_plain(reader: BodyStatementReader, node: Node, targets: list[Node]) -> b
 
 def _is_value(reader: BodyStatementReader, node: Node, targets: list[Node]) -> bool:
     if node.type in ("assignment", "augmented_assignment"):
-        targets.append(field(node, "left"))
+        target = field(node, "left")
+        meaning, _ = reader.expressions.meaning(target)
+        is_open = isinstance(meaning, Nobody)
+        if is_open and may_be_of_message(reader.reading, target, reader.frame):
+            return False
+        targets.append(target)
     return is_harmless(reader.reading, node, reader.frame)

@@ -123,7 +123,8 @@ class Frame:
     """One run of a function: what its names stand for while its body is read.
 
     `assigned` are the locals that have a value for sure; `hoisted` those that are declared before
-    all else; `depth` counts the statements around; `kept` says that its locals are state.
+    all else; `depth` counts the statements around; `kept` says that its locals are state. `outer`
+    is the run that it is called in, where that is read in its place.
     """
 
     scope: Scope
@@ -136,10 +137,22 @@ class Frame:
     kept: frozenset[str] = frozenset()
     is_start: bool = False
     server: str = ""
+    outer: Frame | None = None
 
     @property
     def py(self) -> Py:
         return self.scope.py
+
+    def of_scope(self, number: int) -> Frame | None:
+        """The run of the function with a node of this id, of those that are under way."""
+        at: Frame | None = self
+        while at is not None and at.scope.node.id != number:
+            at = at.outer
+        return at
+
+    def owner_of(self, key: Key) -> Frame | None:
+        """The run whose local a variable is; None for one of none of those under way."""
+        return self.of_scope(key[1]) if key[0] == "local" else None
 
     def span(self, node: Node) -> Span:
         return self.scope.py.span(node)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import body_messages, body_setup
-from rebsync.reverse.python.body_effects import is_harmless
+from rebsync.reverse.python.body_effects import is_harmless, may_be_of_message
 from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_reading import field_key
 from rebsync.reverse.python.body_scope import (
@@ -80,6 +81,9 @@ def _assigned(
             learnt.join(key, OTHER)
             outside(reader, value, node)
         case _:
+            if may_be_of_message(reader.reading, target, reader.frame):
+                why = "this may be a field of a message that has another name as well"
+                raise Unread(reader.frame.span(node), why)
             outside(reader, value, node)
 
 
@@ -88,7 +92,8 @@ def _is_changed(reader: BodyStatementReader, *names: Node) -> bool:
     holders = {text_of(name) for name in names} - {reader.frame.scope.self_name, "self"}
     code = reader.reading.code
     scopes = (*code.scopes.values(), *code.modules.values())
-    return any(holder.partition("[")[0] in holders for s in scopes for holder, _ in s.stores)
+    stored = (holder for s in scopes for holder, _ in s.stores)
+    return any(re.match(rf"{re.escape(own)}(?!\w)", at) for at in stored for own in holders)
 
 
 def outside(reader: BodyStatementReader, value: Node, node: Node) -> None:

@@ -51,27 +51,32 @@ def give(
     elif kind == WHOLE:
         reader.reading.wide.add(variable.name)
         reader.reading.places[variable.name] = reader.frame.py.source, reader.frame.span(node)
-    yield from store(reader, variable.name, TYPES[kind], stored, variable.is_state, local, node)
+    yield from store(reader, variable, TYPES[kind], stored, local, node)
 
 
 def store(
     reader: BodyStatementReader,
-    name: str,
+    variable: Var,
     type_: m.Type,
     value: m.Expression,
-    is_state: bool,
     local: str,
     node: Node,
 ) -> Iterator[m.Statement]:
-    """A variable of the model gets a value; a local is declared with its first one."""
-    span = reader.frame.span(node)
-    reader.frame.assigned.add(local)
-    if not is_state and name not in reader.frame.declared:
-        reader.frame.declared.add(name)
-        if not reader.frame.depth:
+    """A variable of the model gets a value; a local is declared with its first one.
+
+    Of a field of a message the variable has the key of the message. What a function sets for one
+    around it is declared there, and may have had no value before.
+    """
+    span, name = reader.frame.span(node), variable.name
+    frame = reader.frame.owner_of(variable.key) or reader.frame
+    if frame is reader.frame:
+        frame.assigned.add(local)
+    if not variable.is_state and name not in frame.declared:
+        frame.declared.add(name)
+        if frame is reader.frame and not frame.depth:
             yield declared(name, type_, value)
             return
-        reader.frame.hoisted[name] = type_
+        frame.hoisted[name] = type_
     yield m.ExpressionStatement(m.Assign("=", m.Name(name), value, span), (), span)
 
 
