@@ -25,6 +25,7 @@ from rebsync.reverse.nodes.node_starts import started_late
 from rebsync.reverse.nodes.node_tidying import tidy
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.nodes.node_unset import read_unset
+from rebsync.reverse.nodes.node_unset_locals import with_set_locals
 from rebsync.reverse.nodes.node_wide import Overflowing, overflowing
 from rebsync.source import Span
 from rebsync.statements import UNREADABLE
@@ -57,7 +58,9 @@ class NodeClass:
         functions.choose()
         body = bodies.constructor()
         methods = functions.read()
-        served = self._servers(methods)
+        served = [self._with_set_locals(s, methods) for s in self._servers(methods)]
+        body = with_set_locals(body, methods, bodies.findings, setup.within)
+        methods = [self._with_set_locals(method, methods) for method in methods]
         self.overflowing = overflowing(bodies, body, served, methods)
         body = self._begun(body, served, methods)
         arguments = tuple(m.Parameter(p.type, p.name) for p in setup.parameters)
@@ -84,6 +87,13 @@ class NodeClass:
             tuple(members),
             span=self._span(),
         )
+
+    def _with_set_locals(self, member: _Member, methods: Sequence[m.Method]) -> _Member:
+        if member.body is None:
+            return member
+        within = f"{self.bodies.unit.name}.{member.name}"
+        body = with_set_locals(member.body, methods, self.bodies.findings, within)
+        return replace(member, body=body)
 
     def _servers(self, methods: Sequence[m.Method]) -> list[m.MessageServer]:
         """The servers of callbacks, timers and loops; those of timers send to themselves again."""
