@@ -17,6 +17,7 @@ from rebsync.reserved import OPEN
 from rebsync.statements import UNREADABLE
 
 _SHOWN = 5  # places that a reason names
+_LOOSE = "a run may be none of the code, of which the model does more in these places"
 
 
 def limited(problem: Problem, result: Result) -> Result:
@@ -47,12 +48,14 @@ def _told_of_code(problem: Problem, result: Result) -> Result:
     """The result with what is assumed, and with the places in the code of what its runs do."""
     if not problem.assumptions and not problem.code:
         return result
-    caveats = (*result.caveats, *(f"assumed: {each}" for each in problem.assumptions))
+    caveats = [*result.caveats, *(f"assumed: {each}" for each in problem.assumptions)]
+    if problem.loose and result.violations:
+        caveats.append(f"{_LOOSE}: {_some(problem.loose)}")
     violations = tuple(
         replace(v, trace=replace(v.trace, steps=tuple(_in_code(s, problem) for s in v.trace.steps)))
         for v in result.violations
     )
-    return replace(result, caveats=caveats, violations=violations)
+    return replace(result, caveats=tuple(caveats), violations=violations)
 
 
 def _in_code(step: TraceStep, problem: Problem) -> TraceStep:

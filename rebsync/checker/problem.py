@@ -23,7 +23,8 @@ class Problem:
 
     Of a model that was extracted `code` has the places by its lines, `unread` what it lacks; what
     is said of it is true of the code under the `assumptions`, and because of `gaps` nothing is
-    proved.
+    proved. At the places of `loose` it does more than the code, so that a run need not be one of
+    the code.
     """
 
     source: Source
@@ -33,6 +34,7 @@ class Problem:
     assumptions: tuple[str, ...] = ()
     gaps: tuple[str, ...] = ()
     unread: tuple[str, ...] = ()
+    loose: tuple[str, ...] = ()
     code: Mapping[int, str] = field(default_factory=dict)
 
 

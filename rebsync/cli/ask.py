@@ -35,7 +35,14 @@ _STATUS = {
 )
 @click.option("--model", "written", metavar="FILE", help="Write the model of the package to FILE.")
 @click.option("--max-states", type=click.IntRange(1), metavar="N", help="Stop at N states.")
-@click.option("--max-time", callback=duration, metavar="TIME", help="Stop after 90, 90s, 5m or 1h.")
+@click.option(
+    "--max-time",
+    callback=duration,
+    metavar="TIME",
+    default="60s",
+    show_default=True,
+    help="Stop after 90, 90s, 5m or 1h.",
+)
 @click.option("--memory", callback=amount, metavar="SIZE", help="Stop at 500M or 2G of memory.")
 @click.option(
     "--format",
@@ -73,17 +80,18 @@ def command(
     problem = read_question(package, question, environment, written)
     limits = Limits(max_states, max_time, memory)
     with progress(sys.stderr) as report:
-        options = Options(limits=limits, allowed=frozenset({"deadlock"}))
+        options = Options(limits=limits, allowed=frozenset({"deadlock"}), first=True)
         result = verify(problem, options, report)
     _tell(_of_question(result), question, style, output)
     return _STATUS[result.verdict]
 
 
 def _of_question(result: Result) -> Result:
-    """What is said of a question: not what else was covered."""
+    """What is said of a question: not what else was covered, nor that a violation ended it."""
     from rebsync.checker.result import Coverage
 
-    return replace(result, coverage=Coverage((), (), ()))
+    reason = result.reason if result.verdict != "violated" else None
+    return replace(result, reason=reason, coverage=Coverage((), (), ()))
 
 
 def _tell(result: Result, question: str, style: str, output: str) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rebsync.checker.problem import Problem
     from rebsync.properties import Properties
     from rebsync.reverse.environment.package import ClosedPackage, EnvironmentChoice
+    from rebsync.reverse.findings import Grade
 
 
 def read_package(
@@ -90,6 +91,7 @@ def _problem(
     from rebsync.grammars.parser import parse_model
     from rebsync.printing import print_model
     from rebsync.properties import Properties
+    from rebsync.reverse.findings import Grade
     from rebsync.roundtrip.diff.correspondence import code_places
 
     text = print_model(closed.model)
@@ -102,19 +104,16 @@ def _problem(
     places = code_places(source, parse_model(source).model, closed.model)
     code = {line: f"{_shown(place.source.path)}:{place.line}" for line, place in places}
     checked = properties_of(properties, analysis) if properties is not None else Properties()
-    unread = tuple(_unread(closed))
-    told = closed.assumptions, closed.gaps, unread, code
+    listed = _listed(closed, Grade.UNREADABLE), _listed(closed, Grade.APPROXIMATED)
+    told = closed.assumptions, closed.gaps, *listed, code
     return Problem(source, analysis, checked, properties, *told)
 
 
-def _unread(closed: ClosedPackage) -> Iterator[str]:
-    """What the model lacks, with the places."""
-    from rebsync.reverse.findings import Grade
-
-    for finding in closed.findings:
-        if finding.grade is Grade.UNREADABLE:
-            line = finding.source.position(finding.span.start).line
-            yield f"{_shown(finding.source.path)}:{line} ({finding.why})"
+def _listed(closed: ClosedPackage, grade: Grade) -> tuple[str, ...]:
+    """The findings of a grade, each with its place."""
+    found = (f for f in closed.findings if f.grade is grade)
+    lines = ((f, f.source.position(f.span.start).line) for f in found)
+    return tuple(f"{_shown(f.source.path)}:{line} ({f.why})" for f, line in lines)
 
 
 def _shown(path: str) -> str:

@@ -118,7 +118,7 @@ class _Environment:
         if prod(len(f.values) for f in fields.values()) > _MOST:
             self.gaps.append(f"{name} has more than {_MOST:,} different messages")
         what = f"{name} is called" if end.is_service else f"{name} comes"
-        values = [f"{path} {_some(f.values)}" for path, f in fields.items()]
+        values = [f"{path} {_some(f.values)}{_finite(f)}" for path, f in fields.items()]
         said = f"{what} at most once in each unit of time"
         self.assumptions.append(f"{said}, with {', '.join(values)}" if values else said)
 
@@ -196,6 +196,10 @@ def _delays(owner: m.ReactiveClass) -> Iterator[int]:
 def _choice(of: _Field) -> m.Expression | None:
     literals = tuple(_literal(value, of.type) for value in of.values)
     return m.Choice(literals) if len(literals) > 1 else next(iter(literals), None)
+
+
+def _finite(of: _Field) -> str:
+    return ", a finite number" if of.type.name in ("float", "double") else ""
 
 
 def _literal(value: Value, type_: m.Type) -> m.Expression:

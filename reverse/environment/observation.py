@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
+from typing import TypeVar
 
 from rebsync import model as m
 from rebsync.records import dataclass
@@ -19,7 +20,9 @@ from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.nodes.node_joined import OBSERVER, Joined, Observed
 from rebsync.reverse.nodes.node_names import model_word
+from rebsync.reverse.nodes.open_ends import wholly_open
 
+_Begun = TypeVar("_Begun", m.MessageServer, m.Constructor)
 ANY = ""  # in the place of a field's path: whether there was a message
 COUNT = "#"  # and how many there were
 
@@ -41,7 +44,11 @@ class Observation:
 
 
 def observations(joined: Joined, types: MessageTypes) -> Iterator[tuple[str, Observation]]:
-    """All that can be observed, with the rebec of whom."""
+    """All that can be observed, with the rebec of whom.
+
+    Of messages from outside that are all fields; of others those that the receiver reads.
+    """
+    from_outside = wholly_open(joined)
     for instance in joined.wiring.instances:
         owner = joined.class_of(instance)
         for fact in instance.start.unit.facts:
@@ -56,7 +63,7 @@ def observations(joined: Joined, types: MessageTypes) -> Iterator[tuple[str, Obs
             if isinstance(topic, str):
                 taken = (ANY, COUNT, *joined.taken(instance.start.unit.name, server))
                 for path, type_ in _fields(types, server.type):
-                    if path in taken:
+                    if path in taken or (owner, server.name) in from_outside:
                         name = _variable("in", topic, path)
                         found = Observation(owner, name, topic, path, type_, server.name)
                         yield instance.name, found
@@ -127,7 +134,11 @@ def with_observations(
             heard = [o for o in own if o.server == member.name]
             names = (m.Name(p.name) for p in member.parameters)
             given = dict(zip(fields.get(member.name, ()), names, strict=False))
+            more = [o for o in heard if o.path not in (ANY, COUNT, *given)]
+            given.update((o.path, m.Name(_parameter(o))) for o in more)
             member = _after(_noted(heard, given, most), member)
+            parameters = (*member.parameters, *(m.Parameter(o.type, _parameter(o)) for o in more))
+            member = replace(member, parameters=parameters)
         if isinstance(member, m.Constructor) and member.body is not None:
             member = _after([_assign(o.variable, zero_of(o.type)) for o in own], member)
         members.append(member)
@@ -138,6 +149,25 @@ def with_observations(
     at = sum(isinstance(x, m.KnownRebecs | m.StateVars) for x in members)
     section = (m.StateVars(declared),) if declared else ()
     return replace(owner, members=(*members[:at], *section, *members[at:]))
+
+
+def unread_fields(
+    wanted: Iterable[Observation], fields: Mapping[str, Mapping[str, tuple[str, ...]]]
+) -> Mapping[tuple[str, str], tuple[str, ...]]:
+    """By class and server the fields that are asked for and that the server does not read.
+
+    `with_observations` gives it parameters for them, in this order behind its own.
+    """
+    found: dict[tuple[str, str], dict[str, None]] = {}
+    for each in wanted:
+        read = fields.get(each.owner, {}).get(each.server, ())
+        if each.server and each.path not in (ANY, COUNT, *read):
+            found.setdefault((each.owner, each.server), {})[each.path] = None
+    return {key: tuple(paths) for key, paths in found.items()}
+
+
+def _parameter(seen: Observation) -> str:
+    return f"{seen.variable}_given"
 
 
 def _flat(statements: Iterable[m.Statement], variables: Collection[str]) -> Iterator[m.Statement]:
@@ -175,12 +205,9 @@ def _noted(
                 yield _assign(each.variable, values[path])
 
 
-def _after(
-    first: Iterable[m.Statement], member: m.MessageServer | m.Constructor
-) -> m.MessageServer | m.Constructor:
-    assert member.body is not None
-    body = replace(member.body, statements=(*first, *member.body.statements))
-    return replace(member, body=body)
+def _after(first: Iterable[m.Statement], member: _Begun) -> _Begun:
+    body: m.Block = member.body or m.Block(())
+    return replace(member, body=replace(body, statements=(*first, *body.statements)))
 
 
 def _assign(name: str, value: m.Expression | None) -> m.Statement:

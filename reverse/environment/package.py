@@ -16,6 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.asking import Asked
+from rebsync.reverse.environment.assumptions import assumed
 from rebsync.reverse.environment.closing import Closed, closed, without_open
 from rebsync.reverse.environment.observation import (
     ANY,
@@ -23,14 +24,14 @@ from rebsync.reverse.environment.observation import (
     Observation,
     observations,
     observed_fields,
+    unread_fields,
     with_observations,
 )
 from rebsync.reverse.environment.overwriting import overwritten
-from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.findings import Finding
 from rebsync.reverse.nodes.node_joined import Joined, Observed
 from rebsync.reverse.nodes.node_system import unit_of_time
 from rebsync.reverse.nodes.node_times import common_measure
-from rebsync.reverse.nodes.node_wiring import nobody_publishes, nobody_subscribes
 from rebsync.reverse.nodes.open_ends import OpenEnd, open_ends
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import different
@@ -77,10 +78,14 @@ def closed_package(
         else c
         for c in model.classes
     )
-    ends = open_ends(joined)
+    more = unread_fields(wanted, fields)
+    ends = tuple(
+        replace(e, fields=(*e.fields, *more.get((e.owner, e.server), ())))
+        for e in open_ends(joined)
+    )
     around = _surrounded(replace(model, classes=classes), ends, properties, choice)
     unit = unit_of_time(files)
-    assumptions = (*_assumed(extracted, joined), *around.assumptions, *_time(unit, around))
+    assumptions = (*assumed(extracted), *around.assumptions, *_time(unit, around))
     gaps = (*around.gaps, *_overwritten(model, wanted, observed))
     findings = tuple(different(extracted.findings))
     return ClosedPackage(around.model, findings, unit, assumptions, gaps)
@@ -194,21 +199,3 @@ def _fields(joined: Joined) -> dict[str, dict[str, tuple[str, ...]]]:
         for server in joined.wiring.servers[instance.start.unit.name]:
             of_class[server.name] = joined.taken(instance.start.unit.name, server)
     return found
-
-
-# --- assumptions --------------------------------------------------------------------------------
-
-
-def _assumed(extracted: Extracted, joined: Joined) -> Iterator[str]:
-    """What the extraction assumed, but for who is at the other end of topics: that is closed."""
-    topics = {
-        topic
-        for instance in joined.wiring.instances
-        for fact in instance.start.unit.facts
-        if isinstance(topic := instance.topic(getattr(fact, "topic", "")), str)
-    }
-    closed_ends = {f(topic) for topic in topics for f in (nobody_publishes, nobody_subscribes)}
-    for finding in different(extracted.findings):
-        if finding.grade is Grade.ASSUMED and finding.why not in closed_ends:
-            line = finding.source.position(finding.span.start).line
-            yield f"{finding.source.path}:{line}: {finding.why}"

@@ -38,6 +38,16 @@ def open_ends(joined: Joined) -> tuple[OpenEnd, ...]:
     return tuple(dict.fromkeys((*fed, *_services(joined))))
 
 
+def wholly_open(joined: Joined) -> set[tuple[str, str]]:
+    """The servers, by their classes, that in all rebecs of the class get messages from outside."""
+    ends = {(e.owner, e.rebec, e.server) for e in open_ends(joined)}
+    rebecs: dict[str, list[str]] = {}
+    for instance in joined.wiring.instances:
+        rebecs.setdefault(joined.class_of(instance), []).append(instance.name)
+    pairs = {(owner, server) for owner, _, server in ends}
+    return {(o, s) for o, s in pairs if all((o, rebec, s) in ends for rebec in rebecs[o])}
+
+
 def _services(joined: Joined) -> Iterator[OpenEnd]:
     for instance in joined.wiring.instances:
         for server in joined.wiring.servers[instance.start.unit.name]:

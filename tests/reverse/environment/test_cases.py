@@ -34,6 +34,9 @@ def test_questions_are_answered(
     assert found["verdict"] == verdict, (found["reason"], err)
     assert status == _STATUS[verdict]
     assert (found["reason"] is not None) == (verdict == "undetermined")
+    assert any("which the model does more" in c for c in found["caveats"]) == (
+        case == "unset_locals" and verdict == "violated"
+    )
 
 
 def test_the_four_client_libraries_say_the_same() -> None:

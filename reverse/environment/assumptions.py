@@ -1,0 +1,62 @@
+"""What was assumed where a package was read, a sentence for each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.graph import ParameterFact
+from rebsync.reverse.libraries.routines import Access
+from rebsync.reverse.nodes.node_joined import Joined
+from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.nodes.node_wiring import nobody_publishes, nobody_subscribes
+from rebsync.reverse.recovery import Extracted
+from rebsync.reverse.report import different
+from rebsync.reverse.unknowns import Open
+
+_READ = (Access.GET, Access.DECLARE)
+
+
+def assumed(extracted: Extracted) -> Iterator[str]:
+    """What the extraction assumed, and the values of parameters that were taken.
+
+    Who is at the other end of topics is left out: the environment is.
+    """
+    closed_ends = _closed_ends(extracted.joined)
+    for finding in different(extracted.findings):
+        if finding.grade is Grade.ASSUMED and finding.why not in closed_ends:
+            yield f"{_place(finding)}: {finding.why}"
+    yield from dict.fromkeys(_parameters(extracted.joined))
+
+
+def _closed_ends(joined: Joined) -> set[str]:
+    topics = {
+        topic
+        for instance in joined.wiring.instances
+        for fact in instance.start.unit.facts
+        if isinstance(topic := instance.topic(getattr(fact, "topic", "")), str)
+    }
+    return {f(topic) for topic in topics for f in (nobody_publishes, nobody_subscribes)}
+
+
+def _place(finding: Finding) -> str:
+    return f"{finding.source.path}:{finding.source.position(finding.span.start).line}"
+
+
+def _parameters(joined: Joined) -> Iterator[str]:
+    """The parameters that started nodes read, with what a launch file or their defaults say."""
+    for instance in joined.wiring.instances:
+        for fact in instance.start.unit.facts if not instance.idle else ():
+            if isinstance(fact, ParameterFact) and fact.access in _READ:
+                yield from _parameter(instance, fact)
+
+
+def _parameter(instance: Instance, fact: ParameterFact) -> Iterator[str]:
+    name, found = instance.value(fact.name), instance.parameter(fact.name)
+    default = instance.value(fact.default) if fact.default is not None else None
+    value = found.value if found is not None else default
+    if isinstance(name, Open) or value is None or isinstance(value, Open):
+        return
+    how = "as a launch file sets it" if found is not None else "its default"
+    shown = str(value).lower() if isinstance(value, bool) else value
+    yield f"the parameter {name} of {instance.node} is {shown}, {how}"
