@@ -41,9 +41,7 @@ class System:
 
     def beside(self, program: str) -> System:
         """The system with another program of Python that has a node of its own name."""
-        node = replace(
-            _PLAIN, name=program, type=f"{program}.py", source=self.launch.sources[0]
-        )
+        node = replace(_PLAIN, name=program, type=f"{program}.py", source=self.launch.sources[0])
         return replace(self, launch=replace(self.launch, nodes=(*self.launch.nodes, node)))
 
     def note(self, findings: Findings, in_python: bool) -> None:

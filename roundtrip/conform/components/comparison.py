@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from rebsync.model import Model
 from rebsync.records import dataclass
-from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.findings import COUNTS_ON, IN_THREADS, Finding, Grade
 from rebsync.roundtrip.conform.components.assembly import Assembly
 from rebsync.roundtrip.conform.components.component import Component
 from rebsync.roundtrip.conform.components.diagnosis import Diagnosis
@@ -21,7 +21,6 @@ from rebsync.roundtrip.conform.components.inclusion import Inclusion, InclusionS
 from rebsync.roundtrip.conform.components.middle import middle, served_before
 from rebsync.roundtrip.conform.conformance import Conformance, Deviation
 
-_THREADS = "in threads of their own"
 _BESIDE = "callbacks may have run beside each other, which the model does not have"
 _ELSEWHERE = "may have been in another state when the recording began (--from-start: it was not)"
 _REACHED = 2_000  # states in which a recording may begin
@@ -100,6 +99,15 @@ def _about(findings: Sequence[Finding], class_: str) -> list[Finding]:
     ]
 
 
+def _is_exact_here(finding: Finding) -> bool:
+    """Whether a finding does not make the model do more than the code in a recorded run.
+
+    Of what runs in threads the model does less; and no recording is so long that a variable that
+    counts on gets to the end of the model's numbers.
+    """
+    return IN_THREADS in finding.why or COUNTS_ON in finding.why
+
+
 def _named(findings: Sequence[Finding]) -> str:
     shown = [
         f"{f.why} ({f.source.path}:{f.source.position(f.span.start).line})" for f in findings[:_FEW]
@@ -120,7 +128,7 @@ class _Judge:
 
     def of(self) -> Judged:
         """What becomes of it. From its beginning on, or else from the middle of its run on."""
-        in_threads = any(_THREADS in f.why for f in self.findings)
+        in_threads = any(IN_THREADS in f.why for f in self.findings)
         component = replace(self.component, in_threads=in_threads)
         search = InclusionSearch(component, self.bounds.most)
         found = search.run(search.constructed())
@@ -144,7 +152,7 @@ class _Judge:
         if found.verdict == "refused":
             return self._refused(search, found)
         grade = Grade.APPROXIMATED
-        over = [f for f in self.findings if f.grade is grade and _THREADS not in f.why]
+        over = [f for f in self.findings if f.grade is grade and not _is_exact_here(f)]
         why = f"{name} fits, but its model may do more than it: {_named(over)}"
         compared = sum(map(len, self.component.outputs))
         return Judged(compared, found.widest, open=(why,) if over else ())

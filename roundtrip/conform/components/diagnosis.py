@@ -32,6 +32,15 @@ class Expected(NamedTuple):
     server: int
 
 
+class Reason(NamedTuple):
+    """What is wrong, in words, with the message that is or the time at which one is not."""
+
+    kind: Kind
+    why: str
+    output: Output | None
+    time: float
+
+
 class Diagnosis:
     """A refusal, to be explained."""
 
@@ -45,13 +54,12 @@ class Diagnosis:
             {e for dead in found.dead if dead.matched == best.matched for e in self._expected(dead)}
         )
         following = self._next(best)
-        kind, why, output = self._kind(best, expected, following)
+        kind, why, output, at = self._reason(best, expected, following)
         allowed = tuple(dict.fromkeys(map(self._allowed, expected)))[:_FEW]
         topic = self._topic(expected, following)
         when = f" at {output.stamp:.3f} s" if output is not None else ""
         shown = f"{self.component.name} publishes {_shown(output)} on {topic}{when}: {why}"
         message = shown if output is not None else f"{self.component.name} on {topic}: {why}"
-        at = output.stamp if output is not None else best.low
         time = round((at - self.component.timing.begin) / self.component.timing.unit)
         place = output.place if output is not None else None
         code = self._code({each.server for each in allowed})
@@ -100,9 +108,9 @@ class Diagnosis:
         except EndlessBody:
             return
 
-    def _kind(
+    def _reason(
         self, dead: Hypothesis, expected: list[Expected], following: tuple[int, Output] | None
-    ) -> tuple[Kind, str, Output | None]:
+    ) -> Reason:
         slack = self.component.timing.slack
         for each in expected:
             number = dead.matched[each.topic]
@@ -114,28 +122,30 @@ class Diagnosis:
             if recorded[0].stamp >= each.low - slack:
                 return self._unlike(dead, each, recorded)
         if following is None:
-            return "silent", "the model goes on, and nothing of it is recorded", None
+            why = "the model goes on, and nothing of it is recorded"
+            return Reason("silent", why, None, dead.low)
         topic, output = following
         number = dead.matched[topic]
         if number and self.component.outputs[topic][number - 1].cells == output.cells:
-            return "repeated", "it was published before, and the model publishes it once", output
+            why = "it was published before, and the model publishes it once"
+            return Reason("repeated", why, output, output.stamp)
         early = [e for e in expected if e.topic == topic and e.low > output.stamp]
         if early and self.search.is_output(topic, number, early[0].sent):
-            return "early", f"the model publishes it from {early[0].low:.3f} s on", output
-        return "unexpected", "the model publishes nothing then", output
+            why = f"the model publishes it from {early[0].low:.3f} s on"
+            return Reason("early", why, output, output.stamp)
+        return Reason("unexpected", "the model publishes nothing then", output, output.stamp)
 
-    def _missing(
-        self, dead: Hypothesis, expected: Expected, recorded: Output | None
-    ) -> tuple[Kind, str, Output | None]:
+    def _missing(self, dead: Hypothesis, expected: Expected, recorded: Output | None) -> Reason:
         """Nothing was recorded when the model publishes."""
         values = self._values(expected)
         until = f"{expected.high + self.component.timing.slack:.3f} s"
         if recorded is not None and self._is(dead, expected, 0):
             late = recorded.stamp - expected.high
             if not self._is(dead, expected, 1) or late < 0.5 * self._gap(dead, expected.topic):
-                return "late", f"the model publishes it by {until}", recorded
+                why = f"the model publishes it by {until}"
+                return Reason("late", why, recorded, recorded.stamp)
         why = f"the model publishes {values} by {until}, and no such message was recorded"
-        return "lost message", why, None
+        return Reason("lost message", why, None, expected.low)
 
     def _gap(self, dead: Hypothesis, topic: int) -> float:
         """The time between the next two messages of a topic."""
@@ -151,23 +161,23 @@ class Diagnosis:
             expected.topic, number, expected.sent
         )
 
-    def _unlike(
-        self, dead: Hypothesis, expected: Expected, recorded: tuple[Output, ...]
-    ) -> tuple[Kind, str, Output | None]:
+    def _unlike(self, dead: Hypothesis, expected: Expected, recorded: tuple[Output, ...]) -> Reason:
         """Another message was recorded when the model publishes."""
-        values = self._values(expected)
+        values, first = self._values(expected), recorded[0]
         number = dead.matched[expected.topic]
+        kind: Kind = "wrong value"
+        why = f"the model publishes {values}"
         if self._is(dead, expected, 0):
-            early = recorded[0].stamp < expected.low
-            when = f"{expected.low:.3f} s" if early else f"{expected.high:.3f} s"
-            why = f"the model publishes it {'from' if early else 'by'} {when}"
-            return ("early" if early else "late"), why, recorded[0]
-        if self._is(dead, expected, 1):
+            kind = "early" if first.stamp < expected.low else "late"
+            word, bound = ("from", expected.low) if kind == "early" else ("by", expected.high)
+            why = f"the model publishes it {word} {bound:.3f} s"
+        elif self._is(dead, expected, 1):
             before = self.component.outputs[expected.topic][number - 1] if number else None
-            if before is not None and before.cells == recorded[0].cells:
-                return "repeated", f"it was published before; now {values} has to be", recorded[0]
-            return "swapped", f"{values} has to be published before, and comes after", recorded[0]
-        return "wrong value", f"the model publishes {values}", recorded[0]
+            if before is not None and before.cells == first.cells:
+                kind, why = "repeated", f"it was published before; now {values} has to be"
+            else:
+                kind, why = "swapped", f"{values} has to be published before, and comes after"
+        return Reason(kind, why, first, first.stamp)
 
     def _values(self, expected: Expected) -> str:
         return shown(self.component.program, expected.sent.server, expected.sent.cells)

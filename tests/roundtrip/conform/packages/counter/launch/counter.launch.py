@@ -3,7 +3,9 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description():
-    return LaunchDescription([
-        Node(package="counter", executable="counter", name="counter"),
-        Node(package="counter", executable="alarm", name="alarm"),
-    ])
+    return LaunchDescription(
+        [
+            Node(package="counter", executable="counter", name="counter"),
+            Node(package="counter", executable="alarm", name="alarm"),
+        ]
+    )
