@@ -10,7 +10,7 @@ from math import inf
 from rebsync import model as m
 from rebsync.checker.program import Program
 from rebsync.records import dataclass
-from rebsync.roundtrip.conform.components.bodies import Bodies
+from rebsync.roundtrip.conform.components.bodies import ComponentBodies
 from rebsync.roundtrip.conform.components.component import (
     UNORDERED,
     Component,
@@ -162,7 +162,7 @@ class _Assembler:
         return Component(
             self.program,
             rebec,
-            Bodies(self.program, rebec, environment),
+            ComponentBodies(self.program, rebec, environment),
             timing,
             tuple(sorted(inputs, key=lambda each: each.stamp)),
             tuple(self._topic(link) for link in heard),
@@ -184,6 +184,9 @@ class _Assembler:
         if missing:
             names = ", ".join(missing)
             raise NotCompared(f"what other nodes send to its {names} was not recorded")
+        if self.closed.is_clocked:
+            why = "it may have gone by /clock, and stamps may be of another clock"
+            self.found.doubts[interface.rebec] = why
         if interface.unfed:
             names = ", ".join(interface.unfed)
             self.found.notes.append(f"nothing for {names} of {interface.rebec} was recorded")

@@ -24,7 +24,7 @@ class Publication:
 
 
 @dataclass(frozen=True, slots=True)
-class Post:
+class SelfSend:
     """A message that a body sends its own rebec, to arrive so many units after it began."""
 
     server: int
@@ -38,12 +38,12 @@ class BodyRun:
 
     variables: Cells
     published: tuple[Publication, ...]
-    posted: tuple[Post, ...]
+    posted: tuple[SelfSend, ...]
     busy: int
     failure: Failure | None = None
 
 
-class Bodies:
+class ComponentBodies:
     """The bodies of one rebec of a program in which `environment` is at the end of all topics."""
 
     def __init__(self, program: Program, rebec: int, environment: int) -> None:
@@ -75,7 +75,7 @@ class Bodies:
             if to == self._environment
         )
         posted = tuple(
-            Post(m.server, m.arguments, m.arrival) for to, m in sent if to == self._rebec
+            SelfSend(m.server, m.arguments, m.arrival) for to, m in sent if to == self._rebec
         )
         if isinstance(outcome.result, Failure):
             return BodyRun((), published, posted, 0, outcome.result)

@@ -15,7 +15,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.findings import COUNTS_ON, IN_THREADS, Finding, Grade
 from rebsync.roundtrip.conform.components.assembly import Assembly
 from rebsync.roundtrip.conform.components.component import Component
-from rebsync.roundtrip.conform.components.diagnosis import Diagnosis
+from rebsync.roundtrip.conform.components.diagnosis import TopicDiagnosis
 from rebsync.roundtrip.conform.components.environment import Closed
 from rebsync.roundtrip.conform.components.inclusion import Inclusion, InclusionSearch
 from rebsync.roundtrip.conform.components.middle import middle, served_before
@@ -176,7 +176,7 @@ class _Judge:
         return Judged(_compared(found), found.widest, open=(f"{why}: {told}",))
 
     def _deviation(self, search: InclusionSearch, found: Inclusion) -> Deviation:
-        return Diagnosis(self.component, search, self.model).of(found)
+        return TopicDiagnosis(self.component, search, self.model).of(found)
 
 
 def _compared(found: Inclusion) -> int:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from rebsync.checker.program import Cell, Program
 from rebsync.records import dataclass
-from rebsync.roundtrip.conform.components.bodies import Bodies
+from rebsync.roundtrip.conform.components.bodies import ComponentBodies
 from rebsync.roundtrip.conform.recording import Place
 
 UNORDERED = -1  # the lane of messages whose publisher is not known
@@ -59,7 +59,7 @@ class Component:
 
     program: Program
     rebec: int
-    bodies: Bodies
+    bodies: ComponentBodies
     timing: Timing
     inputs: tuple[Input, ...]
     topics: tuple[str, ...]

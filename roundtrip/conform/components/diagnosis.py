@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import inf
 from typing import NamedTuple
 
 from rebsync.checker.endless import EndlessBody
@@ -41,7 +42,7 @@ class Reason(NamedTuple):
     time: float
 
 
-class Diagnosis:
+class TopicDiagnosis:
     """A refusal, to be explained."""
 
     def __init__(self, component: Component, search: InclusionSearch, model: Model) -> None:
@@ -141,9 +142,9 @@ class Diagnosis:
         until = f"{expected.high + self.component.timing.slack:.3f} s"
         if recorded is not None and self._is(dead, expected, 0):
             late = recorded.stamp - expected.high
-            if not self._is(dead, expected, 1) or late < 0.5 * self._gap(dead, expected.topic):
+            if late < 0.5 * self._gap(dead, expected.topic):
                 why = f"the model publishes it by {until}"
-                return Reason("late", why, recorded, recorded.stamp)
+                return Reason("late", why, recorded, expected.low)
         why = f"the model publishes {values} by {until}, and no such message was recorded"
         return Reason("lost message", why, None, expected.low)
 
@@ -151,7 +152,7 @@ class Diagnosis:
         """The time between the next two messages of a topic."""
         number, outputs = dead.matched[topic], self.component.outputs[topic]
         if number + 1 >= len(outputs):
-            return self.component.timing.slack
+            return inf
         return outputs[number + 1].stamp - outputs[number].stamp
 
     def _is(self, dead: Hypothesis, expected: Expected, further: int) -> bool:
@@ -177,7 +178,7 @@ class Diagnosis:
                 kind, why = "repeated", f"it was published before; now {values} has to be"
             else:
                 kind, why = "swapped", f"{values} has to be published before, and comes after"
-        return Reason(kind, why, first, first.stamp)
+        return Reason(kind, why, first, min(first.stamp, expected.low))
 
     def _values(self, expected: Expected) -> str:
         return shown(self.component.program, expected.sent.server, expected.sent.cells)

@@ -50,13 +50,17 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class Closed:
-    """A package read together with its environment; `links` by the names of its servers."""
+    """A package read together with its environment; `links` by the names of its servers.
+
+    `is_clocked`: nodes may have gone by the clock of a topic.
+    """
 
     extracted: Extracted
     settings: Source
     links: Mapping[str, Link]
     depth: int  # the shortest queue of a topic; 0: none is bounded
     dropped: Mapping[str, tuple[str, ...]]  # by topic, the fields that no model has
+    is_clocked: bool
 
 
 def closed(given: Chosen, topics: Sequence[str]) -> Closed:
@@ -72,9 +76,9 @@ def closed(given: Chosen, topics: Sequence[str]) -> Closed:
     findings = (*given.findings, *extracted.findings)
     of_people = tuple(f for f in findings if f.source.path != FILE)
     dropped = {link.topic: _dropped(types, link) for link in links.values()}
-    return Closed(
-        replace(extracted, findings=of_people), files[SETTINGS], links, _depth(graph), dropped
-    )
+    people = replace(extracted, findings=of_people)
+    is_clocked = "/clock" in topics
+    return Closed(people, files[SETTINGS], links, _depth(graph), dropped, is_clocked)
 
 
 def _is_ros_2(files: Mapping[str, Source]) -> bool:

@@ -23,7 +23,7 @@ class _Names:
         self.all[absolute(name)] = None
 
 
-class _Fields:
+class _FieldChoice:
     """Reads of topics the fields at some paths."""
 
     def __init__(self, wanted: Mapping[str, Sequence[str]]) -> None:
@@ -77,7 +77,7 @@ class HeardRecordings:
 
     def events(self, wanted: Mapping[str, Sequence[str]]) -> Iterator[Event]:
         """The messages on some topics, with the fields at the paths that are asked for."""
-        choice = _Fields(wanted)
+        choice = _FieldChoice(wanted)
         streams = [events_of(path, n, choice, self.own) for n, path in enumerate(self.paths)]
         if len(streams) == 1:
             return streams[0]

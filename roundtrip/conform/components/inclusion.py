@@ -27,7 +27,7 @@ BEFORE = 60.0  # s before a recording in which nodes may have begun
 _KEPT = 20  # hypotheses that came furthest
 
 
-class Pending(NamedTuple):
+class Posted(NamedTuple):
     """A message that the rebec has posted to itself, due between two times."""
 
     server: int
@@ -48,7 +48,7 @@ class Hypothesis(NamedTuple):
     high: float
     free: tuple[float, float]
     variables: Cells
-    pending: tuple[Pending, ...]
+    pending: tuple[Posted, ...]
     base: int
     taken: frozenset[int]
     matched: tuple[int, ...]
@@ -69,7 +69,7 @@ class Candidate(NamedTuple):
     low: float
     high: float
     input: int
-    posted: Pending | None = None
+    posted: Posted | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -313,7 +313,7 @@ class InclusionSearch:
         if candidate.posted is not None:
             pending.remove(candidate.posted)
         pending += (
-            Pending(p.server, p.cells, low + p.after * unit, high + p.after * unit)
+            Posted(p.server, p.cells, low + p.after * unit, high + p.after * unit)
             for p in run.posted
         )
         base, taken, connected = before.base, before.taken, before.connected

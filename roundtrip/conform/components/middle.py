@@ -12,7 +12,7 @@ from rebsync.checker.program import Program
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.components.bodies import BodyRun
 from rebsync.roundtrip.conform.components.component import Cells, Component, Timing
-from rebsync.roundtrip.conform.components.inclusion import Hypothesis, Pending
+from rebsync.roundtrip.conform.components.inclusion import Hypothesis, Posted
 
 _MOST_WAITING = 8  # messages that a rebec has posted to itself
 
@@ -106,7 +106,7 @@ def _start(component: Component, place: _Place) -> Hypothesis:
     """A state a little after the recording began: what was published until then is not compared."""
     timing = component.timing
     low = timing.begin + timing.slack
-    pending = tuple(sorted(Pending(server, cells, low, inf) for server, cells in place[1]))
+    pending = tuple(sorted(Posted(server, cells, low, inf) for server, cells in place[1]))
     until = served_before(timing)
     passed = tuple(sum(o.stamp <= until for o in outputs) for outputs in component.outputs)
     return Hypothesis(low, low, (-inf, -inf), place[0], pending, 0, frozenset(), passed)

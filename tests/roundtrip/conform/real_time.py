@@ -16,7 +16,7 @@ from typing import Any
 from rebsync.checker.program import Program
 from rebsync.cli.recorded_topics import OpenPackage
 from rebsync.reverse.files.reading import chosen
-from rebsync.roundtrip.conform.components.bodies import Bodies, BodyRun
+from rebsync.roundtrip.conform.components.bodies import BodyRun, ComponentBodies
 from rebsync.roundtrip.conform.components.environment import CLASS
 from rebsync.roundtrip.conform.components.interface import Interface, interfaces
 
@@ -58,7 +58,7 @@ class Run:
         program = self.package.program
         environment = next(n for n, r in enumerate(program.rebecs) if r.class_name == CLASS)
         nodes = [n for n in range(len(program.rebecs)) if n != environment]
-        bodies = {n: Bodies(program, n, environment) for n in nodes}
+        bodies = {n: ComponentBodies(program, n, environment) for n in nodes}
         state: dict[int, tuple[int, ...]] = {}
         free: dict[int, float] = {}
         for node in nodes:

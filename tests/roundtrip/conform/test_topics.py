@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from random import Random
+from shutil import copytree
+from typing import Any
 
 import pytest
+from rosbags.rosbag1 import Writer
+from rosbags.typesys import Stores, get_typestore
 
-from rebsync.cli.recorded_topics import TopicBounds
+from rebsync.cli.recorded_topics import TopicBounds, compared
 from rebsync.roundtrip.conform.bags import OwnTypes
 from rebsync.roundtrip.conform.components.heard import HeardRecordings
 from rebsync.roundtrip.conform.conformance import Conformance
@@ -138,3 +143,116 @@ def test_faults_are_found(name: str, fault: str, tmp_path: Path) -> None:
         told = 100.0 + (log[at]["stamp"] - 100.0)
         begin = min(message["stamp"] for message in log)
         assert abs(begin + found.deviation.time * 0.001 - told) < 1.2, found.deviation
+
+
+# --- a run on a real roscore (tests/ros1/nodes/topics.py)
+
+REAL = Path(__file__).parent / "recordings" / "thermostat.jsonl"
+
+
+def real() -> Log:
+    """The messages of that run."""
+    return [json.loads(line) for line in REAL.read_text().splitlines()]
+
+
+@pytest.mark.parametrize("is_bag", [False, True])
+def test_a_real_run_conforms(is_bag: bool, tmp_path: Path) -> None:
+    path = bag(real(), tmp_path / "run.bag") if is_bag else REAL
+    found, _ = compared(str(PACKAGES / "thermostat"), [str(path)], ANYWHERE)
+    assert (found.verdict, found.compared) == ("conforms", 60), found
+
+
+def bag(log: Log, path: Path) -> Path:
+    """A log as a bag of ROS 1."""
+    store = get_typestore(Stores.ROS1_NOETIC)
+    with Writer(path) as writer:
+        connections: dict[str, Any] = {}
+        for message in log:
+            name, value = message["topic"], message["data"]["data"]
+            type_ = f"std_msgs/msg/{'Bool' if isinstance(value, bool) else 'Int32'}"
+            if name not in connections:
+                caller = {"callerid": message["node"]}
+                connections[name] = writer.add_connection(name, type_, typestore=store, **caller)
+            raw = store.serialize_ros1(store.types[type_](data=value), type_)
+            writer.write(connections[name], round(message["stamp"] * 1e9), raw)
+    return path
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_faults_in_a_real_run_are_found(fault: str, tmp_path: Path) -> None:
+    log = real()
+    make, kinds = FAULTS[fault]
+    for topic in OUTPUTS["thermostat"]:
+        own = [n for n, message in enumerate(log) if message["topic"] == topic]
+        found = of("thermostat", make(log, own[len(own) // 3]), tmp_path)
+        assert found.verdict == "deviates", (topic, found)
+        assert found.deviation is not None
+        assert found.deviation.kind in kinds, found.deviation
+        script = {"/heat": "thermostat.py", "/power": "heater.py"}[topic]
+        place = found.deviation.code
+        assert place.path.endswith(script) if place else fault == "second publisher"
+
+
+# --- what is not known
+
+
+def test_a_refusal_is_open_where_the_states_before_are_not_known(tmp_path: Path) -> None:
+    log = recorded("counter", 5)
+    own = [n for n, message in enumerate(log) if message["topic"] == "/count"]
+    faulty = wrong_value(log, own[20])
+    assert of("counter", faulty, tmp_path, FROM_START).verdict == "deviates"
+    found = of("counter", faulty, tmp_path, ANYWHERE)
+    assert found.verdict == "undetermined"
+    assert "--from-start" in found.reason
+
+
+def test_topics_that_were_not_recorded_leave_it_open(tmp_path: Path) -> None:
+    log = real()
+
+    def without(topic: str) -> Conformance:
+        path = write([m for m in log if m["topic"] != topic], tmp_path / "run.jsonl")
+        return compared(str(PACKAGES / "thermostat"), [str(path)], FROM_START)[0]
+
+    assert "may have served measured" in without("/temperature").reason
+    assert "what other nodes send to its heat was not recorded" in without("/heat").reason
+    found = without("/power")
+    assert found.verdict == "conforms"
+    assert "heater publishes nothing that was recorded" in found.notes
+
+
+def test_times_by_another_clock_leave_it_open(tmp_path: Path) -> None:
+    slow = [m | {"stamp": 2 * m["stamp"]} for m in real()]
+    path = write(slow, tmp_path / "run.jsonl")
+    assert compared(str(PACKAGES / "thermostat"), [str(path)], FROM_START)[0].verdict == "deviates"
+    clock = {"topic": "/clock", "stamp": slow[0]["stamp"], "data": {"clock": 0.0}}
+    path = write([clock, *slow], tmp_path / "run.jsonl")
+    found, _ = compared(str(PACKAGES / "thermostat"), [str(path)], FROM_START)
+    assert found.verdict == "undetermined"
+    assert "/clock" in found.reason
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ("self.power = 0\n\n", "self.power = sock.recv()\n\n", "not compared"),
+        ("self.power += 1", "self.power += random.randint(0, 1)", None),
+        ("self.power += 1", "self.power = json.loads(x)", "heater"),
+    ],
+)
+def test_code_that_is_not_read_leaves_it_open(
+    old: str, new: str, reason: str | None, tmp_path: Path
+) -> None:
+    folder = tmp_path / "thermostat"
+    copytree(PACKAGES / "thermostat", folder)
+    heater = folder / "src" / "heater.py"
+    text = heater.read_text()
+    assert old in text
+    heater.write_text(
+        text.replace("import rospy", "import json, random\n\nimport rospy").replace(old, new)
+    )
+    found, _ = compared(str(folder), [str(REAL)], FROM_START)
+    if reason is None:  # the recorded run is one of those
+        assert found.verdict == "conforms", found
+    else:
+        assert found.verdict == "undetermined", found
+        assert reason in found.reason
