@@ -17,6 +17,7 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.conform.mcap import whole_records
 from rebsync.roundtrip.conform.recording import Event, Place, Truncated
 from rebsync.roundtrip.conform.rosbag1 import Connection, DamagedBag, intact_records
+from rebsync.roundtrip.conform.sqlite import whole_rows
 from rebsync.roundtrip.conform.topic_filter import TopicChoice
 from rebsync.roundtrip.conform.topics import Topic
 
@@ -105,9 +106,15 @@ class _Source:
         self.latest = max(self.latest, time)
         try:
             place = Place(self.file, self.number)
+            if topic.build is not None:
+                message = decode(raw)
+                values = [getattr(message, name) for name in topic.fields]
+                return topic.build(values, time * _NANO, place, node)
             return topic.convert(_Fields(decode(raw)), time * _NANO, place, node)
         except KeyError as error:
             what = f"has no field {error}"
+        except AttributeError as error:
+            what = f"has no field {error.name!r}"
         except Exception as error:
             what = f"is not as its type says: {error}"
         text = f"message {self.number} of {topic.name} {what}"
@@ -166,7 +173,8 @@ def events_2(path: str, file: int, wanted: TopicChoice, own: OwnTypes) -> Iterat
     source = _Source(path, file, wanted, own, True)
     try:
         for part in _parts(Path(path)):
-            with whole_records(part) as (readable, is_cut):
+            is_database = part.suffix == ".db3"
+            with (whole_rows if is_database else whole_records)(part) as (readable, is_cut):
                 yield from _of_part(source, readable)
             if is_cut:
                 yield source.end("it ends within a record")
