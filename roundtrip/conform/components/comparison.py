@@ -54,7 +54,7 @@ def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
     notes, open_, judged = list(assembly.notes), list(assembly.open), []
     for component in assembly.components:
         class_ = component.program.rebecs[component.rebec].class_name
-        found = _about(closed.extracted.findings, class_)
+        found = _about(closed.extracted.findings, class_, closed.extracted.model)
         unread = [f for f in found if f.grade is Grade.UNREADABLE]
         if unread:
             open_.append(f"{component.name} was not compared: {_named(unread)}")
@@ -89,14 +89,11 @@ def _stamp(deviation: Deviation) -> tuple[int, str]:
     return deviation.time, deviation.rebec
 
 
-def _about(findings: Sequence[Finding], class_: str) -> list[Finding]:
-    """The findings that may concern a class: those in it, and those in nothing."""
-    return [
-        f
-        for f in findings
-        if f.grade is not Grade.UNBUILT
-        and f.within.partition("::")[0].partition(".")[0] in (class_, "")
-    ]
+def _about(findings: Sequence[Finding], class_: str, model: Model) -> list[Finding]:
+    """The findings that may concern a class: all but those in another one."""
+    others = {c.name for c in model.classes} - {class_}
+    built = (f for f in findings if f.grade is not Grade.UNBUILT)
+    return [f for f in built if f.within.replace("::", ".").partition(".")[0] not in others]
 
 
 def _is_exact_here(finding: Finding) -> bool:

@@ -237,6 +237,7 @@ def test_times_by_another_clock_leave_it_open(tmp_path: Path) -> None:
         ("self.power = 0\n\n", "self.power = sock.recv()\n\n", "not compared"),
         ("self.power += 1", "self.power += random.randint(0, 1)", None),
         ("self.power += 1", "self.power = json.loads(x)", "heater"),
+        ("self.power += 1", "self.power = helper(self.power)", "heater"),
     ],
 )
 def test_code_that_is_not_read_leaves_it_open(
