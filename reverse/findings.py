@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from rebsync.model import Expression
 
 
+IN_THREADS = "in threads of their own"  # callbacks, in a finding: the model has fewer runs
+COUNTS_ON = "counts on without end"  # a variable, in a finding: only very long runs differ
+
+
 class Grade(Enum):
     """How much of a place of the code is in the model; what is not built need not be in it.
 

@@ -79,18 +79,20 @@ def extract(
     only: str | None = None,
     memory: Memory | None = None,
     observed: Observed | None = None,
+    environment: str | None = None,
 ) -> Extracted:
     """The model that files say together; paths are relative to the package, with slashes.
 
     With `only` the classes that this file declares or defines, read with the help of the others;
     or, if it is a launch file, the system that this one starts. `memory` knows what generated
     classes said before: of these only what an edit can have to do with is read again. Of topics
-    that are `observed` the model sends what nodes publish to an observer, too.
+    that are `observed` the model sends what nodes publish to an observer, too. `environment` is a
+    program in Python among the files that is started beside what is launched.
     """
     findings = Findings()
     files = {n: s for n, s in files.items() if n == only or not is_monitor(n, s)}
     files = _built(files, only, findings)
-    at = _Reading.of(files, only, findings)
+    at = _Reading.of(files, only, findings, environment)
     listed, declared = Findings(), own_messages(files)
     in_python = _in_python(files, listed, declared)
     classes = at.classes(declared, in_python)
@@ -141,13 +143,20 @@ class _Reading:
     findings: Findings
 
     @staticmethod
-    def of(files: Mapping[str, Source], only: str | None, findings: Findings) -> _Reading:
+    def of(
+        files: Mapping[str, Source],
+        only: str | None,
+        findings: Findings,
+        environment: str | None = None,
+    ) -> _Reading:
         """The files, parsed, with the programs that they are built to and the system they start."""
         code = _in_cpp(files, findings)
         package = _package(files)
         asked = only if only is not None and is_launch(only) else None
         started = programs(code, files)
         system = system_of(files, package, asked, started)
+        if system is not None and environment is not None:
+            system = system.beside(environment)
         left = only if asked is None else None
         return _Reading(files, left, code, Asking(code), package, started, system, findings)
 

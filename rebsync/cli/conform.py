@@ -46,7 +46,19 @@ _STATUS = {
     "--max-states",
     type=click.IntRange(1),
     metavar="N",
-    help="States to look at where a recording begins in the middle (default: 200,000).",
+    help="States to look at where a recording begins in the middle (default: 200,000), and that "
+    "may be possible at one moment (default: 20,000).",
+)
+@click.option(
+    "--from-start",
+    is_flag=True,
+    help="The nodes were started while it was recorded (of packages that people wrote).",
+)
+@click.option(
+    "--slack",
+    type=click.FloatRange(0, min_open=True),
+    metavar="SECONDS",
+    help="By how much messages may be late (of packages that people wrote; default: 0.1).",
 )
 @click.option("--times", is_flag=True, help="Tell what each time of the model really took.")
 @click.option(
@@ -72,14 +84,22 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     model, is violated, 4 undetermined.
     """
     from rebsync.cli.calibration import calibrated
+    from rebsync.cli.recorded_topics import is_by_hand
     from rebsync.roundtrip.calibration.report import calibration_json
     from rebsync.roundtrip.conform.matching import Subject, conform
     from rebsync.roundtrip.conform.reading import recordings as opened
     from rebsync.roundtrip.conform.report.formats import as_text
+    from rebsync.roundtrip.conform.search import WIDEST
     from rebsync.roundtrip.conform.starts import REACHED
     from rebsync.roundtrip.conform.topics import Topics
 
     given: dict[str, Any] = ctx.params
+    if is_by_hand(model):
+        return _topics(given)
+    for option in ("from_start", "slack"):
+        if given[option]:
+            name = option.replace("_", "-")
+            raise click.UsageError(f"--{name} is for packages that were not generated")
     problem, config, package = _problem(model, given["property_file"])
     subject = Subject.of(problem, config)
     for written in filter(None, (given["page"], given["output"])):
@@ -89,7 +109,8 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     topics = Topics.of(observable)
     recording = opened(recordings, topics, observable.package, given["namespace"])
     most, keeps = given["max_states"] or REACHED, given["page"] is not None
-    found = conform(subject, recording, most=most, keeps_run=keeps)
+    widest = given["max_states"] or WIDEST
+    found = conform(subject, recording, most=most, keeps_run=keeps, widest=widest)
     if package is not None:
         found = _with_code(found, subject, problem, package)
     proposes = given["calibrate"] or given["applies"]
@@ -165,6 +186,23 @@ def _problem(model: str, property_file: str | None) -> tuple[Problem, Config, _P
     config = config_of_record(record.options) or settings_beside(path)[1]
     package = _Package(packages[0].root, tuple(record.files))
     return read_problem(path, property_file), config, package
+
+
+def _topics(given: dict[str, Any]) -> Status:
+    """The answer for a package that people wrote."""
+    from rebsync.cli.recorded_topics import TopicBounds, compared
+    from rebsync.roundtrip.conform.report.formats import as_text
+
+    for option in ("property_file", "namespace", "times", "calibrate", "applies", "page"):
+        if given[option]:
+            name = {"property_file": "property", "applies": "apply"}.get(option, option)
+            raise click.UsageError(f"--{name} is for models, and packages generated from them")
+    for read in (given["model"], *given["recordings"]):
+        refuse_to_overwrite(read, given["output"])
+    bounds = TopicBounds(given["max_states"], given["from_start"], given["slack"])
+    found, subject = compared(given["model"], given["recordings"], bounds)
+    write_output(given["output"], as_text(found, subject, given["recordings"], given["style"]))
+    return _status(found)
 
 
 def _cells(problem: Problem) -> dict[str, CellOf]:

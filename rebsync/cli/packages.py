@@ -100,7 +100,7 @@ def _problem(
 
         write_output(written, text)
     source = Source(written or f"{path} as a model", text)
-    analysis = analysed(source, untimed=False)
+    analysis = analysed(source)
     places = code_places(source, parse_model(source).model, closed.model)
     code = {line: f"{_shown(place.source.path)}:{place.line}" for line, place in places}
     checked = properties_of(properties, analysis) if properties is not None else Properties()

@@ -34,7 +34,7 @@ def read_problem(model: str, property_file: str | None, *, untimed: bool = False
             f'"{model}" holds properties: name the model, and these with --property'
         )
     source = read_source(model)
-    analysis = analysed(source, untimed)
+    analysis = analysed(source, untimed=untimed)
     path = _beside(model) if property_file is None else property_file
     if path is None:
         return Problem(source, analysis, Properties())
@@ -45,7 +45,7 @@ def read_problem(model: str, property_file: str | None, *, untimed: bool = False
 def with_text(problem: Problem, text: str) -> Problem:
     """The problem with another text of its model, which has no mistakes."""
     source = Source(problem.source.path, text)
-    analysis = analysed(source, untimed=False)
+    analysis = analysed(source)
     properties = problem.property_source
     if properties is None:
         return replace(problem, source=source, analysis=analysis)
@@ -68,8 +68,8 @@ def _beside(model: str) -> str | None:
     return str(path) if model != STANDARD_INPUT and os.path.lexists(path) else None
 
 
-def analysed(source: Source, untimed: bool) -> Analysis:
-    """The model in a text, checked. RebsyncError: it has mistakes."""
+def analysed(source: Source, *, untimed: bool = False) -> Analysis:
+    """A model without mistakes. RebsyncError: it has some."""
     from rebsync.checker.sizes import check_sizes
     from rebsync.grammars.parser import parse_model
     from rebsync.static import analyse

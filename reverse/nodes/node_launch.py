@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 
 from rebsync.records import dataclass
 from rebsync.reverse.files.python_files import is_launch_of_ros_2
@@ -14,12 +15,17 @@ from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_presence import STAND_IN
 from rebsync.reverse.nodes.node_programs import Program
-from rebsync.source import Source
+from rebsync.source import NOWHERE, Source
 
 _ELSEWHERE = (
     "no launch file starts a program of these files: the model has one rebec for each object"
 )
 _HINT = "name the launch file instead of the package to have its system"
+
+
+_PLAIN = LaunchedNode(
+    "", "/", "", "", (), (), (), None, None, False, False, False, (), (), Source("", ""), NOWHERE
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +38,11 @@ class System:
     launch: Launch
     others: tuple[tuple[Source, Launch], ...]
     starts: bool = True
+
+    def beside(self, program: str) -> System:
+        """The system with another program of Python that has a node of its own name."""
+        node = replace(_PLAIN, name=program, type=f"{program}.py", source=self.launch.sources[0])
+        return replace(self, launch=replace(self.launch, nodes=(*self.launch.nodes, node)))
 
     def note(self, findings: Findings, in_python: bool) -> None:
         """Lists the systems that the model is not of.

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.findings import IN_THREADS, Findings, Unread
 from rebsync.reverse.graph import (
     ClientFact,
     Fact,
@@ -38,7 +38,7 @@ _OPEN = "add the package that has the receivers, if they matter"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
 _CALLS = "add a class to the model that calls it, or message servers that send to it"
 _THREADS = (
-    " runs the callbacks of topics and timers, and loops, in threads of their own;"
+    f" runs the callbacks of topics and timers, and loops, {IN_THREADS};"
     " in the model one runs after the other"
 )
 

@@ -16,7 +16,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.scope import Target
 from rebsync.reverse.build.message_types import MessageTypes
-from rebsync.reverse.findings import Findings
+from rebsync.reverse.findings import COUNTS_ON, Findings
 from rebsync.reverse.graph import Fact, Graph, ParameterFact, RateFact, TimerFact
 from rebsync.reverse.nodes.node_joined import OBSERVER, Joined, Part
 from rebsync.reverse.nodes.node_names import Names, class_word
@@ -213,7 +213,7 @@ class _ReadingRound:
         for name in sorted(class_.proof.counted):
             if name in class_.reading.places:
                 source, span = class_.reading.places[name]
-                why = f'"{name}" counts on without end; the model\'s int ends at 2147483647'
+                why = f'"{name}" {COUNTS_ON}; the model\'s int ends at 2147483647'
                 class_.reading.findings.assumed(source, span, why, within=class_.reading.unit.name)
 
     # --- wiring ---------------------------------------------------------------------------------

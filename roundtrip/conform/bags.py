@@ -13,10 +13,12 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import os_mistake
 from rebsync.forward.message_files import message_files
 from rebsync.package import Package
+from rebsync.records import dataclass
 from rebsync.roundtrip.conform.mcap import whole_records
 from rebsync.roundtrip.conform.recording import Event, Place, Truncated
 from rebsync.roundtrip.conform.rosbag1 import Connection, DamagedBag, intact_records
-from rebsync.roundtrip.conform.topic_filter import TopicFilter
+from rebsync.roundtrip.conform.sqlite import whole_rows
+from rebsync.roundtrip.conform.topic_filter import TopicChoice
 from rebsync.roundtrip.conform.topics import Topic
 
 _NANO = 1e-9
@@ -24,6 +26,21 @@ INSTALL = "pip install 'rebsync[bags]'"
 _CLOCK = "builtin_interfaces/Time clock"
 
 Decode = Callable[[Any], object]
+
+
+@dataclass(frozen=True, slots=True)
+class OwnTypes:
+    """The texts of the message types of a package by their names, for bags that lack them."""
+
+    package: str
+    texts: Mapping[str, str]
+
+    @classmethod
+    def of(cls, package: Package) -> OwnTypes:
+        """Those of a package that a model makes."""
+        files = message_files(package)
+        texts = {Path(f).stem: text for f, text in files.items() if f.endswith(".msg")}
+        return cls(package.name, texts)
 
 
 class _Fields(Mapping[str, Any]):
@@ -51,10 +68,10 @@ class _Source:
     """What makes events of the raw messages of one file."""
 
     def __init__(
-        self, path: str, file: int, wanted: TopicFilter, package: Package, is_2: bool
+        self, path: str, file: int, wanted: TopicChoice, own: OwnTypes, is_2: bool
     ) -> None:
         self.path, self.file, self.wanted = path, file, wanted
-        self.package, self.is_2 = package, is_2
+        self.own, self.is_2 = own, is_2
         self.number = 0
         self.latest = 0  # ns, of the messages that were read
 
@@ -71,11 +88,9 @@ class _Source:
                 types.update(get_types_from_msg(definition, name))
             elif name not in store.fielddefs:
                 owner = name.split("/")[0]
-                for file, text in message_files(self.package).items():
-                    stem = Path(file).stem
-                    if file.endswith(".msg"):
-                        renamed = text.replace(f"{self.package.name}/", f"{owner}/")
-                        types.update(get_types_from_msg(renamed, f"{owner}/msg/{stem}"))
+                for stem, text in self.own.texts.items():
+                    renamed = text.replace(f"{self.own.package}/", f"{owner}/")
+                    types.update(get_types_from_msg(renamed, f"{owner}/msg/{stem}"))
             store.register({k: v for k, v in types.items() if k not in store.fielddefs})
             found = store.get_msgdef(name)
         except Exception as error:
@@ -91,9 +106,15 @@ class _Source:
         self.latest = max(self.latest, time)
         try:
             place = Place(self.file, self.number)
+            if topic.build is not None:
+                message = decode(raw)
+                values = [getattr(message, name) for name in topic.fields]
+                return topic.build(values, time * _NANO, place, node)
             return topic.convert(_Fields(decode(raw)), time * _NANO, place, node)
         except KeyError as error:
             what = f"has no field {error}"
+        except AttributeError as error:
+            what = f"has no field {error.name!r}"
         except Exception as error:
             what = f"is not as its type says: {error}"
         text = f"message {self.number} of {topic.name} {what}"
@@ -115,9 +136,9 @@ class _Source:
         return RebsyncError.of(self.path, "RS982", what, hint)
 
 
-def events_1(path: str, file: int, wanted: TopicFilter, package: Package) -> Iterator[Event]:
+def events_1(path: str, file: int, wanted: TopicChoice, own: OwnTypes) -> Iterator[Event]:
     """The events of a bag of ROS 1, in the order of the file."""
-    source = _Source(path, file, wanted, package, False)
+    source = _Source(path, file, wanted, own, False)
     readers: dict[int, tuple[Topic, Decode, str] | None] = {}
     try:
         with Path(path).open("rb") as opened:
@@ -147,12 +168,13 @@ def _reader(source: _Source, connection: Connection) -> tuple[Topic, Decode, str
     return topic, decode, connection.publisher
 
 
-def events_2(path: str, file: int, wanted: TopicFilter, package: Package) -> Iterator[Event]:
+def events_2(path: str, file: int, wanted: TopicChoice, own: OwnTypes) -> Iterator[Event]:
     """The events of a bag of ROS 2: a folder, or a file of one of its storages."""
-    source = _Source(path, file, wanted, package, True)
+    source = _Source(path, file, wanted, own, True)
     try:
         for part in _parts(Path(path)):
-            with whole_records(part) as (readable, is_cut):
+            is_database = part.suffix == ".db3"
+            with (whole_rows if is_database else whole_records)(part) as (readable, is_cut):
                 yield from _of_part(source, readable)
             if is_cut:
                 yield source.end("it ends within a record")

@@ -15,7 +15,8 @@ Verdict: TypeAlias = Literal["conforms", "deviates", "violated", "undetermined"]
 
 Kind: TypeAlias = Literal[
     "wrong state", "swapped", "repeated", "lost message", "lost state", "late", "early",
-    "unexpected", "silent", "second publisher", "restarted", "no start", "model failure",
+    "unexpected", "silent", "wrong value", "second publisher", "restarted", "no start",
+    "model failure",
 ]  # fmt: skip
 
 
@@ -55,7 +56,7 @@ class Deviation:
 
     `served` is what was recorded, None where a rebec is silent; `rebec` its node; `time` is the
     model's; `line` the place in the model, 0 for none, and `code` that in the package, where one
-    was compared. `explanation` are sentences.
+    was compared. `explanation` are sentences. `message_place` is that of a message on a topic.
     """
 
     kind: Kind
@@ -68,11 +69,12 @@ class Deviation:
     differences: tuple[Difference, ...] = ()
     explanation: tuple[str, ...] = ()
     code: CodePlace | None = None
+    message_place: Place | None = None
 
     @property
     def place(self) -> Place | None:
         """Where in the recordings it is."""
-        return self.served.place if self.served is not None else None
+        return self.served.place if self.served is not None else self.message_place
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,12 +15,12 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import os_mistake
 from rebsync.long_numbers import MOST_DIGITS
 from rebsync.roundtrip.conform.recording import Event, Place, Truncated
-from rebsync.roundtrip.conform.topic_filter import TopicFilter
+from rebsync.roundtrip.conform.topic_filter import TopicChoice
 
 LONGEST = 2**24  # characters of a line
 
 
-def events(path: str, file: int, wanted: TopicFilter) -> Iterator[Event]:
+def events(path: str, file: int, wanted: TopicChoice) -> Iterator[Event]:
     """The events of a log, as its lines go. RebsyncError: it cannot be read as one."""
     latest = -math.inf
     try:
@@ -51,7 +51,7 @@ def _is_json(line: str) -> bool:
     return True
 
 
-def _event(line: str, place: Place, path: str, wanted: TopicFilter) -> Event | None:
+def _event(line: str, place: Place, path: str, wanted: TopicChoice) -> Event | None:
     message = _parsed(line, path, place.number)
     name = message.get("topic")
     topic = wanted.topic(name, path) if isinstance(name, str) and name else None

@@ -6,7 +6,15 @@ from collections.abc import Iterator, Sequence
 from typing import Literal
 
 from rebsync.roundtrip.conform.conformance import Lateness
-from rebsync.roundtrip.conform.recording import Announced, Event, Sent, Served, Ticked, Truncated
+from rebsync.roundtrip.conform.recording import (
+    Announced,
+    Event,
+    Heard,
+    Sent,
+    Served,
+    Ticked,
+    Truncated,
+)
 
 POINTS = 2000
 _JUMP = 1.0  # s that stamps may go back: messages of one moment are recorded in any order
@@ -44,7 +52,7 @@ class Clocks:
                 self._ticks = (event.time, event.stamp)
             case Sent():
                 pass
-            case Truncated():
+            case Truncated() | Heard():
                 return
             case Served():
                 self._served(event)

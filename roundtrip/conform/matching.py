@@ -22,7 +22,7 @@ from rebsync.roundtrip.conform.lateness import Clocks
 from rebsync.roundtrip.conform.observable import Observable
 from rebsync.roundtrip.conform.properties import Evaluation
 from rebsync.roundtrip.conform.recording import Event, Recording, Served
-from rebsync.roundtrip.conform.search import Search, SearchResult
+from rebsync.roundtrip.conform.search import WIDEST, Search, SearchResult
 from rebsync.roundtrip.conform.starts import REACHED, Mode, Start, modes, start
 from rebsync.roundtrip.conform.stream import Stream
 from rebsync.roundtrip.conform.visited import Visited
@@ -81,15 +81,17 @@ def conform(
     watch: Watch = _unwatched,
     most: int = REACHED,
     keeps_run: bool = False,
+    widest: int = WIDEST,
 ) -> Conformance:
     """Whether a recorded run is a run of the model; `most` states are looked at to synchronise.
 
-    `keeps_run`: the last steps of the run that fits are in the answer.
+    `keeps_run`: the last steps of the run that fits are in the answer. With more than `widest`
+    possible states at one moment the search is cut.
     """
     graph = StateGraph(subject.program, subject.observable)
     first = Stream(recording.events(), len(subject.program.rebecs), _unwatched)
     hidden = _hidden(subject, first, recording)
-    attempt = _Attempt(subject, recording, graph, most, keeps_run, hidden)
+    attempt = _Attempt(subject, recording, graph, most, keeps_run, hidden, widest)
     refused: Conformance | None = None
     for number, mode in enumerate(modes(graph, first, hidden)):
         found = attempt.run(mode, watch if number == 0 else _unwatched)
@@ -138,6 +140,7 @@ class _Attempt:
     most: int
     keeps_run: bool
     hidden: frozenset[int]
+    widest: int
 
     def run(self, mode: Mode, watch: Watch) -> Conformance:
         """What becomes of it."""
@@ -161,7 +164,7 @@ class _Attempt:
 
         path = run_path.Path(visit) if subject.formulas or self.keeps_run else None
         tail = int(subject.slack / subject.time_unit)
-        search = Search(graph, stream, tail, passed, path, self.hidden)
+        search = Search(graph, stream, tail, passed, path, self.hidden, self.widest)
         found = search.run(begun.configs, begun.time) if begun.configs else None
         diagnosis = Diagnosis(graph, stream, subject.source, passed.by_rebec, passed.last)
         answer = _Conclusion(

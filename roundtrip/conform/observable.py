@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from itertools import product
 from typing import Any, TypeAlias
 
@@ -34,23 +34,27 @@ class Observable:
         states = tuple(package.node_class(r.class_name).state for r in program.rebecs)
         return cls(program, tuple(names[r.name] for r in program.rebecs), states, package)
 
-    def decoder(self, rebec: int) -> Callable[[Mapping[str, Any]], Cells]:
-        """What makes cells of the fields of a rebec's state message. KeyError: one is missing."""
+    def decoder(self, rebec: int) -> tuple[tuple[str, ...], Callable[[Sequence[Any]], Cells]]:
+        """The fields of a rebec's state message, and what makes cells of their values."""
         info = self.program.rebecs[rebec]
         fields = {f.source: f.name for f in self.states[rebec].fields}
-        slots = [(fields[slot.name], slot.size, self.reader(slot.kind)) for slot in info.state]
+        names = tuple(fields[slot.name] for slot in info.state)
+        readers = [self.reader(slot.kind) for slot in info.state]
+        slots = list(zip(names, (slot.size for slot in info.state), readers, strict=True))
+        is_plain = all(not slot.type.dimensions for slot in info.state)
 
-        def decode(message: Mapping[str, Any]) -> Cells:
+        def decode(values: Sequence[Any]) -> Cells:
+            if is_plain and not any(map(_is_list, values)):
+                return tuple([read(value) for read, value in zip(readers, values, strict=True)])
             cells: list[Cell] = []
-            for name, size, read in slots:
-                value = message[name]
-                values = [value] if size == 1 and not _is_list(value) else list(value)
-                if len(values) != size:
-                    raise ValueError(f"{name} has {len(values)} elements, not {size}")
-                cells += map(read, values)
+            for (name, size, read), value in zip(slots, values, strict=True):
+                elements = [value] if size == 1 and not _is_list(value) else list(value)
+                if len(elements) != size:
+                    raise ValueError(f"{name} has {len(elements)} elements, not {size}")
+                cells += map(read, elements)
             return tuple(cells)
 
-        return decode
+        return names, decode
 
     def reader(self, kind: Kind) -> Callable[[Any], Cell]:
         """What makes a cell of a field's value. TypeError, ValueError: it is of another kind."""

@@ -126,6 +126,12 @@ class _Property:
         """A state, how long after the one before it is reached, and what was true in that."""
         if self.decided is not None:
             return
+        if self.bound is None:
+            # The usual case, and the only one that repeats: nothing that was not seen before.
+            rest = self._table.get((self._number, tuple([truth[p] for p in self.needed])))
+            if rest is not None and not isinstance(rest, bool):
+                self._go_on(rest)
+                return
         if None in truth.values() and any(truth[p] is None for p in self.needed):
             self.decided = ("undetermined", time)
             return
@@ -153,9 +159,12 @@ class _Property:
             rest = self.progression.see({p: bool(truth[p]) for p in self.needed}, elapsed)
             rest = self._rests.setdefault(rest, rest)
             self._table[self._number, values] = rest
+        self._go_on(rest)
+        return rest
+
+    def _go_on(self, rest: Rest) -> None:
         self.progression.rest = rest
         self._number = id(rest)
-        return rest
 
     def result(self, is_middle: bool, why: str) -> Evaluated:
         kind: Literal["assertion", "formula"] = "assertion" if self.is_assertion else "formula"

@@ -10,8 +10,9 @@ from pathlib import Path
 from rebsync.diagnostics import RebsyncError
 from rebsync.package import Package
 from rebsync.records import dataclass
+from rebsync.roundtrip.conform.bags import OwnTypes
 from rebsync.roundtrip.conform.recording import Event, Served, Truncated
-from rebsync.roundtrip.conform.topic_filter import TopicFilter
+from rebsync.roundtrip.conform.topic_filter import TopicChoice, TopicFilter
 from rebsync.roundtrip.conform.topics import Topics
 
 _REMEMBERED = 10_000  # state messages that two files may be apart
@@ -33,9 +34,8 @@ class Recordings:
         Where one file cannot be read on all end: what the others have is no whole run.
         """
         wanted = TopicFilter(self.topics, self.namespace, with_sent)
-        streams = [
-            _events(path, number, wanted, self.package) for number, path in enumerate(self.paths)
-        ]
+        own = OwnTypes.of(self.package) if any(map(_is_bag, self.paths)) else OwnTypes("", {})
+        streams = [events_of(path, n, wanted, own) for n, path in enumerate(self.paths)]
         if len(streams) == 1:
             return streams[0]
         return _once(heapq.merge(*streams, key=lambda event: event.stamp))
@@ -66,6 +66,12 @@ def recordings(
     paths: Sequence[str], topics: Topics, package: Package, namespace: str | None
 ) -> Recordings:
     """Recordings by their paths. RebsyncError: one is not there, or needs what is not installed."""
+    check_readable(paths)
+    return Recordings(tuple(paths), topics, package, namespace)
+
+
+def check_readable(paths: Sequence[str]) -> None:
+    """RebsyncError: one is not there, or needs what is not installed."""
     for path in paths:
         if not Path(path).exists():
             raise RebsyncError.of(path, "RS801", "no such file or directory")
@@ -75,14 +81,14 @@ def recordings(
             raise RebsyncError.of(
                 path, "RS981", "bags are read by rosbags, which is not installed", INSTALL
             )
-    return Recordings(tuple(paths), topics, package, namespace)
 
 
 def _is_bag(path: str) -> bool:
     return Path(path).is_dir() or Path(path).suffix not in _LOGS
 
 
-def _events(path: str, file: int, wanted: TopicFilter, package: Package) -> Iterator[Event]:
+def events_of(path: str, file: int, wanted: TopicChoice, own: OwnTypes) -> Iterator[Event]:
+    """The events of one file that are wanted; `own` are types that it may lack."""
     if not _is_bag(path):
         from rebsync.roundtrip.conform.jsonlines import events
 
@@ -90,4 +96,4 @@ def _events(path: str, file: int, wanted: TopicFilter, package: Package) -> Iter
     from rebsync.roundtrip.conform.bags import events_1, events_2
 
     is_1 = Path(path).is_file() and (".bag" in Path(path).suffixes[-2:])
-    return (events_1 if is_1 else events_2)(path, file, wanted, package)
+    return (events_1 if is_1 else events_2)(path, file, wanted, own)

@@ -81,6 +81,16 @@ class Driven(NamedTuple):
     place: Place
 
 
+class Heard(NamedTuple):
+    """A message on a topic of nodes that people wrote: the values of those fields that count."""
+
+    topic: str
+    values: tuple[object, ...]
+    stamp: float
+    place: Place
+    publisher: str = ""
+
+
 class Truncated(NamedTuple):
     """Where a file cannot be read on, and why: what was recorded after that is not known."""
 
@@ -89,7 +99,7 @@ class Truncated(NamedTuple):
     place: Place
 
 
-Event: TypeAlias = "Served | Sent | Announced | Ticked | Driven | Truncated"
+Event: TypeAlias = "Served | Sent | Announced | Ticked | Driven | Heard | Truncated"
 
 
 class Recording(Protocol):

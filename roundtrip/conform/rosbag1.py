@@ -8,6 +8,7 @@ read here, in the order of the file; types and fields are those of rosbags.
 from __future__ import annotations
 
 import bz2
+import re
 import struct
 from collections.abc import Iterator
 from typing import BinaryIO, NamedTuple
@@ -17,6 +18,11 @@ _MESSAGE, _CHUNK, _CONNECTION = 2, 5, 7
 _LENGTH = struct.Struct("<I")
 _TIME = struct.Struct("<II")
 _LARGEST = 2**30
+_NUMBERS = struct.Struct("<III")
+# The header of a message as writers make it, of which there are many; `op` has one of two places.
+_OP = rb"(?:\x04\0\0\0op=\x02)?"
+_USUAL = re.compile(_OP + rb"\x09\0\0\0conn=(.{4})" + _OP + rb"\x0d\0\0\0time=(.{8})", re.DOTALL)
+_USUAL_SIZE = 38
 
 
 class DamagedBag(Exception):
@@ -97,7 +103,11 @@ def _chunk(data: bytes, is_cut: bool = False) -> Iterator[tuple[int, Connection]
     messages: list[RawMessage] = []
     damage: DamagedBag | None = None
     try:
-        for op, fields, content in _records_in(data):
+        for record in _records_in(data):
+            if isinstance(record, RawMessage):
+                messages.append(record)
+                continue
+            op, fields, content = record
             if op == _MESSAGE:
                 messages.append(_message(fields, content))
             elif op == _CONNECTION:
@@ -109,7 +119,10 @@ def _chunk(data: bytes, is_cut: bool = False) -> Iterator[tuple[int, Connection]
         raise damage
 
 
-def _records_in(data: bytes) -> Iterator[tuple[int, dict[bytes, bytes], memoryview]]:
+def _records_in(
+    data: bytes,
+) -> Iterator[RawMessage | tuple[int, dict[bytes, bytes], memoryview]]:
+    """The messages, and the fields and contents of other records with their kinds."""
     view, position, end = memoryview(data), 0, len(data)
     while position < end:
         start = position + 4
@@ -119,6 +132,12 @@ def _records_in(data: bytes) -> Iterator[tuple[int, dict[bytes, bytes], memoryvi
         position = content + _at(data, position)
         if position > end:
             raise DamagedBag("a chunk ends within a record")
+        usual = _USUAL.fullmatch(header) if len(header) == _USUAL_SIZE else None
+        if usual is not None:
+            connection, seconds, nanoseconds = _NUMBERS.unpack(usual[1] + usual[2])
+            time = seconds * 10**9 + nanoseconds
+            yield RawMessage(connection, time, view[content:position])
+            continue
         fields = _fields(header)
         yield _op(fields), fields, view[content:position]
 

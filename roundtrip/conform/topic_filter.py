@@ -2,8 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 from rebsync.diagnostics import RebsyncError
 from rebsync.roundtrip.conform.topics import Topic, Topics
+
+
+class TopicChoice(Protocol):
+    """Which topics of a recording are read, and what makes events of their messages."""
+
+    def topic(self, name: str, path: str) -> Topic | None:
+        """The topic of a name on the wire; None: its messages are not looked at."""
+        ...
 
 
 class TopicFilter:

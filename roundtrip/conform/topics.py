@@ -21,19 +21,26 @@ from rebsync.roundtrip.conform.recording import (
 
 _NEVER = 2**63 - 1
 _NANO = 1e-9
+_SERVED = ("server", "arguments", "arrival", "start", "now")
 
 Message: TypeAlias = Mapping[str, Any]
 Convert: TypeAlias = Callable[[Message, float, Place, str], Event]
+Build: TypeAlias = Callable[[Sequence[Any], float, Place, str], Event]
 
 
 @dataclass(frozen=True, slots=True)
 class Topic:
-    """A topic of the model without its namespace, the type of its messages, and what they tell."""
+    """A topic of the model without its namespace, the type of its messages, and what they tell.
+
+    Of states `fields` are read, and `build` makes the event of their values: there are many.
+    """
 
     name: str
     type: str
     convert: Convert
     is_state: bool = False
+    fields: tuple[str, ...] = ()
+    build: Build | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,23 +73,29 @@ class Topics:
 
 
 def _state(observable: Observable, rebec: int) -> Topic:
-    decode = observable.decoder(rebec)
+    names, decode = observable.decoder(rebec)
+    fields = (*_SERVED, *names)
 
-    def convert(message: Message, stamp: float, place: Place, publisher: str) -> Event:
+    def build(values: Sequence[Any], stamp: float, place: Place, publisher: str) -> Event:
+        server, arguments, arrival, start, now = values[:5]
         return Served(
             rebec,
-            str(message["server"]),
-            str(message["arguments"]),
-            int(message["arrival"]),
-            int(message["start"]),
-            int(message["now"]),
-            decode(message),
+            str(server),
+            str(arguments),
+            int(arrival),
+            int(start),
+            int(now),
+            decode(values[5:]),
             stamp,
             place,
             publisher,
         )
 
-    return Topic(f"{observable.nodes[rebec]}/state", observable.states[rebec].name, convert, True)
+    def convert(message: Message, stamp: float, place: Place, publisher: str) -> Event:
+        return build([message[name] for name in fields], stamp, place, publisher)
+
+    topic, type_ = f"{observable.nodes[rebec]}/state", observable.states[rebec].name
+    return Topic(topic, type_, convert, True, fields, build)
 
 
 def _announced(message: Message, stamp: float, place: Place, publisher: str) -> Event:

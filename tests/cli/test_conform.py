@@ -276,3 +276,71 @@ def test_a_recording_is_not_overwritten(tmp_path: Path) -> None:
     done = rebsync("conform", MODEL, "run.bag", "-o", "run.bag", cwd=tmp_path)
     assert done.status == 2
     assert (tmp_path / "run.bag").read_bytes() == BAG.read_bytes()
+
+
+# --- packages that people wrote
+
+PEOPLE = str(BAGS.parent / "packages" / "thermostat")
+TOPICS = BAGS / "thermostat.jsonl"
+
+
+def test_topics_of_a_package_that_people_wrote(tmp_path: Path) -> None:
+    done = rebsync("conform", PEOPLE, str(TOPICS), cwd=tmp_path)
+    assert (done.status, done.out) == (0, f"{PEOPLE}: conforms, 60 steps\n"), done.err
+    lines = TOPICS.read_text(encoding="utf-8").splitlines()
+    at = next(n for n, line in enumerate(lines) if '"/heat"' in line and n > 30)
+    faulty = tmp_path / "faulty.jsonl"
+    faulty.write_text("".join(f"{line}\n" for line in [*lines[:at], *lines[at + 1 :]]))
+    done = rebsync("conform", PEOPLE, str(faulty), "--from-start", "--format", "json", cwd=tmp_path)
+    assert done.status == 1, done.out
+    answer = json.loads(done.out)
+    jsonschema.validate(answer, SCHEMA)
+    assert answer["deviation"]["kind"] == "lost message"
+    assert answer["deviation"]["rebec"] == "thermostat"
+    assert answer["deviation"]["code"]["path"].endswith("src/thermostat.py")
+    done = rebsync("conform", PEOPLE, str(faulty), cwd=tmp_path)
+    assert done.status == 1, done.out  # whatever the nodes did before
+
+
+@pytest.mark.parametrize(
+    ("model", "options", "said"),
+    [
+        (PEOPLE, ("--page", "x.html"), "--page is for models"),
+        (PEOPLE, ("--property", "x.property"), "--property is for models"),
+        (MODEL, ("--from-start",), "--from-start is for packages"),
+        (MODEL, ("--slack", "1"), "--slack is for packages"),
+    ],
+)
+def test_options_that_do_not_go_with_a_subject(
+    model: str, options: tuple[str, ...], said: str, tmp_path: Path
+) -> None:
+    recording = TOPICS if model == PEOPLE else BAG
+    done = rebsync("conform", model, str(recording), *options, cwd=tmp_path)
+    assert done.status == 2
+    assert said in done.err
+
+
+def test_states_bound_the_width_of_the_search(tmp_path: Path) -> None:
+    done = rebsync("conform", PEOPLE, str(TOPICS), "--max-states", "1", cwd=tmp_path)
+    assert done.status == 4
+    assert "more than 1 states of heater are possible" in done.out
+    model = tmp_path / "wide.rebeca"
+    model.write_text(WIDE)
+    steps = [("constructor", 0), ("begin", 0), ("end", 2)]
+    data = ({"server": s, "arguments": "", "arrival": t, "start": t, "now": t} for s, t in steps)
+    lines = (json.dumps({"topic": "/a/state", "stamp": d["now"], "data": d}) for d in data)
+    path = tmp_path / "run.jsonl"
+    path.write_text("".join(f"{line}\n" for line in lines))
+    assert rebsync("conform", str(model), str(path), cwd=tmp_path).status == 0
+    done = rebsync("conform", str(model), str(path), "--max-states", "1", cwd=tmp_path)
+    assert done.status == 4
+    assert "more than 1 states of the model are possible" in done.out
+
+
+WIDE = """reactiveclass A(3) {
+  A() { self.begin(); }
+  msgsrv begin() { self.end() after(?(2, 3)); }
+  msgsrv end() {}
+}
+main { A a():(); }
+"""

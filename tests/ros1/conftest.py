@@ -30,7 +30,11 @@ Build = Callable[[str, Sequence[Path]], Workspace]
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what is here; skip it, loudly, where there is no ROS 1, except in CI."""
+    """Mark what is here; skip it, loudly, where there is no ROS 1, except in CI.
+
+    What a module does not try of all combinations of parameters (`is_tried`) is no test.
+    """
+    items[:] = [item for item in items if _HERE not in item.path.parents or _is_tried(item)]
     reason = missing_ros()
     for item in items:
         if _HERE not in item.path.parents or not {"probe", "build_workspace"} & set(
@@ -45,6 +49,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         item.add_marker(pytest.mark.flaky(reruns=1))
         if reason is not None and os.environ.get("CI") != "true":
             item.add_marker(pytest.mark.skip(reason=reason))
+
+
+def _is_tried(item: pytest.Item) -> bool:
+    is_tried = getattr(getattr(item, "module", None), "is_tried", None)
+    callspec = getattr(item, "callspec", None)
+    return is_tried is None or callspec is None or bool(is_tried(callspec.params))
 
 
 @pytest.fixture(scope="session")

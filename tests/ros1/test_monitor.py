@@ -16,7 +16,7 @@ import pytest
 from rebsync.config import Config
 from tests.forward.compiling import generated, written
 from tests.forward.monitor_cases import CASES, ERROR, MODEL, OK, Case
-from tests.ros1.conftest import Build
+from tests.ros1.conftest import DIALECTS, Build
 from tests.ros1.run import launched, ros_environment
 from tests.ros1.workspace import SYSTEM_PYTHON, Workspace
 
@@ -24,6 +24,12 @@ _LISTENER = Path(__file__).parent / "nodes" / "diagnostics.py"
 _CONFIG = Config(monitor=True, time_unit=0.25)
 _LONG = 60.0  # s, within which a monitor has to have said what it has to say
 _IN_CPP = ("as generated", "lost send")  # of which packages are built, which takes minutes
+_TRIED = [
+    pytest.param(dialect, case, id=f"{dialect}-{case.name}")
+    for dialect in DIALECTS
+    for case in CASES
+    if dialect != "ros1-cpp" or case.name in _IN_CPP
+]
 _NUMBERS = {case.name: f"patrol{i}" for i, case in enumerate(CASES)}
 
 
@@ -48,13 +54,11 @@ def workspace(
     return build_workspace(f"monitors_{dialect}", packages)
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda c: c.name)
+@pytest.mark.parametrize(("dialect", "case"), _TRIED, scope="session")
 def test_the_monitor_says_what_is_wrong(
     case: Case, dialect: str, workspace: Workspace, build_workspace: Build, tmp_path: Path
 ) -> None:
     del build_workspace  # its tests are those of ROS 1
-    if dialect == "ros1-cpp" and case.name not in _IN_CPP:
-        pytest.skip("tried in Python")
     package = _NUMBERS[case.name]
     port, environment = ros_environment(workspace, tmp_path)
     with _roscore(port, tmp_path, environment), _listening(tmp_path, environment) as heard:

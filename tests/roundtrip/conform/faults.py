@@ -33,7 +33,9 @@ def wrong_state(run: Sequence[Served], at: int, variable: int = 0) -> list[Serve
     """A state variable has another value after a step."""
     step = run[at]
     cells = list(step.cells)
-    cells[variable % len(cells)] += 1
+    place = variable % len(cells)
+    # Of a floating number a bit that is more than libraries of mathematics leave open.
+    cells[place] += 1 if abs(cells[place]) < 2**31 else 2**40
     return _numbered([*run[:at], step._replace(cells=tuple(cells)), *run[at + 1 :]])
 
 

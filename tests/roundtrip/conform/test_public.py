@@ -7,39 +7,32 @@ from typing import Any
 
 import pytest
 
-from rebsync.roundtrip.conform.bags import events_2
-from rebsync.roundtrip.conform.recording import Sent, Truncated
-from tests.roundtrip.conform.test_recordings import BAGS, of_bag
+from rebsync.roundtrip.conform.bags import OwnTypes, events_2
+from rebsync.roundtrip.conform.recording import Place, Sent, Truncated
+from rebsync.roundtrip.conform.topics import Topic
 
 PUBLIC = Path(__file__).parent / "public"
 
 
-class _Plain:
-    """A topic of which the fields of messages are kept as they are."""
-
-    def __init__(self, name: str, kept: list[dict[str, Any]]) -> None:
-        self.name, self._kept = name, kept
-
-    def convert(self, fields: Any, stamp: float, place: Any, node: str) -> Sent:  # noqa: ANN401
-        self._kept.append({name: fields[name] for name in fields})
-        return Sent(0, self.name, "", None, None, stamp, place, node)
-
-
 class _All:
-    """Takes all topics."""
+    """Takes all topics, and keeps the fields of messages as they are."""
 
     def __init__(self) -> None:
         self.kept: list[dict[str, Any]] = []
 
-    def topic(self, name: str, path: str) -> _Plain:
-        return _Plain(name, self.kept)
+    def topic(self, name: str, path: str) -> Topic:
+        def convert(fields: Any, stamp: float, place: Place, node: str) -> Sent:  # noqa: ANN401
+            self.kept.append({name: fields[name] for name in fields})
+            return Sent(0, name, "", None, None, stamp, place, node)
+
+        return Topic(name, "", convert)
 
 
 @pytest.mark.parametrize("ending", [".mcap", ".db3"])
 def test_a_public_recording_is_read(ending: str) -> None:
-    wanted: Any = _All()
+    wanted = _All()
     path = str(PUBLIC / f"talker{ending}")
-    found = list(events_2(path, 0, wanted, of_bag(BAGS[0]).observable.package))
+    found = list(events_2(path, 0, wanted, OwnTypes("", {})))
     assert not any(isinstance(event, Truncated) for event in found)
     names = [event.server for event in found if isinstance(event, Sent)]
     assert {name: names.count(name) for name in names} == {"/topic": 10, "/rosout": 10}

@@ -9,6 +9,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+import yaml
 
 from rebsync.roundtrip.conform.conformance import Conformance
 from rebsync.roundtrip.conform.matching import Subject, conform
@@ -17,7 +18,7 @@ from rebsync.roundtrip.conform.recording import Served
 from rebsync.roundtrip.conform.topics import Topics
 from tests.forward.compiling import CASES, case_config
 from tests.ros1.fidelity import subject
-from tests.roundtrip.conform.bagging import write_bag
+from tests.roundtrip.conform.bagging import Storage, write_bag
 from tests.roundtrip.conform.faults import (
     Fault,
     dropped,
@@ -130,15 +131,74 @@ def _is_near(run: tuple[Served, ...], at: int, found: Conformance) -> bool:
 
 
 @pytest.mark.parametrize("storage", ["ros1", "sqlite3", "mcap"])
-def test_a_bag_with_a_fault_says_where_it_is(storage: str, tmp_path: Path) -> None:
+def test_a_bag_with_a_fault_says_where_it_is(storage: Storage, tmp_path: Path) -> None:
     bag = HERE / "recordings" / "running_example-cpp.bag"
     of, run = of_bag(bag), steps(bag)
     at = len(run) // 2
     path = tmp_path / ("faulty.bag" if storage == "ros1" else "faulty")
-    write_bag(path, of.observable, wrong_state(run, at), storage)  # type: ignore[arg-type]
+    write_bag(path, of.observable, wrong_state(run, at), storage)
     opened = recordings([str(path)], Topics.of(of.observable), of.observable.package, None)
     found = conform(of, opened)
     assert found.deviation is not None
     assert found.deviation.kind == "wrong state"
     assert found.deviation.place is not None
     assert found.deviation.place.number == at + 1  # messages of a bag are counted from 1
+
+
+def test_a_database_that_is_cut_off_is_compared_up_to_there(tmp_path: Path) -> None:
+    bag = HERE / "recordings" / "warehouse-cpp.bag"
+    of, run = of_bag(bag), steps(bag)
+    folder = write_bag(tmp_path / "run", of.observable, run, "sqlite3")
+    whole = next(folder.glob("*.db3"))
+    data, compared = whole.read_bytes(), []
+    for part in range(7, 11):
+        path = tmp_path / f"cut{part}.db3"
+        path.write_bytes(data[: len(data) * part // 10])
+        opened = recordings([str(path)], Topics.of(of.observable), of.observable.package, None)
+        found = conform(of, opened)
+        assert found.verdict == ("conforms" if part == 10 else "undetermined"), found.reason
+        assert "ends within a record" in found.reason or part == 10
+        compared.append(found.compared)
+    assert compared == sorted(compared)
+    assert len(run) // 3 < compared[-2] < compared[-1] == len(run)
+
+
+@pytest.mark.parametrize(
+    ("storage", "compression"),
+    [
+        ("ros1", "bz2"),
+        ("ros1", "lz4"),
+        ("sqlite3", "file"),
+        ("sqlite3", "message"),
+        ("mcap", "file"),
+        ("mcap", "message"),
+        ("mcap", "storage"),
+    ],
+)
+def test_compressed_bags_are_read(storage: Storage, compression: str, tmp_path: Path) -> None:
+    bag = HERE / "recordings" / "running_example-cpp.bag"
+    of, run = of_bag(bag), steps(bag)
+    path = tmp_path / ("run.bag" if storage == "ros1" else "run")
+    write_bag(path, of.observable, run, storage, compression)
+    opened = recordings([str(path)], Topics.of(of.observable), of.observable.package, None)
+    found = conform(of, opened)
+    assert (found.verdict, found.compared) == ("conforms", len(run)), found.reason
+
+
+@pytest.mark.parametrize("storage", ["sqlite3", "mcap"])
+def test_split_bags_are_read(storage: Storage, tmp_path: Path) -> None:
+    bag = HERE / "recordings" / "running_example-cpp.bag"
+    of, run = of_bag(bag), steps(bag)
+    parts = [run[: len(run) // 2], run[len(run) // 2 :]]
+    folders = [tmp_path / f"run_{number}" for number in (0, 1)]
+    for folder, part in zip(folders, parts, strict=True):
+        write_bag(folder, of.observable, part, storage)
+    files = [next(p for p in folder.iterdir() if p.suffix != ".yaml") for folder in folders]
+    files[1].rename(folders[0] / files[1].name)
+    metadata = folders[0] / "metadata.yaml"
+    told = yaml.safe_load(metadata.read_text())
+    told["rosbag2_bagfile_information"]["relative_file_paths"] = [file.name for file in files]
+    metadata.write_text(yaml.safe_dump(told))
+    opened = recordings([str(folders[0])], Topics.of(of.observable), of.observable.package, None)
+    found = conform(of, opened)
+    assert (found.verdict, found.compared) == ("conforms", len(run)), found.reason

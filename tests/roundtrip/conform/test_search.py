@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from random import Random
 
 import pytest
@@ -160,14 +159,13 @@ def test_a_search_is_cut_at_its_limit(limit: int, verdict: str) -> None:
         assert (found.compared, found.widest >= 125) == (len(run), True)
 
 
-def test_what_is_cut_is_undetermined(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rebsync.roundtrip.conform.matching.Search", partial(Search, limit=60))
+def test_what_is_cut_is_undetermined() -> None:
     model = simulated.given(HIDDEN_CHOICES)
     run = simulated.simulate(model, 1)
     wrong = [*run[:-1], run[-1]._replace(cells=(7,))]
     subject = Subject(Source("model.rebeca", HIDDEN_CHOICES), model.program, model.observable)
     for recorded in (run, wrong):
-        found = conform(subject, simulated.Recorded(tuple(recorded)))
+        found = conform(subject, simulated.Recorded(tuple(recorded)), widest=60)
         assert found.verdict == "undetermined"
         assert found.reason == "more than 60 states of the model are possible"
         assert found.deviation is None

@@ -1,0 +1,294 @@
+"""Makes components of a closed model and of what was recorded on its topics."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterator, Sequence
+from dataclasses import field
+from math import inf
+
+from rebsync import model as m
+from rebsync.checker.program import Program
+from rebsync.records import dataclass
+from rebsync.roundtrip.conform.components.bodies import ComponentBodies
+from rebsync.roundtrip.conform.components.component import (
+    UNORDERED,
+    Component,
+    Input,
+    Output,
+    Timing,
+)
+from rebsync.roundtrip.conform.components.disturbance import conflicts
+from rebsync.roundtrip.conform.components.environment import CLASS, Closed, Link
+from rebsync.roundtrip.conform.components.heard import HeardRecordings
+from rebsync.roundtrip.conform.components.interface import (
+    Interface,
+    Received,
+    Unmodelled,
+    cells_of,
+    interfaces,
+    parameter_names,
+)
+from rebsync.roundtrip.conform.conformance import Deviation
+from rebsync.roundtrip.conform.recording import Heard, Truncated
+from rebsync.statements import UNREADABLE
+
+_JUMP = 1.0  # s that stamps of a topic may go back
+
+
+class NotCompared(Exception):
+    """Why a rebec cannot be compared."""
+
+
+@dataclass(slots=True)
+class Assembly:
+    """The components, and what is left out.
+
+    `open` keeps the answer from being more than undetermined, `notes` do not. `doubts` are by
+    rebecs why a refusal of them would say nothing.
+    """
+
+    components: list[Component] = field(default_factory=list)
+    deviations: list[Deviation] = field(default_factory=list)
+    open: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    doubts: dict[str, str] = field(default_factory=dict)
+    recorded: int = 0
+    end: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """A unit of the model, and by how much things may be late, in seconds."""
+
+    unit: float
+    slack: float
+
+
+def assemble(
+    closed: Closed, model: m.Model, program: Program, recordings: HeardRecordings, scale: Scale
+) -> Assembly:
+    """Components of all rebecs that can be compared. RebsyncError: a file cannot be read."""
+    assembler = _Assembler(closed, model, program, scale, interfaces(model, closed.links))
+    assembler.read(recordings)
+    for interface in assembler.interfaces:
+        assembler.add(interface)
+    return assembler.found
+
+
+@dataclass(slots=True)
+class _Assembler:
+    closed: Closed
+    model: m.Model
+    program: Program
+    scale: Scale
+    interfaces: tuple[Interface, ...]
+    found: Assembly = field(default_factory=Assembly)
+    begin: float = inf
+    end: float = -inf
+    _heard: dict[str, list[Heard]] = field(default_factory=dict)
+    _links: dict[str, tuple[str, Link]] = field(default_factory=dict)
+    _jumps: set[str] = field(default_factory=set)
+
+    # --- reading
+
+    def read(self, recordings: HeardRecordings) -> None:
+        """The messages on all topics of the rebecs. RebsyncError: a file cannot be read."""
+        used = {each.link for i in self.interfaces for each in i.received}
+        used |= {link for i in self.interfaces for link in i.published}
+        for server in sorted(used):
+            link = self.closed.links[server]
+            if link.topic in self._links:
+                self.found.open.append(f"{link.topic} has messages of several types")
+            self._links[link.topic] = server, link
+        wanted = {topic: link.fields for topic, (_, link) in self._links.items()}
+        for event in recordings.events(wanted):
+            if isinstance(event, Truncated):
+                self.found.open.append(f"it can be compared up to there: {event.why}")
+                break
+            if isinstance(event, Heard):
+                of_topic = self._heard.setdefault(event.topic, [])
+                if of_topic and event.stamp < of_topic[-1].stamp - _JUMP:
+                    self._jumps.add(event.topic)
+                of_topic.append(event)
+                self.begin = min(self.begin, event.stamp)
+                self.end = max(self.end, event.stamp)
+        for topic in sorted(self._jumps):
+            self.found.open.append(f"the clock jumps back in the messages on {topic}")
+        if self._heard:
+            self.found.end = round((self.end - self.begin) / self.scale.unit)
+        for topic in sorted(self._links):
+            lacking = self.closed.dropped.get(topic, ())
+            if self._heard.get(topic) and lacking:
+                names = ", ".join(lacking)
+                self.found.notes.append(
+                    f"not compared of {link.topic}, as no model has it: {names}"
+                )
+
+    # --- one rebec
+
+    def add(self, interface: Interface) -> None:
+        """The component of a rebec, or why there is none."""
+        heard = [link for link in interface.published if self._heard.get(self._topic(link))]
+        for link in interface.published:
+            if link not in heard:
+                topic = self._topic(link)
+                note = f"nothing on {topic} was recorded: what {interface.rebec} publishes there"
+                self.found.notes.append(f"{note} was not compared")
+        try:
+            component = self._component(interface, heard) if heard else None
+        except (NotCompared, Unmodelled) as why:
+            self.found.open.append(f"{interface.rebec} was not compared: {why}")
+            return
+        if component is None:
+            self.found.notes.append(f"{interface.rebec} publishes nothing that was recorded")
+        else:
+            self.found.components.append(component)
+
+    def _component(self, interface: Interface, heard: Sequence[str]) -> Component | None:
+        class_ = self._class(interface)
+        names = [info.name for info in self.program.rebecs]
+        rebec, environment = names.index(interface.rebec), self._environment()
+        self._check(interface, class_)
+        outputs = [self._outputs(interface, link) for link in heard]
+        if not any(outputs):
+            return None
+        first = min(all_[0].stamp for all_ in outputs if all_)
+        servers = self._servers(rebec)
+        inputs = [i for each in interface.received for i in self._inputs(each, servers)]
+        timing = Timing(self.scale.unit, self.scale.slack, self.begin, self.end, first)
+        numbers = self._servers(environment)
+        pairs = conflicts(class_)
+        return Component(
+            self.program,
+            rebec,
+            ComponentBodies(self.program, rebec, environment),
+            timing,
+            tuple(sorted(inputs, key=lambda each: each.stamp)),
+            tuple(self._topic(link) for link in heard),
+            tuple(map(tuple, outputs)),
+            {numbers[link]: k for k, link in enumerate(heard)},
+            frozenset((servers[a], servers[b]) for a, b in pairs if {a, b} <= servers.keys()),
+            is_bounded=self.closed.depth > 0,
+        )
+
+    def _check(self, interface: Interface, class_: m.ReactiveClass) -> None:
+        """NotCompared: its model lacks something, or the recording does."""
+        lines = [n for n in m.walk(class_) if isinstance(n, m.Annotation) and n.name == UNREADABLE]
+        if lines:
+            raise NotCompared(f"{len(lines)} of its statements could not be read")
+        if self.program.reads_clock:
+            raise NotCompared("the code decides by the clock, which no recording has")
+        sent = self._sent_inside(interface)
+        missing = [server for server in interface.unfed if server in sent]
+        if missing:
+            names = ", ".join(missing)
+            raise NotCompared(f"what other nodes send to its {names} was not recorded")
+        if self.closed.is_clocked:
+            why = "it may have gone by /clock, and stamps may be of another clock"
+            self.found.doubts[interface.rebec] = why
+        if interface.unfed:
+            names = ", ".join(interface.unfed)
+            self.found.notes.append(f"nothing for {names} of {interface.rebec} was recorded")
+            self.found.doubts[interface.rebec] = f"it may have served {names}, not recorded"
+
+    def _sent_inside(self, interface: Interface) -> set[str]:
+        """The servers of a rebec to which others of the package send."""
+        return {
+            call.server
+            for other in self.interfaces
+            for call in other.sent
+            if call.receiver == interface.rebec
+        }
+
+    def _class(self, interface: Interface) -> m.ReactiveClass:
+        name = next(r.class_name for r in self.program.rebecs if r.name == interface.rebec)
+        return next(
+            c for c in self.model.classes if isinstance(c, m.ReactiveClass) and c.name == name
+        )
+
+    def _environment(self) -> int:
+        return next(n for n, r in enumerate(self.program.rebecs) if r.class_name == CLASS)
+
+    def _servers(self, rebec: int) -> dict[str, int]:
+        dispatch = (n for n in self.program.rebecs[rebec].dispatch if n >= 0)
+        return {self.program.servers[n].name: n for n in dispatch}
+
+    def _topic(self, link: str) -> str:
+        return self.closed.links[link].topic
+
+    # --- messages
+
+    def _outputs(self, interface: Interface, link: str) -> list[Output]:
+        server, found = self._servers(self._environment())[link], []
+        for heard in self._own(interface, link):
+            values = self._values(link, heard)
+            cells = cells_of(self.program, server, values)
+            found.append(Output(heard.stamp, cells, heard.place, tuple(values)))
+        self.found.recorded += len(found)
+        return found
+
+    def _own(self, interface: Interface, link: str) -> Iterator[Heard]:
+        """The messages of a topic that a rebec has published. NotCompared: who has, is not said."""
+        topic = self._topic(link)
+        publishers = [i.rebec for i in self.interfaces if link in i.published]
+        heard = self._heard[topic]
+        callers = dict.fromkeys(h.publisher for h in heard)
+        by_name = {c: c.rpartition("/")[2] for c in callers}
+        mine = {c for c, name in by_name.items() if name == interface.rebec}
+        if len(publishers) == 1 and not mine:
+            mine = {next(iter(callers))}
+        elif not mine:
+            both = " and ".join(publishers)
+            raise NotCompared(f"{both} publish on {topic}, and the recording does not say which")
+        strangers = {c for c, name in by_name.items() if c not in mine and name not in publishers}
+        for each in heard:
+            if each.publisher in mine:
+                yield each
+            elif each.publisher in strangers:
+                strangers.clear()
+                self._strange(interface, topic, each)
+
+    def _strange(self, interface: Interface, topic: str, heard: Heard) -> None:
+        """Somebody else publishes on a topic of a rebec."""
+        message = f"{heard.publisher} publishes on {topic}, as {interface.rebec} does"
+        time = round((heard.stamp - self.begin) / self.scale.unit)
+        self.found.deviations.append(
+            Deviation(
+                "second publisher",
+                interface.rebec,
+                time,
+                f"{message}: the package has no such node",
+                None,
+                0,
+                message_place=heard.place,
+            )
+        )
+
+    def _inputs(self, received: Received, servers: dict[str, int]) -> Iterator[Input]:
+        topic, server = self._topic(received.link), servers[received.server]
+        heard = self._heard.get(topic, [])
+        stamps = sorted(h.stamp for h in heard)
+        inside = sum(received.link in i.published for i in self.interfaces)
+        lanes: dict[str, int] = {}
+        for each in heard:
+            values = self._values(received.link, each)
+            cells = cells_of(self.program, server, [values[p] for p in received.places])
+            lane = UNORDERED
+            if each.publisher or inside == 1:
+                lane = lanes.setdefault(each.publisher, self._lane(topic, len(lanes)))
+            yield Input(each.stamp, server, cells, lane, self._may_drop(stamps, each.stamp))
+
+    def _lane(self, topic: str, number: int) -> int:
+        return sorted(self._links).index(topic) * 1000 + number
+
+    def _may_drop(self, stamps: Sequence[float], stamp: float) -> bool:
+        """Whether more messages come together than the shortest queue holds."""
+        depth, slack = self.closed.depth, self.scale.slack
+        near = bisect_right(stamps, stamp + slack) - bisect_left(stamps, stamp - slack)
+        return 0 < depth < near
+
+    def _values(self, link: str, heard: Heard) -> list[object]:
+        """The values of a message in the order of the environment's parameters."""
+        names = self.closed.links[link].parameters
+        return [heard.values[names.index(name)] for name in parameter_names(self.model, link)]

@@ -1,0 +1,75 @@
+"""A node as an open component: what it received and published by the recording, in real time."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from rebsync.checker.program import Cell, Program
+from rebsync.records import dataclass
+from rebsync.roundtrip.conform.components.bodies import ComponentBodies
+from rebsync.roundtrip.conform.recording import Place
+
+UNORDERED = -1  # the lane of messages whose publisher is not known
+
+Cells = tuple[Cell, ...]
+
+
+class Input(NamedTuple):
+    """A recorded message that a rebec receives; those of a lane come in their order.
+
+    `may_drop`: so many came together that a queue of the code may have been full.
+    """
+
+    stamp: float
+    server: int
+    cells: Cells
+    lane: int
+    may_drop: bool
+
+
+class Output(NamedTuple):
+    """A recorded message that a rebec has published."""
+
+    stamp: float
+    cells: Cells
+    place: Place
+    values: tuple[object, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """Seconds: a unit of the model; by how much the code and the network may be late; where a
+    recording begins and ends; and when the node showed itself first."""
+
+    unit: float
+    slack: float
+    begin: float
+    end: float
+    first: float
+
+
+@dataclass(frozen=True, slots=True)
+class Component:
+    """A rebec with all that was recorded of it.
+
+    `inputs` go by stamps; `outputs` are those of each topic in `topics`, which are known by the
+    environment's servers. `conflicts` are pairs of servers whose bodies may disturb each other
+    where they run in threads. `is_bounded`: a queue of the code may become full.
+    """
+
+    program: Program
+    rebec: int
+    bodies: ComponentBodies
+    timing: Timing
+    inputs: tuple[Input, ...]
+    topics: tuple[str, ...]
+    outputs: tuple[tuple[Output, ...], ...]
+    by_server: dict[int, int]
+    conflicts: frozenset[tuple[int, int]] = frozenset()
+    in_threads: bool = False
+    is_bounded: bool = True
+
+    @property
+    def name(self) -> str:
+        """The name of the rebec."""
+        return self.program.rebecs[self.rebec].name

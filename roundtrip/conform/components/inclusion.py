@@ -1,0 +1,356 @@
+"""A search for a run of one component that receives and publishes what was recorded.
+
+A hypothesis is a state of the rebec with the messages that it has posted to itself. Clocks are
+those of the recording, and no body is seen itself: so each has an interval of real time in which it
+ran, from what it was caused by, give or take the slack. What it publishes narrows the interval. All
+orders are tried that the intervals leave open, and all choices; what differs in nothing is one.
+Errors of time do not add up: each body is counted from what caused it, and from what was recorded.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Iterable, Iterator
+from itertools import count
+from math import inf
+from typing import Literal, NamedTuple
+
+from rebsync.checker.endless import EndlessBody
+from rebsync.checker.steps import Failure
+from rebsync.records import dataclass
+from rebsync.roundtrip.conform.components.bodies import BodyRun, Publication
+from rebsync.roundtrip.conform.components.component import UNORDERED, Cells, Component
+from rebsync.roundtrip.conform.components.interface import is_same
+
+CONNECTS = 2.0  # s after a node has shown itself in which its topics may not be connected yet
+BEFORE = 60.0  # s before a recording in which nodes may have begun
+_KEPT = 20  # hypotheses that came furthest
+
+
+class Posted(NamedTuple):
+    """A message that the rebec has posted to itself, due between two times."""
+
+    server: int
+    cells: Cells
+    low: float
+    high: float
+
+
+class Hypothesis(NamedTuple):
+    """What may have happened so far.
+
+    The last body began at `low` at the earliest and at `high` at the latest; `free` says when
+    the rebec is done with it. `base` inputs were taken or missed, and so were those in `taken`.
+    `matched` outputs of each topic fit; `connected` are the lanes of which an input came.
+    """
+
+    low: float
+    high: float
+    free: tuple[float, float]
+    variables: Cells
+    pending: tuple[Posted, ...]
+    base: int
+    taken: frozenset[int]
+    matched: tuple[int, ...]
+    connected: frozenset[int] = frozenset()
+    last: int = -1
+
+    @property
+    def progress(self) -> tuple[int, float]:
+        """How far it has come."""
+        return sum(self.matched) + self.base + len(self.taken), self.low
+
+
+class Candidate(NamedTuple):
+    """A message that may be served next, in an interval of time; `input` is -1 of a posted one."""
+
+    server: int
+    cells: Cells
+    low: float
+    high: float
+    input: int
+    posted: Posted | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Inclusion:
+    """How a search ended. `raced`: bodies of two threads may have overlapped before."""
+
+    verdict: Literal["fits", "refused", "cut"]
+    reason: str = ""
+    dead: tuple[Hypothesis, ...] = ()
+    raced: bool = False
+    failures: tuple[Failure, ...] = ()
+    widest: int = 1
+
+
+class InclusionSearch:
+    """One search; with more than `limit` hypotheses at a time it is cut.
+
+    Inputs up to `served_before` may have been served before the beginnings.
+    """
+
+    def __init__(self, component: Component, limit: int, served_before: float = -inf) -> None:
+        self.component = component
+        self.limit = limit
+        self.served_before = served_before
+        self.raced = False
+        self.failures: dict[Failure, None] = {}
+        self._timing = component.timing
+        self._dead: list[Hypothesis] = []
+        self._waiting: list[tuple[float, int, Hypothesis]] = []
+        self._seen: dict[float, set[Hypothesis]] = {}
+        self._numbers = count()
+
+    # --- beginnings
+
+    def constructed(self) -> list[Hypothesis]:
+        """The rebec as its constructor leaves it, at any time up to its first message."""
+        nothing = tuple(0 for _ in self.component.outputs)
+        low, high = self._timing.begin - BEFORE, self._timing.first
+        before = Hypothesis(low, high, (-inf, -inf), (), (), 0, frozenset(), nothing)
+        candidate = Candidate(-1, (), low, high, -1)
+        runs = self.component.bodies.constructed()
+        return [after for run in runs for after in self._ran(before, candidate, run)]
+
+    # --- the search
+
+    def run(self, starts: Iterable[Hypothesis]) -> Inclusion:
+        """Whether one of the beginnings leads to the end of the recording."""
+        for each in starts:
+            self._push(each)
+        widest, before = 1, -inf
+        while self._waiting:
+            widest = max(widest, len(self._waiting))
+            if len(self._waiting) > self.limit:
+                reason = f"more than {self.limit} states of {self.component.name} are possible"
+                return self._ended("cut", reason, widest)
+            low, _, hypothesis = heapq.heappop(self._waiting)
+            if low > before:
+                self._seen.pop(before, None)
+                before = low
+            if self._is_complete(hypothesis):
+                return self._ended("fits", "", widest)
+            try:
+                after = list(self.successors(hypothesis))
+            except EndlessBody as endless:
+                body = self.component.program.body_at(endless.pc).name
+                return self._ended("cut", f"a body of {body} does not end", widest)
+            for each in after:
+                self._push(each)
+            if not after:
+                self._die(hypothesis)
+        return self._ended("refused", "", widest)
+
+    def _ended(
+        self, verdict: Literal["fits", "refused", "cut"], reason: str, widest: int
+    ) -> Inclusion:
+        dead, failures = tuple(self._dead), tuple(self.failures)
+        return Inclusion(verdict, reason, dead, self.raced, failures, widest)
+
+    def _push(self, hypothesis: Hypothesis) -> None:
+        seen = self._seen.setdefault(hypothesis.low, set())
+        if hypothesis not in seen:
+            seen.add(hypothesis)
+            heapq.heappush(self._waiting, (hypothesis.low, next(self._numbers), hypothesis))
+
+    def _die(self, hypothesis: Hypothesis) -> None:
+        best = self._dead[0].progress[0] if self._dead else -1
+        if hypothesis.progress[0] > best:
+            self._dead = []
+        if hypothesis.progress[0] >= best and len(self._dead) < _KEPT:
+            self._dead.append(hypothesis)
+
+    def _is_complete(self, hypothesis: Hypothesis) -> bool:
+        """Whether all that was recorded is explained, and nothing was due before the end."""
+        outputs = self.component.outputs
+        if any(n < len(all_) for n, all_ in zip(hypothesis.matched, outputs, strict=True)):
+            return False
+        return self._latest(hypothesis) >= self._timing.end
+
+    # --- steps
+
+    def successors(self, before: Hypothesis) -> Iterator[Hypothesis]:
+        """What may happen next. EndlessBody: a body does not end."""
+        for candidate in self.candidates(before):
+            if candidate.input >= 0 and self._may_miss(before, candidate):
+                yield self._missed(before, candidate)
+            for run in self.runs(before, candidate):
+                if run.failure is not None:
+                    self.failures[run.failure] = None
+                else:
+                    yield from self._ran(before, candidate, run)
+
+    def runs(self, before: Hypothesis, candidate: Candidate) -> tuple[BodyRun, ...]:
+        """The ways to serve a message."""
+        return self.component.bodies.runs(before.variables, candidate.server, candidate.cells)
+
+    def candidates(self, before: Hypothesis) -> list[Candidate]:
+        """The messages that may be served next: none of the others would be too late then."""
+        limit = min(self._latest(before), self._next_output(before))
+        if limit < before.low:
+            return []
+        found: list[Candidate] = []
+        for each in dict.fromkeys(before.pending):
+            low = max(before.low, each.low - self._timing.slack, before.free[0])
+            high = min(limit, self._upper(before, each.low, each.high))
+            if low <= high:
+                found.append(Candidate(each.server, each.cells, low, high, -1, each))
+        lanes: set[int] = set()
+        for number in self._open_inputs(before):
+            each_in = self.component.inputs[number]
+            if each_in.stamp - self._timing.slack > limit:
+                break
+            if each_in.lane != UNORDERED:
+                if each_in.lane in lanes:
+                    continue
+                lanes.add(each_in.lane)
+            low = max(before.low, each_in.stamp - self._timing.slack, before.free[0])
+            high = min(limit, self._upper(before, each_in.stamp, each_in.stamp))
+            if low <= high:
+                found.append(Candidate(each_in.server, each_in.cells, low, high, number))
+        return found
+
+    def _open_inputs(self, before: Hypothesis) -> Iterator[int]:
+        for number in range(before.base, len(self.component.inputs)):
+            if number not in before.taken:
+                yield number
+
+    def _upper(self, before: Hypothesis, low: float, high: float) -> float:
+        """The latest time at which something is served that is due in an interval."""
+        busy = before.free[1]
+        return (max(high, busy) if low - self._timing.slack <= busy else high) + self._timing.slack
+
+    def _latest(self, before: Hypothesis) -> float:
+        """The time up to which something has to be served."""
+        times = [self._upper(before, each.low, each.high) for each in before.pending]
+        latest = min(times, default=inf)
+        for number in self._open_inputs(before):
+            stamp = self.component.inputs[number].stamp
+            if stamp - self._timing.slack > latest:
+                break
+            latest = min(latest, self._upper(before, stamp, stamp))
+        return latest
+
+    def _next_output(self, before: Hypothesis) -> float:
+        both = zip(before.matched, self.component.outputs, strict=True)
+        return min((all_[n].stamp for n, all_ in both if n < len(all_)), default=inf)
+
+    # --- inputs that did not come
+
+    def _may_miss(self, before: Hypothesis, candidate: Candidate) -> bool:
+        """Whether an input may not have come: it was not connected yet, or a queue was full."""
+        each = self.component.inputs[candidate.input]
+        if each.may_drop or each.stamp <= self.served_before:
+            return True
+        if self.component.is_bounded and before.free[0] >= each.stamp:
+            return True
+        is_new = each.lane == UNORDERED or each.lane not in before.connected
+        return is_new and each.stamp <= self._timing.first + self._timing.slack
+
+    def _missed(self, before: Hypothesis, candidate: Candidate) -> Hypothesis:
+        base, taken = _advanced(before, candidate.input)
+        return before._replace(base=base, taken=taken)
+
+    # --- bodies
+
+    def _ran(self, before: Hypothesis, candidate: Candidate, run: BodyRun) -> Iterator[Hypothesis]:
+        if run.failure is not None:
+            self.failures[run.failure] = None
+            return
+        for low, high, matched in self.published(before, candidate, run.published):
+            yield self._after(before, candidate, run, low, high, matched)
+
+    def published(
+        self, before: Hypothesis, candidate: Candidate, sent: tuple[Publication, ...]
+    ) -> list[tuple[float, float, tuple[int, ...]]]:
+        """When a body may have run by what it publishes, and the outputs that fit then."""
+        ways = [(candidate.low, candidate.high, before.matched)]
+        for each in sent:
+            topic = self.component.by_server.get(each.server)
+            if topic is not None:
+                ways = [after for way in ways for after in self._fitting(way, topic, each)]
+        return ways
+
+    def _fitting(
+        self, way: tuple[float, float, tuple[int, ...]], topic: int, sent: Publication
+    ) -> Iterator[tuple[float, float, tuple[int, ...]]]:
+        low, high, matched = way
+        number, timing = matched[topic], self._timing
+        outputs, elapsed = self.component.outputs[topic], sent.after * timing.unit
+        if number < len(outputs):
+            stamp = outputs[number].stamp - elapsed
+            if self.is_output(topic, number, sent):
+                first, last = max(low, stamp - timing.slack), min(high, stamp)
+                if first <= last:
+                    now = (*matched[:topic], number + 1, *matched[topic + 1 :])
+                    yield first, last, now
+            high = min(high, stamp)
+        if number == 0 and low + elapsed <= timing.first + CONNECTS and low <= high:
+            yield low, high, matched
+            return
+        low = max(low, timing.end - timing.slack - elapsed)
+        if low <= high:
+            yield low, high, matched
+
+    def is_output(self, topic: int, number: int, sent: Publication) -> bool:
+        """Whether a recorded message has the values that a body publishes."""
+        recorded = self.component.outputs[topic][number].cells
+        return is_same(self.component.program, sent.server, recorded, sent.cells)
+
+    def _after(
+        self,
+        before: Hypothesis,
+        candidate: Candidate,
+        run: BodyRun,
+        low: float,
+        high: float,
+        matched: tuple[int, ...],
+    ) -> Hypothesis:
+        unit = self._timing.unit
+        self.raced |= self._races(before, candidate, low)
+        pending = list(before.pending)
+        if candidate.posted is not None:
+            pending.remove(candidate.posted)
+        pending += (
+            Posted(p.server, p.cells, low + p.after * unit, high + p.after * unit)
+            for p in run.posted
+        )
+        base, taken, connected = before.base, before.taken, before.connected
+        if candidate.input >= 0:
+            base, taken = _advanced(before, candidate.input)
+            connected |= {self.component.inputs[candidate.input].lane}
+        busy = run.busy * unit
+        free = (low + busy, high + busy) if run.busy else before.free
+        variables, last = run.variables, candidate.server
+        return Hypothesis(
+            low,
+            high,
+            free,
+            variables,
+            tuple(sorted(pending)),
+            base,
+            taken,
+            matched,
+            connected,
+            last,
+        )
+
+    def _races(self, before: Hypothesis, candidate: Candidate, low: float) -> bool:
+        """Whether a body may have run beside the one before it, in another thread."""
+        component = self.component
+        if not component.in_threads or before.last in (-1, candidate.server):
+            return False
+        if low - self._timing.slack <= before.free[1]:
+            return True
+        pair = before.last, candidate.server
+        return pair in component.conflicts and low - self._timing.slack <= before.high
+
+
+def _advanced(before: Hypothesis, number: int) -> tuple[int, frozenset[int]]:
+    """The inputs that were taken with one more."""
+    taken, base = {*before.taken, number}, before.base
+    while base in taken:
+        taken.remove(base)
+        base += 1
+    return base, frozenset(taken)

@@ -1,0 +1,259 @@
+"""Packages that people wrote against recordings of their topics (packages/)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from random import Random
+from shutil import copytree
+from typing import Any
+
+import pytest
+from rosbags.rosbag1 import Writer
+from rosbags.typesys import Stores, get_typestore
+
+from rebsync.cli.recorded_topics import TopicBounds, compared
+from rebsync.roundtrip.conform.bags import OwnTypes
+from rebsync.roundtrip.conform.components.heard import HeardRecordings
+from rebsync.roundtrip.conform.conformance import Conformance
+from tests.roundtrip.conform.real_time import Log, Package, Run, write
+
+PACKAGES = Path(__file__).parent / "packages"
+TOPICS = {
+    "thermostat": ("/temperature", "/heat", "/power"),  # rospy
+    "counter": ("/reset", "/count", "/alarm"),  # rclcpp
+    "doors": ("/open", "/opened"),  # rclpy: chooses, and sleeps
+}
+FROM_START = TopicBounds(None, True, None)
+ANYWHERE = TopicBounds(None, False, None)
+
+
+@cache
+def package(name: str) -> Package:
+    """A package, read."""
+    return Package.of(PACKAGES / name, TOPICS[name])
+
+
+def recorded(name: str, seed: int, seconds: int = 30) -> Log:
+    """What a good run shows."""
+    random = Random(seed)
+    times = [0.9 + 0.7 * n + random.uniform(0, 0.5) for n in range(int(seconds / 0.7))]
+    outside = {
+        "thermostat": [(t, "/temperature", random.randint(14, 26)) for t in times],
+        "counter": [(t, "/reset", random.randint(0, 1)) for t in times[::5]],
+        "doors": [],
+    }
+    return Run(package(name), random, 0.04, 100.0 + seconds).simulate(outside[name])
+
+
+def of(name: str, log: Log, tmp_path: Path, bounds: TopicBounds = FROM_START) -> Conformance:
+    """What is said of a log."""
+    path = write(log, tmp_path / "run.jsonl")
+    opened = HeardRecordings.of([str(path)], OwnTypes("", {}))
+    return package(name).opened.compare(opened, bounds)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("name", TOPICS)
+def test_good_runs_conform(name: str, seed: int, tmp_path: Path) -> None:
+    log = recorded(name, seed)
+    found = of(name, log, tmp_path)
+    assert (found.verdict, found.compared) == ("conforms", found.recorded), found
+    assert found.recorded > 5
+    part = log[len(log) // 3 :]
+    middle = of(name, part, tmp_path, ANYWHERE)
+    if name == "doors" and middle.verdict == "undetermined":  # a body may have been at work
+        assert "may have been in another state" in middle.reason
+    else:
+        assert middle.verdict == "conforms", middle
+    nameless = of(name, [{k: v for k, v in m.items() if k != "node"} for m in log], tmp_path)
+    assert nameless.verdict == "conforms", nameless
+
+
+Fault = Callable[[Log, int], Log]
+
+
+def dropped(log: Log, at: int) -> Log:
+    """A message is not there."""
+    return [*log[:at], *log[at + 1 :]]
+
+
+def late(log: Log, at: int) -> Log:
+    """A message comes late."""
+    moved = [*log[:at], log[at] | {"stamp": log[at]["stamp"] + 0.45}, *log[at + 1 :]]
+    return sorted(moved, key=lambda message: message["stamp"])
+
+
+def wrong_value(log: Log, at: int) -> Log:
+    """A message has another value."""
+    value = log[at]["data"]["data"]
+    other = not value if isinstance(value, bool) else value + 1
+    return [*log[:at], log[at] | {"data": {"data": other}}, *log[at + 1 :]]
+
+
+def swapped(log: Log, at: int) -> Log:
+    """Two messages of a topic come in the other order."""
+    value = log[at]["data"]
+    same = (n for n in range(at + 1, len(log)) if log[n]["topic"] == log[at]["topic"])
+    other = next(n for n in same if log[n]["data"] != value)
+    found = list(log)
+    found[at] = log[at] | {"data": log[other]["data"]}
+    found[other] = log[other] | {"data": value}
+    return found
+
+
+def second_publisher(log: Log, at: int) -> Log:
+    """Somebody else publishes on a topic of a node."""
+    return [*log[: at + 1], log[at] | {"node": "/other"}, *log[at + 1 :]]
+
+
+FAULTS: dict[str, tuple[Fault, set[str]]] = {
+    "dropped": (dropped, {"lost message", "late", "wrong value", "swapped"}),
+    "late": (late, {"late", "lost message"}),
+    "wrong value": (
+        wrong_value,
+        {"wrong value", "swapped", "repeated", "lost message", "unexpected"},
+    ),
+    "swapped": (swapped, {"swapped", "wrong value", "repeated", "unexpected"}),
+    "second publisher": (second_publisher, {"second publisher"}),
+}
+OUTPUTS = {
+    "thermostat": ("/heat", "/power"),
+    "counter": ("/count", "/alarm"),
+    "doors": ("/opened",),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("name", TOPICS)
+def test_faults_are_found(name: str, fault: str, tmp_path: Path) -> None:
+    log = recorded(name, 5)
+    make, kinds = FAULTS[fault]
+    for topic in OUTPUTS[name]:
+        own = [n for n, message in enumerate(log) if message["topic"] == topic]
+        at = own[len(own) // 2]
+        if fault == "swapped" and len({str(log[n]["data"]) for n in own[len(own) // 2 :]}) < 2:
+            continue
+        found = of(name, make(log, at), tmp_path)
+        assert found.verdict == "deviates", (topic, found)
+        assert found.deviation is not None
+        assert found.deviation.kind in kinds, found.deviation
+        told = 100.0 + (log[at]["stamp"] - 100.0)
+        begin = min(message["stamp"] for message in log)
+        assert abs(begin + found.deviation.time * 0.001 - told) < 1.2, found.deviation
+
+
+# --- a run on a real roscore (tests/ros1/nodes/topics.py)
+
+REAL = Path(__file__).parent / "recordings" / "thermostat.jsonl"
+
+
+def real() -> Log:
+    """The messages of that run."""
+    return [json.loads(line) for line in REAL.read_text().splitlines()]
+
+
+@pytest.mark.parametrize("is_bag", [False, True])
+def test_a_real_run_conforms(is_bag: bool, tmp_path: Path) -> None:
+    path = bag(real(), tmp_path / "run.bag") if is_bag else REAL
+    found, _ = compared(str(PACKAGES / "thermostat"), [str(path)], ANYWHERE)
+    assert (found.verdict, found.compared) == ("conforms", 60), found
+
+
+def bag(log: Log, path: Path) -> Path:
+    """A log as a bag of ROS 1."""
+    store = get_typestore(Stores.ROS1_NOETIC)
+    with Writer(path) as writer:
+        connections: dict[str, Any] = {}
+        for message in log:
+            name, value = message["topic"], message["data"]["data"]
+            type_ = f"std_msgs/msg/{'Bool' if isinstance(value, bool) else 'Int32'}"
+            if name not in connections:
+                caller = {"callerid": message["node"]}
+                connections[name] = writer.add_connection(name, type_, typestore=store, **caller)
+            raw = store.serialize_ros1(store.types[type_](data=value), type_)
+            writer.write(connections[name], round(message["stamp"] * 1e9), raw)
+    return path
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_faults_in_a_real_run_are_found(fault: str, tmp_path: Path) -> None:
+    log = real()
+    make, kinds = FAULTS[fault]
+    for topic in OUTPUTS["thermostat"]:
+        own = [n for n, message in enumerate(log) if message["topic"] == topic]
+        found = of("thermostat", make(log, own[len(own) // 3]), tmp_path)
+        assert found.verdict == "deviates", (topic, found)
+        assert found.deviation is not None
+        assert found.deviation.kind in kinds, found.deviation
+        script = {"/heat": "thermostat.py", "/power": "heater.py"}[topic]
+        place = found.deviation.code
+        assert place.path.endswith(script) if place else fault == "second publisher"
+
+
+# --- what is not known
+
+
+def test_a_refusal_is_open_where_the_states_before_are_not_known(tmp_path: Path) -> None:
+    log = recorded("counter", 5)
+    own = [n for n, message in enumerate(log) if message["topic"] == "/count"]
+    faulty = wrong_value(log, own[20])
+    assert of("counter", faulty, tmp_path, FROM_START).verdict == "deviates"
+    found = of("counter", faulty, tmp_path, ANYWHERE)
+    assert found.verdict == "undetermined"
+    assert "--from-start" in found.reason
+
+
+def test_topics_that_were_not_recorded_leave_it_open(tmp_path: Path) -> None:
+    log = real()
+
+    def without(topic: str) -> Conformance:
+        path = write([m for m in log if m["topic"] != topic], tmp_path / "run.jsonl")
+        return compared(str(PACKAGES / "thermostat"), [str(path)], FROM_START)[0]
+
+    assert "may have served measured" in without("/temperature").reason
+    assert "what other nodes send to its heat was not recorded" in without("/heat").reason
+    found = without("/power")
+    assert found.verdict == "conforms"
+    assert "heater publishes nothing that was recorded" in found.notes
+
+
+def test_times_by_another_clock_leave_it_open(tmp_path: Path) -> None:
+    slow = [m | {"stamp": 2 * m["stamp"]} for m in real()]
+    path = write(slow, tmp_path / "run.jsonl")
+    assert compared(str(PACKAGES / "thermostat"), [str(path)], FROM_START)[0].verdict == "deviates"
+    clock = {"topic": "/clock", "stamp": slow[0]["stamp"], "data": {"clock": 0.0}}
+    path = write([clock, *slow], tmp_path / "run.jsonl")
+    found, _ = compared(str(PACKAGES / "thermostat"), [str(path)], FROM_START)
+    assert found.verdict == "undetermined"
+    assert "/clock" in found.reason
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ("self.power = 0\n\n", "self.power = sock.recv()\n\n", "not compared"),
+        ("self.power += 1", "self.power += random.randint(0, 1)", None),
+        ("self.power += 1", "self.power = json.loads(x)", "heater"),
+        ("self.power += 1", "self.power = helper(self.power)", "heater"),
+    ],
+)
+def test_code_that_is_not_read_leaves_it_open(
+    old: str, new: str, reason: str | None, tmp_path: Path
+) -> None:
+    folder = tmp_path / "thermostat"
+    copytree(PACKAGES / "thermostat", folder)
+    heater = folder / "src" / "heater.py"
+    text = heater.read_text()
+    assert old in text
+    heater.write_text(
+        text.replace("import rospy", "import json, random\n\nimport rospy").replace(old, new)
+    )
+    found, _ = compared(str(folder), [str(REAL)], FROM_START)
+    if reason is None:  # the recorded run is one of those
+        assert found.verdict == "conforms", found
+    else:
+        assert found.verdict == "undetermined", found
+        assert reason in found.reason
