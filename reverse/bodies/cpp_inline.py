@@ -15,10 +15,10 @@ from rebsync.reverse.bodies.cpp_conversions import as_boolean, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
-from rebsync.reverse.bodies.cpp_returns import without_returns
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import place_of
 from rebsync.reverse.bodies.known_functions import is_matrix
+from rebsync.reverse.bodies.returns import without_returns
 from rebsync.reverse.bodies.scope import (
     Inline,
     Itself,
@@ -340,7 +340,10 @@ def _body(
         reader.before.append(reader.local(body, place, zero_of(place.type)))
         reader.scope.results[place.name] = place
     target = m.Name(place.name) if isinstance(place, Variable) else None
-    reader.before += without_returns(inside, body, statements, target)
+    done = without_returns(statements, target)
+    if done is None:
+        raise reader.unread(body, "a return in a loop has no place in another body")
+    reader.before += done
     return place
 
 

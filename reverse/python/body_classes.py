@@ -12,6 +12,7 @@ from rebsync import model as m
 from rebsync.intervals import Interval
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.made_locals import tidied
+from rebsync.reverse.bodies.returns import without_returns
 from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import TimerFact
@@ -24,7 +25,6 @@ from rebsync.reverse.python.body_messages import PROBE
 from rebsync.reverse.python.body_node_loops import Loop
 from rebsync.reverse.python.body_proof import ClassBodies, Proved, proved
 from rebsync.reverse.python.body_reading import Reading
-from rebsync.reverse.python.body_returns import without_returns
 from rebsync.reverse.python.body_scope import (
     TYPES,
     WHOLE,
