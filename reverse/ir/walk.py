@@ -19,7 +19,7 @@ Node: TypeAlias = (
     | e.FormatPiece
     | e.Capture
     | s.Statement
-    | s.Argument
+    | s.CallArgument
     | s.Callee
     | s.Case
     | s.Handler

@@ -22,7 +22,7 @@ from rebsync.reverse.nodes.node_servers import ParameterField, Server
 from rebsync.reverse.nodes.node_starts import started_late
 from rebsync.reverse.nodes.node_tidying import tidy
 from rebsync.reverse.python.body_messages import PROBE
-from rebsync.reverse.python.body_node_loops import Loop
+from rebsync.reverse.python.body_node_loops import EndlessLoop
 from rebsync.reverse.python.body_proof import ClassBodies, Proved, proved
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
@@ -67,7 +67,7 @@ class PyClass:
     reading: Reading
     constructor: tuple[m.Statement, ...] = ()
     served: list[ReadServer] = with_default(default_factory=list)
-    loops: list[Loop] = with_default(default_factory=list)
+    loops: list[EndlessLoop] = with_default(default_factory=list)
     types: dict[str, m.Type] = with_default(default_factory=dict)
     _proof: Proved | None = None
 
@@ -169,7 +169,7 @@ class PyClass:
             if field_kind(each.type) == WHOLE:
                 yield each.name, bounds(fields, types.widths.get(server.type or "", {}), each.path)
 
-    def _loop(self, loop: Loop) -> ReadServer:
+    def _loop(self, loop: EndlessLoop) -> ReadServer:
         """The server of a loop, which sends to itself after what it waits at its end."""
         frame = Frame(loop.frame.scope, bound=dict(loop.frame.bound), kept=loop.frame.kept)
         reader = PyStatements(

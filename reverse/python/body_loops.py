@@ -13,7 +13,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.body_effects import is_log
-from rebsync.reverse.python.body_node_loops import Loop, forever
+from rebsync.reverse.python.body_node_loops import EndlessLoop, forever
 from rebsync.reverse.python.body_rounds import leaves_nothing
 from rebsync.reverse.python.body_scope import WHOLE, Key, Value
 from rebsync.reverse.python.py_index import arguments_of, last_name
@@ -116,7 +116,7 @@ def _follows(node: Node) -> bool:
 def _started(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     wish = reader.frame.scope.name
     name = reader.reading.server_name(node, wish if wish not in ("", "main") else "loop")
-    reader.loops.append(Loop(name, node, reader.frame, reader.running, reader.only))
+    reader.loops.append(EndlessLoop(name, node, reader.frame, reader.running, reader.only))
     reader.is_over = True
     yield m.ExpressionStatement(m.Call(m.Self(), name), (), reader.frame.span(node))
 

@@ -11,7 +11,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.symbol_table import Symbols
+from rebsync.reverse.ir.cpp.symbol_table import SymbolTable
 from rebsync.reverse.ir.cpp.symbols import AliasSymbol, ClassSymbol, EnumSymbol
 from rebsync.reverse.ir.dump_expressions import dump_type
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
@@ -81,7 +81,7 @@ Lookup: TypeAlias = Callable[[Node, str, Cpp], "int | None"]
 class TypeReader:
     """The types that nodes name. `constant` gives the number that an expression is."""
 
-    def __init__(self, symbols: Symbols, constant: Lookup) -> None:
+    def __init__(self, symbols: SymbolTable, constant: Lookup) -> None:
         self.symbols = symbols
         self.constant = constant
         self.tuples: dict[str, tuple[tuple[str, t.Type], ...]] = {}
@@ -197,7 +197,7 @@ class TypeReader:
             return t.Reference(self._of_library(cpp, outer), True, _POINTER_ALIASES[last])
         if (message := _MESSAGE.match(name)) is not None:
             package, inner = message[1] or message[3], message[2] or message[4]
-            return t.Message(f"{package}/{inner.replace('::', '_')}")
+            return t.RosMessage(f"{package}/{inner.replace('::', '_')}")
         return t.Record(name) if outer else t.UNKNOWN
 
     def imported(self, cpp: Cpp, name: str) -> str:

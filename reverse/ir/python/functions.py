@@ -118,7 +118,7 @@ def define(ctx: Lowering, node: Node) -> None:
     for decorator in reversed(values):
         result = ctx.temporary(node)
         callee = _callee(decorator)
-        ctx.emit(s.Call(result, callee, (s.Argument(value),), ctx.place(node)))
+        ctx.emit(s.Call(result, callee, (s.CallArgument(value),), ctx.place(node)))
         value = result
     ctx.emit(s.Assign(target, value, ctx.place(definition)))
 
@@ -139,7 +139,7 @@ def _class(ctx: Lowering, node: Node, target: e.Lvalue | None) -> e.Expression |
         raise NoLowering("bases that are computed", node)
     values = ctx.values(nodes)
     bases = tuple(
-        s.Argument(v, text_of(field(p, "name")) if p.type == "keyword_argument" else None)
+        s.CallArgument(v, text_of(field(p, "name")) if p.type == "keyword_argument" else None)
         for p, v in zip(parts, values, strict=True)
     )
     name = ctx.binder.scopes[node.id].name
