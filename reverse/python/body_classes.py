@@ -12,13 +12,14 @@ from rebsync import model as m
 from rebsync.intervals import Interval
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.made_locals import tidied
-from rebsync.reverse.bodies.returns import without_returns
 from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import TimerFact
-from rebsync.reverse.nodes.node_bodies import takes_time, without_end
+from rebsync.reverse.nodes.node_bodies import repeated, takes_time, without_end
+from rebsync.reverse.nodes.node_loops import left
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_servers import ParameterField, Server
+from rebsync.reverse.nodes.node_setup import send
 from rebsync.reverse.nodes.node_starts import started_late
 from rebsync.reverse.nodes.node_tidying import tidy
 from rebsync.reverse.python.body_messages import PROBE
@@ -141,9 +142,8 @@ class PyClass:
         period = reading.periods.get(number)
         fact = server.timers[0] if server.timers else None
         if fact is not None and fact.one_shot is not True and period is not None:
-            again = _send(server.name, period)
-            early = takes_time(m.Block(statements)) or without_returns(statements) != statements
-            statements = (again, *statements) if early else (*statements, again)
+            body, again = m.Block(statements), send(server.name, period)
+            statements = repeated(body, again, takes_time(body)).statements
         return ReadServer(server.name, statements, carried, ranges, scope.node)
 
     def _body(self, reader: PyStatements, scope: Scope) -> tuple[m.Statement, ...]:
@@ -181,7 +181,7 @@ class PyClass:
             case (m.ExpressionStatement(m.Call(None, "delay", (time,))),):
                 statements, pause = statements[:-1], time
         again = m.ExpressionStatement(m.Call(m.Self(), loop.name, (), pause))
-        return ReadServer(loop.name, _left(statements, again), node=loop.node)
+        return ReadServer(loop.name, (*left(statements, again), again), node=loop.node)
 
     # --- the class ------------------------------------------------------------------------------
 
@@ -246,29 +246,6 @@ class PyClass:
                 reading.findings.unreadable(source, unread, reading.unit.name)
 
 
-def _left(statements: tuple[m.Statement, ...], again: m.Statement) -> tuple[m.Statement, ...]:
-    """The body of a loop as one of a server: `continue` starts the next round, `break` ends it."""
-    found: list[m.Statement] = []
-    for statement in statements:
-        found.append(_leaving(statement, again))
-    return (*found, again)
-
-
-def _leaving(statement: m.Statement, again: m.Statement) -> m.Statement:
-    match statement:
-        case m.Continue():
-            return m.Block((again, m.Return(None)))
-        case m.Break():
-            return m.Return(None)
-        case m.Block(inner):
-            return replace(statement, statements=tuple(_leaving(s, again) for s in inner))
-        case m.If(_, then, otherwise):
-            other = _leaving(otherwise, again) if otherwise is not None else None
-            return replace(statement, then=_leaving(then, again), otherwise=other)
-        case _:
-            return statement
-
-
 def _shown(statements: tuple[m.Statement, ...]) -> tuple[m.Statement, ...]:
     """Without what is only looked at."""
 
@@ -286,11 +263,6 @@ def _is_probe(statement: m.Statement) -> bool:
             return any(a.name == PROBE for a in annotations)
         case _:
             return False
-
-
-def _send(server: str, period: int) -> m.Statement:
-    after = m.IntLiteral(period) if period else None
-    return m.ExpressionStatement(m.Call(m.Self(), server, (), after))
 
 
 def _declared(type_: m.Type, name: str) -> m.Declaration:
