@@ -18,6 +18,7 @@ from rebsync.reverse.python.body_rounds import leaves_nothing
 from rebsync.reverse.python.body_scope import WHOLE, Key, Value
 from rebsync.reverse.python.py_index import arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, is_label, named, text_of
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.static.types import INT
 
 if TYPE_CHECKING:
@@ -102,14 +103,12 @@ def goes_on(node: Node) -> bool:
 
 def _follows(node: Node) -> bool:
     """Whether anything but a log stands behind a statement in its function."""
-    at: Node | None = node
-    while at is not None and at.type not in ("function_definition", "module"):
+    for at in (node, *ancestors(node, lambda n: n.type in ("function_definition", "module"))):
         behind = at.next_named_sibling
         while behind is not None:
             if behind.type not in ("comment", "pass_statement", "except_clause", "elif_clause"):
                 return True
             behind = behind.next_named_sibling
-        at = at.parent
     return False
 
 

@@ -13,6 +13,7 @@ from rebsync.reverse.ir.python.references import name_target
 from rebsync.reverse.ir.python.symbols import Symbols
 from rebsync.reverse.ir.types import UNKNOWN, Container, ContainerKind, Type
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.ancestors import climb
 
 
 def closure_of(ctx: Lowering, node: Node) -> e.Expression:
@@ -80,9 +81,7 @@ def _parameter(ctx: Lowering, node: Node, kind: ParameterKind) -> tuple[Paramete
 
 def _function_of(node: Node) -> Node:
     """The function whose parameter a node is."""
-    above = node.parent
-    while above is not None and above.type not in ("function_definition", "lambda"):
-        above = above.parent
+    above = climb(node, lambda n: n.type in ("function_definition", "lambda"))
     assert above is not None
     return above
 
