@@ -11,6 +11,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.intervals import Interval
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.invariants import Body, BodyStart, Unbounded, unbounded
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Unread
@@ -24,7 +25,6 @@ from rebsync.reverse.nodes.node_starts import started_late
 from rebsync.reverse.nodes.node_tidying import tidy
 from rebsync.reverse.python.body_messages import PROBE
 from rebsync.reverse.python.body_node_loops import EndlessLoop
-from rebsync.reverse.python.body_proof import ClassBodies, Proved, proved
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
     TYPES,
@@ -70,7 +70,7 @@ class PyClass:
     served: list[ReadServer] = with_default(default_factory=list)
     loops: list[EndlessLoop] = with_default(default_factory=list)
     types: dict[str, m.Type] = with_default(default_factory=dict)
-    _proof: Proved | None = None
+    _proof: Unbounded | None = None
 
     def read(self) -> None:
         """All bodies."""
@@ -87,28 +87,26 @@ class PyClass:
         self.types = self._types()
 
     @property
-    def proof(self) -> Proved:
+    def proof(self) -> Unbounded:
         """What following all bodies shows, once they are read."""
         if self._proof is None:
-            self._proof = proved(self._bodies())
+            servers = [self._followed(s.statements, s.ranges) for s in self.served]
+            start = self._followed(self.constructor, {})
+            self._proof = unbounded(start, servers, self.reading.state, self.reading.wide)
         return self._proof
 
     def _within(self, name: str) -> str:
         return f"{self.reading.unit.name}.{name}"
 
-    def _bodies(self) -> ClassBodies:
+    def _followed(
+        self, statements: tuple[m.Statement, ...], ranges: Mapping[str, Interval]
+    ) -> Body:
+        """A body for the analysis; its functions stand in the place of their calls."""
         reading = self.reading
         types = {n: t for n, t in self.types.items() if n not in reading.wide}
-        for served in self.served:
-            types |= {c.name: c.type for c in served.parameters}
-        return ClassBodies(
-            self.constructor,
-            [(s.statements, s.ranges) for s in self.served],
-            frozenset(reading.state),
-            frozenset(reading.wide),
-            types,
-            reading.needs,
-        )
+        types |= {c.name: c.type for served in self.served for c in served.parameters}
+        start, needs = BodyStart.BETWEEN, reading.needs
+        return Body("", start, statements, types, needs=needs, arguments=ranges)
 
     def _types(self) -> dict[str, m.Type]:
         """The state variables with their types."""
