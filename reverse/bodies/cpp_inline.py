@@ -30,6 +30,7 @@ from rebsync.reverse.bodies.scope import (
     TimerOf,
     Variable,
 )
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_depth import DEEPEST
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -175,10 +176,7 @@ def _of_member(
     reader: CppStatementReader, node: Node
 ) -> tuple[CppStatementReader, Node, Sequence[CppParameter], Node | None]:
     """The same for a lambda that a member holds."""
-    top = node
-    while top.parent is not None:
-        top = top.parent
-    if top.id != reader.cpp.root.id:
+    if [node, *ancestors(node)][-1].id != reader.cpp.root.id:
         raise reader.unread(node, "this function is put into its member in another file")
     inside = reader.inside(reader.cpp, replace(reader.scope, locals={}), frozenset())
     declarator = node.child_by_field_name("declarator")

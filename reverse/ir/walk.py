@@ -73,4 +73,3 @@ _NO_NODES = frozenset({"place", "type", "name", "dynamic", "reason"})
 SIMPLE: tuple[type, ...] = get_args(s.Simple)
 STRUCTURED: tuple[type, ...] = get_args(s.Structured)
 STATEMENTS = SIMPLE + STRUCTURED
-LVALUES: tuple[type, ...] = get_args(e.Lvalue)

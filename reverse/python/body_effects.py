@@ -185,11 +185,6 @@ def _is_never_zero(reading: Reading, node: Node, frame: Frame) -> bool:
     return bool(ways) and all(isinstance(w, int | float) and w for w in ways)
 
 
-def _acts(name: str) -> bool:
-    """Whether what has this name may act on the node, if nothing else is known of it."""
-    return libraries.acting().match(name) is not None
-
-
 def _ends(name: str) -> bool:
     return not name.endswith(("_async", "_once"))
 

@@ -25,8 +25,6 @@ from rebsync.reverse.ir.cpp.types import ReferenceKind
 from rebsync.reverse.syntax.cpp_tree import named
 from rebsync.source import Span
 
-_SCALARS = t.Integer | t.Float | t.Truth | t.Enumeration | t.Text | t.Reference | t.FunctionType
-
 
 def initialised(context: Context, target: e.Lvalue, type_: t.Type, node: Node) -> None:
     """Emits what gives a new object its first value."""
