@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph, Targets
 from rebsync.reverse.analysis.library_effects import LibraryEffect, LibraryTable, nothing_known
-from rebsync.reverse.analysis.local_effects import Local, local_effects
+from rebsync.reverse.analysis.local_effects import BodyEffects, local_effects
 from rebsync.reverse.analysis.locations import Elements, Location, Member, covers
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
@@ -95,7 +95,7 @@ class EffectAnalysis:
         """The functions that a body may call itself, or have called by a library."""
         return self._callees[function]
 
-    def _add(self, name: str, local: Local, destructors: frozenset[str]) -> None:
+    def _add(self, name: str, local: BodyEffects, destructors: frozenset[str]) -> None:
         """The effects of a body without what it calls, and what that is."""
         found = Effects(
             local.reads,
@@ -129,7 +129,7 @@ class EffectAnalysis:
         return found
 
     def _library(
-        self, name: str, place: Span, targets: Targets, local: Local
+        self, name: str, place: Span, targets: Targets, local: BodyEffects
     ) -> tuple[Effects, frozenset[str]]:
         """What a call of a library may do, and which functions it may call."""
         entry = self._table(name)

@@ -8,13 +8,14 @@ called in the middle of any body. The class must be alone, and all that it does 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import field, replace
 from enum import Enum, auto
 
 from rebsync import model as m
 from rebsync.intervals import INT32, INTEGERS, Interval, exactly
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
+from rebsync.reverse.analysis.interval_values import note
 from rebsync.reverse.analysis.needs import Mark, Need
 from rebsync.reverse.analysis.writes import written
 
@@ -51,11 +52,27 @@ class Body:
 
 
 @dataclass(frozen=True, slots=True)
+class Unbounded:
+    """What integers without bounds come to: needs that may not hold, variables that may leave the
+    `int`, and those that only count up to its end.
+    """
+
+    failed: frozenset[Mark]
+    broken: frozenset[str]
+    counted: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True)
 class _Held:
     """What state variables hold: at any time, and when a server starts."""
 
     always: Mapping[str, Interval]
     between: Mapping[str, Interval]
+
+    @staticmethod
+    def zero(names: Iterable[str]) -> _Held:
+        zero = dict.fromkeys(names, exactly(0))
+        return _Held(zero, zero)
 
     def widened(self, later: _Held, thresholds: Sequence[int]) -> _Held:
         return _Held(
@@ -80,10 +97,10 @@ def failed(
     for name in _hidden(bodies) | {n for b in bodies for s in b.statements for n in written(s)}:
         fixed.pop(name, None)
     asking = [body for body in bodies if body.needs]
-    found = _Round(_Held({}, {}), fixed, frozenset()).over(asking).failed if asking else set()
+    found = _Round(_Held({}, {}), fixed).over(asking).failed if asking else set()
     if not found or not names:
         return found
-    last = _fixpoint(bodies, dict.fromkeys(names, _BITS), fixed)
+    last = _fixpoint(bodies, _Round(_Held.zero(names), fixed, widths=dict.fromkeys(names, _BITS)))
     return last.failed if last is not None else found
 
 
@@ -94,29 +111,56 @@ def between_messages(bodies: Sequence[Body], state: Mapping[str, m.Type]) -> Map
     """
     names = {name for name, type_ in state.items() if type_.name in _WIDTHS} - _hidden(bodies)
     widths = {name: _WIDTHS[state[name].name] for name in names}
-    last = _fixpoint(bodies, widths, {}, wraps=True)
+    last = _fixpoint(bodies, _Round(_Held.zero(widths), widths=widths, wraps=True))
     return last.held.between if last is not None else {}
 
 
-def _fixpoint(
-    bodies: Sequence[Body],
-    widths: Mapping[str, int],
-    fixed: Mapping[str, Interval],
-    *,
-    wraps: bool = False,
-) -> _Round | None:
+def unbounded(
+    constructor: Body, servers: Sequence[Body], state: Collection[str], wide: Collection[str]
+) -> Unbounded:
+    """What integers without bounds come to, those of `state` from body to body; `wide` are all.
+
+    While the constructor runs, servers may: each value that it stores counts.
+    """
+    bodies, widths = (constructor, *servers), dict.fromkeys(wide, _BITS)
+    once = _Round(_Held({}, {}), changed=(), widths=widths)
+    stored = once.over([constructor]).stored
+    sure = set(_surely(constructor.statements))
+    first = {n: stored.get(n, exactly(0)) for n in widths.keys() & set(state)}
+    first = {n: r if n in sure else r.join(exactly(0)) for n, r in first.items()}
+    start = replace(once.afresh(), held=_Held(first, first), interrupted=constructor)
+    last = _fixpoint(bodies, start) or once.afresh().over(bodies)
+    return Unbounded(frozenset(last.failed), frozenset(last.broken), frozenset(last.counted))
+
+
+def _surely(statements: Sequence[m.Statement]) -> Iterator[str]:
+    """The variables that get a value before the node sends, waits or chooses."""
+    for statement in statements:
+        for node in m.walk(statement):
+            match node:
+                case m.Choice():
+                    return
+                case m.Call(target, name) if name == "delay" or target is not None:
+                    return
+        match statement:
+            case m.ExpressionStatement(m.Assign("=", m.Name(name))):
+                yield name
+
+
+def _fixpoint(bodies: Sequence[Body], start: _Round) -> _Round | None:
     """The round over all bodies after which nothing is new; None if there are too many."""
-    held = _Held(dict.fromkeys(widths, exactly(0)), dict.fromkeys(widths, exactly(0)))
-    thresholds = sorted({*limits_in(_nodes(bodies)), INT32.low, INT32.high})
+    thresholds = sorted({*limits_in(_nodes(bodies)), INT32.low, INT32.high, -1, 0, 1})
     called = _called(bodies)
     within = [s for body in bodies if body.name in called for s in body.statements]
     changed = frozenset(name for statement in within for name in written(statement))
+    round_ = replace(start, called=called, changed=changed)
     for number in range(_MOST_ROUNDS):
-        round_ = _Round(held, fixed, called, changed, widths, wraps).over(bodies)
+        held = round_.over(bodies).held
         later = round_.later()
         if later == held:
             return round_
         held = held.widened(later, thresholds) if number >= _PLAIN_ROUNDS else later
+        round_ = replace(round_.afresh(), held=held)
     return None
 
 
@@ -127,22 +171,33 @@ class _Round:
 
     `called` are the bodies that others call, whatever else they are, and `changed` what these
     change, if that is known. `widths` are the bits of state variables; `wraps` says whether sums
-    wrap: then no counter is trusted to stay below the greatest number.
+    wrap: then no counter is trusted to stay below the greatest number. Others may start while the
+    body that is `interrupted`, the first, runs.
     """
 
     held: _Held
-    fixed: Mapping[str, Interval]
-    called: frozenset[str]
+    fixed: Mapping[str, Interval] = field(default_factory=dict)
+    called: frozenset[str] = frozenset()
     changed: Collection[str] | None = None
     widths: Mapping[str, int] = field(default_factory=dict)
     wraps: bool = False
+    interrupted: Body | None = None
     failed: set[Mark] = field(default_factory=set)
+    broken: set[str] = field(default_factory=set)
+    counted: set[str] = field(default_factory=set)
     stored: dict[str, Interval] = field(default_factory=dict)
     left: dict[str, Interval] = field(default_factory=dict)
+
+    def afresh(self) -> _Round:
+        """The same before any body."""
+        return replace(self, failed=set(), broken=set(), counted=set(), stored={}, left={})
 
     def over(self, bodies: Sequence[Body]) -> _Round:
         for body in bodies:
             self._follow(body, BodyStart.WITHIN if body.name in self.called else body.entry)
+            if body is self.interrupted:
+                for name, values in self.stored.items():
+                    note(self.left, name, values)
         return self
 
     def _follow(self, body: Body, entry: BodyStart) -> None:
@@ -165,6 +220,8 @@ class _Round:
             trusts_counters=not self.wraps,
             cuts=body.cuts,
             results=body.results,
+            broken=self.broken,
+            counted=self.counted,
             failed=self.failed,
             stored=self.stored,
             left=self.left,

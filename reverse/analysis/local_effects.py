@@ -24,7 +24,7 @@ from rebsync.source import Span
 
 
 @dataclass(eq=False, slots=True)
-class Local:
+class BodyEffects:
     """What was found in one body.
 
     `implicit` are functions that operators and the like may call; `calls` are calls with their
@@ -47,7 +47,7 @@ _ITERATED = (ImplicitCall.ITERATE, ImplicitCall.NEXT)
 _KEYS = (ImplicitCall.HASH, Operator.EQUAL)
 
 
-def local_effects(graph: CallGraph, function: Function) -> Local:
+def local_effects(graph: CallGraph, function: Function) -> BodyEffects:
     """What a body does itself."""
     visitor = _Visitor(graph, function)
     for statement in function.body:
@@ -59,7 +59,7 @@ class _Visitor:
     def __init__(self, graph: CallGraph, function: Function) -> None:
         self.graph = graph
         self.function = function
-        self.found = Local()
+        self.found = BodyEffects()
         self.aliases = _aliases(function)
 
     def visit(self, node: Node) -> None:

@@ -23,6 +23,7 @@ from rebsync.reverse.bodies.scope import (
     meant_by,
 )
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
@@ -116,9 +117,7 @@ def _is_copy(reader: CppStatementReader, scope: Scope, node: Node, name: str) ->
         for n, x in scope.locals.items()
         if isinstance(x, Variable | m.Name) and x.name == of_model
     }
-    function = node.parent
-    while function is not None and function.type != "function_definition":
-        function = function.parent
+    function = climb(node, lambda n: n.type == "function_definition")
     if function is None:
         return False
     uses = (n for n in identifiers_in(function) if text_of(n) in same)

@@ -10,6 +10,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import bare
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_types import Carried, is_time
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.static.constants import constant
 from rebsync.static.types import BOOLEAN, BYTE, DOUBLE, INT, SHORT, is_integer
 
@@ -68,9 +69,7 @@ def _decimal(reader: CppExpressionReader, read: m.Expression, kept: Carried) -> 
 
 def _declared(value: Node) -> Node | None:
     """The type that the declaration of a constant names; None for a macro and for `auto`."""
-    above = value.parent
-    while above is not None and above.type not in ("declaration", "field_declaration"):
-        above = above.parent
+    above = climb(value, lambda n: n.type in ("declaration", "field_declaration"))
     type_ = above.child_by_field_name("type") if above is not None else None
     is_named = type_ is not None and type_.type != "placeholder_type_specifier"
     return type_ if is_named else None

@@ -15,10 +15,10 @@ from rebsync.reverse.bodies.cpp_conversions import as_boolean, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
-from rebsync.reverse.bodies.cpp_returns import without_returns
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import place_of
 from rebsync.reverse.bodies.known_functions import is_matrix
+from rebsync.reverse.bodies.returns import without_returns
 from rebsync.reverse.bodies.scope import (
     Inline,
     Itself,
@@ -30,6 +30,7 @@ from rebsync.reverse.bodies.scope import (
     TimerOf,
     Variable,
 )
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_depth import DEEPEST
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -175,10 +176,7 @@ def _of_member(
     reader: CppStatementReader, node: Node
 ) -> tuple[CppStatementReader, Node, Sequence[CppParameter], Node | None]:
     """The same for a lambda that a member holds."""
-    top = node
-    while top.parent is not None:
-        top = top.parent
-    if top.id != reader.cpp.root.id:
+    if [node, *ancestors(node)][-1].id != reader.cpp.root.id:
         raise reader.unread(node, "this function is put into its member in another file")
     inside = reader.inside(reader.cpp, replace(reader.scope, locals={}), frozenset())
     declarator = node.child_by_field_name("declarator")
@@ -340,7 +338,10 @@ def _body(
         reader.before.append(reader.local(body, place, zero_of(place.type)))
         reader.scope.results[place.name] = place
     target = m.Name(place.name) if isinstance(place, Variable) else None
-    reader.before += without_returns(inside, body, statements, target)
+    done = without_returns(statements, target)
+    if done is None:
+        raise reader.unread(body, "a return in a loop has no place in another body")
+    reader.before += done
     return place
 
 

@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.scope import Scope, Variable
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, parse, text_of
 from rebsync.source import Source
 from rebsync.static.types import INT
@@ -61,13 +62,9 @@ def _body(path: str, defined: Node) -> Cpp | None:
 
 def _may_be_of_others(name: str, defined: Node) -> bool:
     """Whether it is only defined where nobody else has done so."""
-    around = defined.parent
-    while around is not None:
-        guard = around.child_by_field_name("name") if around.type == "preproc_ifdef" else None
-        if guard is not None and text_of(guard) == name:
-            return True
-        around = around.parent
-    return False
+    around = (n for n in ancestors(defined) if n.type == "preproc_ifdef")
+    guards = (n.child_by_field_name("name") for n in around)
+    return any(guard is not None and text_of(guard) == name for guard in guards)
 
 
 def _part(node: Node, name: str) -> Node:

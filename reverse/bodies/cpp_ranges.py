@@ -25,6 +25,7 @@ from rebsync.reverse.bodies.cpp_conversions import variable_of
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.scope import Called, Inline, Lambda, Scope, Variable
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import is_boolean
@@ -168,9 +169,7 @@ def _constant(scope: Scope, name: str) -> Ranged | None:
         if spelled in scope.constants:
             cpp, node = scope.constants[spelled]
             found = range_of(cpp, scope.without_constant(spelled), node)
-            above = node.parent
-            while above is not None and above.type not in ("declaration", "field_declaration"):
-                above = above.parent
+            above = climb(node, lambda n: n.type in ("declaration", "field_declaration"))
             kept = scope.carried(part(above, "type")) if above is not None else None
             whole = _of_type(kept) if kept is not None else None
             return as_type(found, whole.bits) if found is not None and whole is not None else found

@@ -8,6 +8,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.scope import Called, Inline, Scope
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 _MAKING = frozenset(
@@ -44,8 +45,6 @@ def stays(place: m.Expression, declared: Node) -> bool:
     if not isinstance(place, m.Index):
         return False
     names = {n.name for n in m.walk(place.index) if isinstance(n, m.Name | m.Member)}
-    block = declared.parent
-    while block is not None and block.type != "compound_statement":
-        block = block.parent
+    block = climb(declared, lambda n: n.type == "compound_statement")
     text = text_of(block) if block is not None else ""
     return not any(re.search(rf"\b{n}_?\s*(?:[-+*/%&|^]?=[^=]|\+\+|--)", text) for n in names)

@@ -13,11 +13,11 @@ from rebsync.reverse.build.cmake_targets import (
     EXECUTABLE,
     LIBRARY,
     TARGETLESS,
-    Call,
     Folder,
+    Invocation,
     Maker,
 )
-from rebsync.reverse.build.cmake_text import Block, Command, Item, Quote, read_cmake
+from rebsync.reverse.build.cmake_text import Command, CommandBlock, Item, Quote, read_cmake
 from rebsync.reverse.build.cmake_values import CmakeVariables, known, sections
 from rebsync.reverse.unknowns import Open, Text
 from rebsync.source import Source, Span
@@ -64,7 +64,7 @@ def read_build(source: Source, folder: Folder | None = None) -> BuildFiles:
     if runner.steps > _MOST_STEPS:
         start = Command("", (), Span(0, 0))
         why = "too many commands are carried out; the rest is not read"
-        maker.unknown("the build files", why, Call(start, [], CmakeVariables(), source))
+        maker.unknown("the build files", why, Invocation(start, [], CmakeVariables(), source))
     return BuildFiles(
         runner.project,
         tuple(maker.targets.values()),
@@ -84,7 +84,7 @@ class _Runner:
     maker: Maker
     sources: list[Source]
     project: str | None = None
-    macros: dict[str, tuple[Block, Source]] = field(default_factory=dict)
+    macros: dict[str, tuple[CommandBlock, Source]] = field(default_factory=dict)
     depth: int = 0
     steps: int = 0
 
@@ -111,7 +111,7 @@ class _Runner:
 
     # --- blocks -----------------------------------------------------------------------------------
 
-    def _if(self, block: Block, variables: CmakeVariables, source: Source) -> None:
+    def _if(self, block: CommandBlock, variables: CmakeVariables, source: Source) -> None:
         branches: list[tuple[str, tuple[Item, ...]]] = []
         opening = " ".join(source.slice(block.head.span).split())
         for head, body in ((block.head, block.body), *block.others):
@@ -146,7 +146,7 @@ class _Runner:
             variables.exported |= dict.fromkeys(inside.exported, (unsure,))
         self.maker.only_if = conditions
 
-    def _foreach(self, block: Block, variables: CmakeVariables, source: Source) -> None:
+    def _foreach(self, block: CommandBlock, variables: CmakeVariables, source: Source) -> None:
         words = variables.words(block.head.arguments)
         if not words or isinstance(words[0], Open):
             return
@@ -168,7 +168,7 @@ class _Runner:
         else:
             variables.values[name] = before
 
-    def _macro(self, block: Block, source: Source, call: Call) -> None:
+    def _macro(self, block: CommandBlock, source: Source, call: Invocation) -> None:
         """Carries out a macro or function; parameters are variables in it."""
         if self.depth >= _DEEPEST:
             self.maker.unknown(f"`{call.command.name}(...)`", "it calls itself too often", call)
@@ -192,7 +192,7 @@ class _Runner:
 
     def _command(self, command: Command, variables: CmakeVariables, source: Source) -> None:
         words = variables.words(command.arguments)
-        call = Call(command, words, variables, source)
+        call = Invocation(command, words, variables, source)
         match command.name:
             case "project":
                 self._project(words, variables)
@@ -212,7 +212,7 @@ class _Runner:
             case _:
                 self._make(call)
 
-    def _make(self, call: Call) -> None:
+    def _make(self, call: Invocation) -> None:
         match call.command.name:
             case name if name in EXECUTABLE | LIBRARY:
                 self.maker.target(call)
@@ -276,7 +276,7 @@ class _Runner:
                 found += [posixpath.relpath(p, variables.folder or ".") for p in sorted(paths)]
         return found
 
-    def _subdirectory(self, call: Call) -> None:
+    def _subdirectory(self, call: Invocation) -> None:
         word = call.words[0] if call.words else Open("it has no name")
         folder = word if isinstance(word, Open) else call.variables.path(word)
         if isinstance(folder, Open):
@@ -292,7 +292,7 @@ class _Runner:
         self.file(inner, inside)
         call.variables.values |= inside.exported
 
-    def _include(self, call: Call) -> None:
+    def _include(self, call: Invocation) -> None:
         """Modules of CMake do not matter here; files of the package may."""
         name = call.words[0] if call.words else ""
         if _MODULES in call.variables.values:

@@ -103,7 +103,7 @@ class Folder:
 
 
 @dataclass(frozen=True, slots=True)
-class Call:
+class Invocation:
     """A command with its words, and the variables and the file it stands in."""
 
     command: Command
@@ -130,13 +130,13 @@ class Maker:
     packages: set[str] = field(default_factory=set)
     only_if: tuple[str, ...] = ()
 
-    def unknown(self, what: str, why: str, call: Call) -> None:
+    def unknown(self, what: str, why: str, call: Invocation) -> None:
         """Notes something that cannot be known or read."""
         self.unknowns.append(Unknown(what, why, call.source, call.command.span))
 
     # --- targets ----------------------------------------------------------------------------------
 
-    def target(self, call: Call) -> None:
+    def target(self, call: Invocation) -> None:
         """Takes an executable or library in."""
         name = call.words[0] if call.words else Open("it has no name")
         if isinstance(name, Open):
@@ -159,7 +159,7 @@ class Maker:
             )
         self.targets[name] = target
 
-    def extend(self, call: Call) -> None:
+    def extend(self, call: Invocation) -> None:
         """Gives a target more sources (`target_sources`) or libraries."""
         words = call.words
         target = self.targets.get(words[0]) if words and isinstance(words[0], str) else None
@@ -177,7 +177,7 @@ class Maker:
                 missing=(*target.missing, *opens),
             )
 
-    def rename(self, call: Call, names: Sequence[Text], properties: Sequence[Text]) -> None:
+    def rename(self, call: Invocation, names: Sequence[Text], properties: Sequence[Text]) -> None:
         """Takes in the properties that name the program of a target."""
         if "SOURCES" in properties or "INTERFACE_SOURCES" in properties:
             self.foreign.add(call.command.name)
@@ -199,7 +199,7 @@ class Maker:
 
     # --- messages and scripts ---------------------------------------------------------------------
 
-    def interface(self, call: Call) -> None:
+    def interface(self, call: Invocation) -> None:
         """Takes the files of `add_message_files` and its like in."""
         kind = _INTERFACES[call.command.name]
         parts = sections(call.words, _OF_INTERFACES)
@@ -210,7 +210,7 @@ class Maker:
             else:
                 self.interfaces[kind].append(path)
 
-    def rosidl(self, call: Call) -> None:
+    def rosidl(self, call: Invocation) -> None:
         """Takes the files of `rosidl_generate_interfaces` in."""
         for word in sections(call.words[1:], _OF_ROSIDL).get("", []):
             path = word if isinstance(word, Open) else call.variables.path(word)
@@ -220,7 +220,7 @@ class Maker:
                 self.interfaces[kind].append(path)
 
     def _interface_paths(
-        self, kind: str, folder: Text, names: list[Text] | None, call: Call
+        self, kind: str, folder: Text, names: list[Text] | None, call: Invocation
     ) -> list[Text]:
         if isinstance(folder, Open):
             return [folder]
@@ -234,7 +234,7 @@ class Maker:
             for name in names
         ]
 
-    def install(self, call: Call) -> None:
+    def install(self, call: Invocation) -> None:
         """Takes the scripts that are installed in."""
         for word in sections(call.words, _INSTALL).get("PROGRAMS", []):
             path = word if isinstance(word, Open) else call.variables.path(word)

@@ -48,7 +48,7 @@ class Command:
 
 
 @dataclass(frozen=True, slots=True)
-class Block:
+class CommandBlock:
     """A command that opens a block, and what is in it.
 
     For `if` also the other branches: each begins with its `elseif` or `else`.
@@ -59,7 +59,7 @@ class Block:
     others: tuple[tuple[Command, tuple[Item, ...]], ...] = ()
 
 
-Item: TypeAlias = "Command | Block"
+Item: TypeAlias = "Command | CommandBlock"
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,7 +158,7 @@ class _Nesting:
             raise _Malformed(f"no `{min(until)}` follows", self._commands[-1].span)
         return tuple(items)
 
-    def _block(self, head: Command, depth: int) -> Block:
+    def _block(self, head: Command, depth: int) -> CommandBlock:
         if depth >= _DEEPEST:
             raise _Malformed("blocks nested this deeply are not read", head.span)
         end = _BLOCKS[head.name]
@@ -170,4 +170,4 @@ class _Nesting:
             self._at += 1
             others.append((command, self.items(until, depth + 1)))
         self._at += 1
-        return Block(head, body, tuple(others))
+        return CommandBlock(head, body, tuple(others))

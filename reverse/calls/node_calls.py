@@ -18,9 +18,9 @@ from rebsync.reverse.calls.ros_calls_shapes import (
 from rebsync.reverse.calls.ros_calls_sites import site_of
 from rebsync.reverse.libraries.cpp_calls import Calls
 from rebsync.reverse.libraries.routines import Kind, Routine
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import CppClass
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.values.cpp_flow import climb
 from rebsync.reverse.values.cpp_flow_types import unscoped_member
 from rebsync.reverse.values.cpp_values import Values
 

@@ -26,9 +26,9 @@ from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.cpp_calls import Calls
 from rebsync.reverse.libraries.cpp_calls import calls as calls_of_libraries
 from rebsync.reverse.libraries.routines import Routine
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.values.cpp_flow import climb
 from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_ros2 import uses_flat
 

@@ -10,8 +10,8 @@ from tree_sitter import Node
 from rebsync.reverse.calls.ros_calls_callbacks import Callbacks, Called
 from rebsync.reverse.calls.ros_calls_sites import kept
 from rebsync.reverse.graph import Site
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.values.cpp_flow import climb
 from rebsync.reverse.values.cpp_flow_types import unscoped_member
 from rebsync.reverse.values.cpp_values import Values
 

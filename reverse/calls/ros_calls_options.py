@@ -6,8 +6,9 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.routines import Options
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.values.cpp_flow import climb, declaration_of, made_of
+from rebsync.reverse.values.cpp_flow import declaration_of, made_of
 from rebsync.reverse.values.cpp_flow_types import unscoped_member
 from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_plain import Frame

@@ -19,8 +19,9 @@ from rebsync.reverse.graph import (
     Unresolved,
 )
 from rebsync.reverse.libraries.routines import Routine
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.values.cpp_flow import climb, declaration_of, made_of
+from rebsync.reverse.values.cpp_flow import declaration_of, made_of
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.reverse.values.cpp_values_plain import Frame
 

@@ -10,8 +10,9 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.build.common_messages import COMMON
 from rebsync.reverse.graph import Unresolved
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.values.cpp_flow import climb, nearness
+from rebsync.reverse.values.cpp_flow import nearness
 from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_plain import at
 

@@ -20,6 +20,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Finding, Findings, Ordered
 from rebsync.reverse.generated.ros1_classes import Classes
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.source import Source
@@ -237,10 +238,8 @@ class _Told:
                         yield from self.of(getattr(value, each.name))
 
     def _node(self, node: Node) -> str:
-        function, above = node, node.parent
-        while above is not None:
-            function = above if above.type == "function_definition" else function
-            above = above.parent
+        functions = [n for n in ancestors(node) if n.type == "function_definition"]
+        function = functions[-1] if functions else node
         if function.id not in self.functions:
             self.functions[function.id] = _digest(text_of(function))
         start = node.start_byte - function.start_byte

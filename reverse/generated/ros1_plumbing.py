@@ -27,6 +27,7 @@ from rebsync.reverse.generated.ros1_roles import (
 from rebsync.reverse.generated.ros1_shims import Fields, odd_in_shim
 from rebsync.reverse.generated.ros1_timers import idle_timers, makes, timers_of
 from rebsync.reverse.generated.ros2_words import SETS_UP, arguments_in
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
@@ -186,12 +187,7 @@ def _changes_more(statement: Node) -> bool:
 
 def _is_in_body(node: Node, statement: Node) -> bool:
     """Whether a lambda in a statement does it, when that is called."""
-    above = node.parent
-    while above is not None and above != statement:
-        if above.type == "compound_statement":
-            return True
-        above = above.parent
-    return False
+    return any(n.type == "compound_statement" for n in ancestors(node, lambda n: n == statement))
 
 
 def _is_handle(statement: Node) -> bool:

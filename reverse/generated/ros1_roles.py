@@ -30,6 +30,7 @@ from rebsync.reverse.generated.ros2_words import (
     known_rebec,
     message_name,
 )
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_declarations import parameters_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, CppParameter
@@ -300,12 +301,11 @@ def _is_plain(code: Code, owner: CppClass, name: str) -> bool:
 
 def _around(node: Node, function: CppFunction, kind: str) -> Node | None:
     """The innermost node of a kind around one, with parameters if it is a lambda."""
-    above = node.parent
-    while above is not None and above != function.node:
-        if above.type == kind and (kind != "lambda_expression" or parameters_of(above)):
-            return above
-        above = above.parent
-    return None
+    above = ancestors(node, lambda n: n == function.node)
+    found = (
+        n for n in above if n.type == kind and (kind != "lambda_expression" or parameters_of(n))
+    )
+    return next(found, None)
 
 
 def _topic_around(shim: Node, function: CppFunction) -> str:

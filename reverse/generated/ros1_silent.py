@@ -6,13 +6,14 @@ Parameters of a node that are only logged, or decide what is logged, and publish
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.scope import Publishes
 from rebsync.reverse.generated.ros1_shown import OFFERS, is_plain, sends, topic_of, type_of
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
 from rebsync.reverse.syntax.cpp_tree import part, text_of
@@ -38,18 +39,11 @@ def only_logged(
     }
     for cpp in code.files:
         for node in code.named(cpp, cpp.root, sorted(left)):
-            around = list(_around(node))
+            around = [node, *ancestors(node)]
             is_other = _is_own(node) and any(n.id in others for n in around)
             if not (is_other or any(n.id in known or is_logging(n) for n in around)):
                 left.discard(text_of(node))
     return left
-
-
-def _around(node: Node) -> Iterator[Node]:
-    current: Node | None = node
-    while current is not None:
-        yield current
-        current = current.parent
 
 
 def _is_own(node: Node) -> bool:

@@ -20,6 +20,7 @@ from rebsync.reverse.bodies.subscripts import untested
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_roles import Roles, call_in
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
@@ -190,9 +191,8 @@ def _named_span(code: Code, owner: CppClass, cpp: Cpp, name: str) -> tuple[Node,
         if any(writes.search(text) for text in texts):
             return None
     elif constant is not None:
-        value, above = constant[1], constant[1].parent
-        while above is not None and above.type not in ("declaration", "field_declaration"):
-            above = above.parent
+        value = constant[1]
+        above = climb(value, lambda n: n.type in ("declaration", "field_declaration"))
         if above is None:
             return None
         declared = part(above, "type")

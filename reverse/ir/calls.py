@@ -10,7 +10,7 @@ from rebsync.source import Span
 
 
 @dataclass(frozen=True, slots=True)
-class Argument:
+class CallArgument:
     """An argument by its place or name; with one star the elements of a sequence, with two the
     entries of a mapping by their names.
     """
@@ -67,7 +67,7 @@ class Call:
 
     target: Lvalue | None
     callee: Callee
-    arguments: tuple[Argument, ...] = ()
+    arguments: tuple[CallArgument, ...] = ()
     place: Span = place_field()
 
 
@@ -79,7 +79,7 @@ class Construct:
 
     target: Lvalue | None
     class_name: str
-    arguments: tuple[Argument, ...] = ()
+    arguments: tuple[CallArgument, ...] = ()
     constructor: str | None = None
     place: Span = place_field()
 

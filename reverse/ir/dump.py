@@ -209,7 +209,7 @@ def _callee(callee: s.Callee) -> str:
             assert_never(callee)
 
 
-def _arguments(arguments: tuple[s.Argument, ...]) -> str:
+def _arguments(arguments: tuple[s.CallArgument, ...]) -> str:
     return ", ".join(
         f"{'*' * a.stars}{'' if a.name is None else f'{a.name}='}{dump_expression(a.value)}"
         for a in arguments

@@ -16,7 +16,7 @@ def dump_type(type_: t.Type) -> str:
     match type_:
         case t.Unknown():
             return "?"
-        case t.Nothing():
+        case t.UnitType():
             return "nothing"
         case t.Integer(None, _):
             return "int"
@@ -40,9 +40,9 @@ def dump_type(type_: t.Type) -> str:
             return f"optional<{dump_type(of)}>"
         case t.Record(name):
             return name
-        case t.Message(name):
+        case t.RosMessage(name):
             return f"message {name}"
-        case t.Handle(name):
+        case t.RosHandle(name):
             return f"handle {name}"
         case t.Reference(to, may_be_null, ownership):
             sign = f"{ownership.value} *" if ownership.value else "*" if may_be_null else "&"

@@ -84,7 +84,6 @@ class Conversion(Enum):
     FLOOR = "floor"
     CEILING = "ceiling"
     ROUND = "round"  # half to even
-    ROUND_AWAY = "round_away"  # half away from zero
     WRAP = "wrap"  # a whole number modulo two to the bits of the type
     NARROW = "narrow"  # a float to one of fewer bits
     WIDEN = "widen"  # nothing is lost

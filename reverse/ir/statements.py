@@ -10,10 +10,10 @@ from typing import TypeAlias
 
 from rebsync.records import dataclass
 from rebsync.reverse.ir.calls import (
-    Argument as Argument,
+    Call as Call,
 )
 from rebsync.reverse.ir.calls import (
-    Call as Call,
+    CallArgument as CallArgument,
 )
 from rebsync.reverse.ir.calls import (
     Callee as Callee,
@@ -144,7 +144,7 @@ class DefineClass:
 
     target: Lvalue
     class_name: str
-    bases: tuple[Argument, ...] = ()
+    bases: tuple[CallArgument, ...] = ()
     place: Span = place_field()
 
 

@@ -14,7 +14,7 @@ class Unknown:
 
 
 @dataclass(frozen=True, slots=True)
-class Nothing:
+class UnitType:
     """The type of the one value that says that there is none; the result of procedures."""
 
 
@@ -95,14 +95,14 @@ class Record:
 
 
 @dataclass(frozen=True, slots=True)
-class Message:
+class RosMessage:
     """A ROS message, request or response, by its full name."""
 
     name: str
 
 
 @dataclass(frozen=True, slots=True)
-class Handle:
+class RosHandle:
     """What a library gives to be asked and told through: a publisher, a timer, a node."""
 
     name: str
@@ -135,7 +135,7 @@ class FunctionType:
 
 Type: TypeAlias = (
     Unknown
-    | Nothing
+    | UnitType
     | Integer
     | Float
     | Truth
@@ -145,14 +145,14 @@ Type: TypeAlias = (
     | Container
     | Optional
     | Record
-    | Message
-    | Handle
+    | RosMessage
+    | RosHandle
     | Reference
     | FunctionType
 )
 
 UNKNOWN = Unknown()
-NOTHING = Nothing()
+NOTHING = UnitType()
 UNBOUNDED = Integer()
 TRUTH = Truth()
 TEXT = Text()
@@ -161,4 +161,4 @@ DOUBLE = Float()
 
 def is_plain(type_: Type) -> bool:
     """Whether values of a type are numbers or texts: no class gives them operators of its own."""
-    return isinstance(type_, Nothing | Integer | Float | Truth | Text | Enumeration)
+    return isinstance(type_, UnitType | Integer | Float | Truth | Text | Enumeration)

@@ -19,7 +19,7 @@ Node: TypeAlias = (
     | e.FormatPiece
     | e.Capture
     | s.Statement
-    | s.Argument
+    | s.CallArgument
     | s.Callee
     | s.Case
     | s.Handler
@@ -73,4 +73,3 @@ _NO_NODES = frozenset({"place", "type", "name", "dynamic", "reason"})
 SIMPLE: tuple[type, ...] = get_args(s.Simple)
 STRUCTURED: tuple[type, ...] = get_args(s.Structured)
 STATEMENTS = SIMPLE + STRUCTURED
-LVALUES: tuple[type, ...] = get_args(e.Lvalue)

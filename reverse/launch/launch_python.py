@@ -15,7 +15,7 @@ from rebsync.reverse.launch.launch_python_values import PythonValues, called, ke
 from rebsync.reverse.launch.ros2_actions import (
     Action,
     Condition,
-    Declare,
+    DeclareArgument,
     ForAll,
     FromFile,
     Group,
@@ -253,7 +253,7 @@ class _File:
         default = given.get("default_value", call.args[1] if len(call.args) > 1 else None)
         is_none = isinstance(default, ast.Constant) and default.value is None
         words = None if is_none else self._values.words_of(default)
-        return [Declare(self._values.words(name), words)] if name is not None else []
+        return [DeclareArgument(self._values.words(name), words)] if name is not None else []
 
     def let(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
         pair = _two(call, given, "name", "value")

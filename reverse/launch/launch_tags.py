@@ -11,7 +11,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.launch.ros2_actions import (
     Action,
     Condition,
-    Declare,
+    DeclareArgument,
     ForAll,
     FromFile,
     Group,
@@ -162,7 +162,7 @@ def _made(tag: Tag) -> Iterator[Action]:
         case name if name in _CONTAINERS:
             yield Group(tuple(_actions(tuple(tag.children("composable_node")))), False)
         case "arg" if "name" in given:
-            yield Declare(given["name"], given.get("default"))
+            yield DeclareArgument(given["name"], given.get("default"))
         case "let" if "name" in given and "value" in given:
             yield Let(given["name"], given["value"])
         case "push_ros_namespace" if "namespace" in given:

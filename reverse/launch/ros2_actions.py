@@ -78,7 +78,7 @@ class NodeAction:
 
 
 @dataclass(frozen=True, slots=True)
-class Declare:
+class DeclareArgument:
     """An argument, with its default."""
 
     name: Words
@@ -133,4 +133,6 @@ class Only:
     action: Action
 
 
-Action: TypeAlias = "NodeAction | Declare | Let | Push | ForAll | Group | Include | Only | Unlisted"
+Action: TypeAlias = (
+    "NodeAction | DeclareArgument | Let | Push | ForAll | Group | Include | Only | Unlisted"
+)

@@ -13,7 +13,7 @@ from rebsync.reverse.launch.parameters import Parameter, ParameterValue, read_pa
 from rebsync.reverse.launch.ros2_actions import (
     Action,
     Condition,
-    Declare,
+    DeclareArgument,
     ForAll,
     FromFile,
     Group,
@@ -106,7 +106,7 @@ class Reader:
         match action:
             case NodeAction():
                 self.nodes.append(self._node(action, scope))
-            case Declare(name, default):
+            case DeclareArgument(name, default):
                 self._declared(name, default, scope)
             case Let(name, value):
                 self._set(name, scope.text(value), scope)

@@ -23,7 +23,7 @@ _ATTRIBUTE = re.compile(r"([^\s=/\"'<>]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
 
 
 @dataclass(frozen=True, slots=True)
-class Attribute:
+class XmlAttribute:
     """The value of an attribute, and its place between the quotes."""
 
     value: str
@@ -47,7 +47,7 @@ class XmlElement:
     """
 
     name: str
-    attributes: Mapping[str, Attribute]
+    attributes: Mapping[str, XmlAttribute]
     children: tuple[Child, ...]
     text: str
     pieces: tuple[tuple[int, int], ...]
@@ -88,7 +88,7 @@ class _Refused(Exception):
 @dataclass(slots=True)
 class _Open:
     name: str
-    attributes: dict[str, Attribute]
+    attributes: dict[str, XmlAttribute]
     span: Span
     children: list[Child] = field(default_factory=list)
     texts: list[str] = field(default_factory=list)
@@ -164,7 +164,7 @@ class _Builder:
             match[1]: Span(*match.span(2 if match[2] is not None else 3))
             for match in _ATTRIBUTE.finditer(self._source.text, start + 1 + len(name), span.end)
         }
-        attributes = {k: Attribute(v, places.get(k, span)) for k, v in values.items()}
+        attributes = {k: XmlAttribute(v, places.get(k, span)) for k, v in values.items()}
         self._open.append(_Open(name, attributes, span))
 
     def _end(self, name: str) -> None:

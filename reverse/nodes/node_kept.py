@@ -18,7 +18,6 @@ _APPENDS = frozenset({"push_back", "emplace_back"})
 _LOOKS = frozenset({"size", "empty", "reserve", "at", "count", "find", "end"})
 _KEYS = frozenset({"string_literal", "number_literal"})
 _FLAT = frozenset({"argument_list", "call_expression", "expression_statement"})
-_BRANCHES = frozenset({"if_statement", "for_statement", "while_statement", "for_range_loop"})
 
 
 def elements(facts: Mapping[int, PublisherFact], files: Sequence[Cpp]) -> dict[str, int]:

@@ -15,6 +15,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import Fact, RateFact, TimerFact
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, text_of
@@ -221,12 +222,7 @@ def served_early(
 
 def _around(node: Node, body: Node) -> list[Node]:
     """A node and what is around it in a body, from inside."""
-    found = []
-    at: Node | None = node
-    while at is not None and at.id != body.id:
-        found.append(at)
-        at = at.parent
-    return found
+    return [node, *ancestors(node, lambda n: n.id == body.id)] if node.id != body.id else []
 
 
 def loop_around(node: Node) -> Node | None:

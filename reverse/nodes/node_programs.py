@@ -11,6 +11,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.build.build_files import BuildFiles
 from rebsync.reverse.build.cmake import build_of
 from rebsync.reverse.graph import Graph, NodeFact
+from rebsync.reverse.syntax.ancestors import ancestors, climb
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
@@ -175,9 +176,8 @@ def _is_plain(node: Node) -> bool:
 
 def _makes(node: Node) -> bool:
     """Whether a type's name stands where an object is made, not for a parameter or a cast."""
-    around: Node | None = node.parent
-    while around is not None and around.type in ("qualified_identifier", "template_argument_list"):
-        around = around.parent
+    inner = ("qualified_identifier", "template_argument_list")
+    around = climb(node, lambda n: n.type not in inner)
     return around is not None and around.type not in (
         "parameter_declaration",
         "cast_expression",
@@ -187,9 +187,8 @@ def _makes(node: Node) -> bool:
 
 def _made(node: Node, name: str, in_main: bool) -> NodeObject | None:
     """The object that is made where a class's name stands, if one is."""
-    around: Node | None = node.parent
     pointer = False
-    while around is not None and not around.type.endswith("statement"):
+    for around in ancestors(node, lambda n: n.type.endswith("statement")):
         match around.type:
             case "new_expression":
                 arguments = around.child_by_field_name("arguments")
@@ -203,7 +202,6 @@ def _made(node: Node, name: str, in_main: bool) -> NodeObject | None:
                 return None
             case "declaration":
                 return None if pointer else _declared(around, name, in_main)
-        around = around.parent
     return None
 
 
@@ -232,10 +230,8 @@ def _object(node: Node, name: str, arguments: list[Node], in_main: bool) -> Node
         statement.type.endswith("_statement") or statement.type == "declaration"
     ):
         statement = statement.parent
-    around, repeated = statement, False
-    while around is not None:
-        repeated = repeated or around.type in _LOOPS
-        around = around.parent
+    around = [statement, *ancestors(statement)] if statement is not None else []
+    repeated = any(n.type in _LOOPS for n in around)
     variable = _variable(statement) if statement is not None else ""
     return NodeObject(name, statement if in_main else None, variable, tuple(arguments), repeated)
 

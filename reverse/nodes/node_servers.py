@@ -16,6 +16,7 @@ from rebsync.reverse.graph import Callback, Fact, ServiceFact, SubscriptionFact,
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_taken import declared, uses
 from rebsync.reverse.nodes.node_units import Unit
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
@@ -174,12 +175,11 @@ def _function(fact: TimerFact) -> int | None:
 
 def _is_flat(fact: TimerFact) -> bool:
     """Whether a timer is made whenever its function runs."""
-    at = fact.site.call.parent
-    while at is not None and at.type != "compound_statement":
-        if at.type in ("if_statement", "conditional_expression", "lambda_expression"):
-            return False
-        at = at.parent
-    return at is not None and at.parent is not None and at.parent.type == "function_definition"
+    ends = ("compound_statement", "if_statement", "conditional_expression", "lambda_expression")
+    at = climb(fact.site.call, lambda n: n.type in ends)
+    if at is None or at.type != "compound_statement":
+        return False
+    return at.parent is not None and at.parent.type == "function_definition"
 
 
 def _kept(fact: Asking) -> str:

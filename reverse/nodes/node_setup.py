@@ -46,6 +46,7 @@ from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_times import Times
 from rebsync.reverse.nodes.node_units import UnitFacts
 from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import declared_name
 from rebsync.reverse.syntax.cpp_enclosing import enclosing_function, enclosing_statement
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
@@ -148,11 +149,9 @@ class Setup:
 
     def _at_once(self, fact: Fact) -> bool:
         """Whether a call is made once, when the node starts."""
-        around = fact.site.call.parent
-        while around is not None and around.type != "function_definition":
-            if around.type in _NESTING or around.type == "lambda_expression":
-                return False
-            around = around.parent
+        around = ancestors(fact.site.call, lambda n: n.type == "function_definition")
+        if any(n.type in _NESTING or n.type == "lambda_expression" for n in around):
+            return False
         function = fact.site.function
         return self._is_first(fact) or (function is not None and function.name == "main")
 

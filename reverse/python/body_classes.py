@@ -11,20 +11,21 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.intervals import Interval
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.invariants import Body, BodyStart, Unbounded, unbounded
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import TimerFact
-from rebsync.reverse.nodes.node_bodies import takes_time, without_end
+from rebsync.reverse.nodes.node_bodies import repeated, takes_time, without_end
+from rebsync.reverse.nodes.node_loops import left
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_servers import ParameterField, Server
+from rebsync.reverse.nodes.node_setup import send
 from rebsync.reverse.nodes.node_starts import started_late
 from rebsync.reverse.nodes.node_tidying import tidy
 from rebsync.reverse.python.body_messages import PROBE
-from rebsync.reverse.python.body_node_loops import Loop
-from rebsync.reverse.python.body_proof import ClassBodies, Proved, proved
+from rebsync.reverse.python.body_node_loops import EndlessLoop
 from rebsync.reverse.python.body_reading import Reading
-from rebsync.reverse.python.body_returns import without_returns
 from rebsync.reverse.python.body_scope import (
     TYPES,
     WHOLE,
@@ -67,9 +68,9 @@ class PyClass:
     reading: Reading
     constructor: tuple[m.Statement, ...] = ()
     served: list[ReadServer] = with_default(default_factory=list)
-    loops: list[Loop] = with_default(default_factory=list)
+    loops: list[EndlessLoop] = with_default(default_factory=list)
     types: dict[str, m.Type] = with_default(default_factory=dict)
-    _proof: Proved | None = None
+    _proof: Unbounded | None = None
 
     def read(self) -> None:
         """All bodies."""
@@ -86,28 +87,26 @@ class PyClass:
         self.types = self._types()
 
     @property
-    def proof(self) -> Proved:
+    def proof(self) -> Unbounded:
         """What following all bodies shows, once they are read."""
         if self._proof is None:
-            self._proof = proved(self._bodies())
+            servers = [self._followed(s.statements, s.ranges) for s in self.served]
+            start = self._followed(self.constructor, {})
+            self._proof = unbounded(start, servers, self.reading.state, self.reading.wide)
         return self._proof
 
     def _within(self, name: str) -> str:
         return f"{self.reading.unit.name}.{name}"
 
-    def _bodies(self) -> ClassBodies:
+    def _followed(
+        self, statements: tuple[m.Statement, ...], ranges: Mapping[str, Interval]
+    ) -> Body:
+        """A body for the analysis; its functions stand in the place of their calls."""
         reading = self.reading
         types = {n: t for n, t in self.types.items() if n not in reading.wide}
-        for served in self.served:
-            types |= {c.name: c.type for c in served.parameters}
-        return ClassBodies(
-            self.constructor,
-            [(s.statements, s.ranges) for s in self.served],
-            frozenset(reading.state),
-            frozenset(reading.wide),
-            types,
-            reading.needs,
-        )
+        types |= {c.name: c.type for served in self.served for c in served.parameters}
+        start, needs = BodyStart.BETWEEN, reading.needs
+        return Body("", start, statements, types, needs=needs, arguments=ranges)
 
     def _types(self) -> dict[str, m.Type]:
         """The state variables with their types."""
@@ -141,9 +140,8 @@ class PyClass:
         period = reading.periods.get(number)
         fact = server.timers[0] if server.timers else None
         if fact is not None and fact.one_shot is not True and period is not None:
-            again = _send(server.name, period)
-            early = takes_time(m.Block(statements)) or without_returns(statements) != statements
-            statements = (again, *statements) if early else (*statements, again)
+            body, again = m.Block(statements), send(server.name, period)
+            statements = repeated(body, again, takes_time(body)).statements
         return ReadServer(server.name, statements, carried, ranges, scope.node)
 
     def _body(self, reader: PyStatements, scope: Scope) -> tuple[m.Statement, ...]:
@@ -169,7 +167,7 @@ class PyClass:
             if field_kind(each.type) == WHOLE:
                 yield each.name, bounds(fields, types.widths.get(server.type or "", {}), each.path)
 
-    def _loop(self, loop: Loop) -> ReadServer:
+    def _loop(self, loop: EndlessLoop) -> ReadServer:
         """The server of a loop, which sends to itself after what it waits at its end."""
         frame = Frame(loop.frame.scope, bound=dict(loop.frame.bound), kept=loop.frame.kept)
         reader = PyStatements(
@@ -181,7 +179,7 @@ class PyClass:
             case (m.ExpressionStatement(m.Call(None, "delay", (time,))),):
                 statements, pause = statements[:-1], time
         again = m.ExpressionStatement(m.Call(m.Self(), loop.name, (), pause))
-        return ReadServer(loop.name, _left(statements, again), node=loop.node)
+        return ReadServer(loop.name, (*left(statements, again), again), node=loop.node)
 
     # --- the class ------------------------------------------------------------------------------
 
@@ -246,29 +244,6 @@ class PyClass:
                 reading.findings.unreadable(source, unread, reading.unit.name)
 
 
-def _left(statements: tuple[m.Statement, ...], again: m.Statement) -> tuple[m.Statement, ...]:
-    """The body of a loop as one of a server: `continue` starts the next round, `break` ends it."""
-    found: list[m.Statement] = []
-    for statement in statements:
-        found.append(_leaving(statement, again))
-    return (*found, again)
-
-
-def _leaving(statement: m.Statement, again: m.Statement) -> m.Statement:
-    match statement:
-        case m.Continue():
-            return m.Block((again, m.Return(None)))
-        case m.Break():
-            return m.Return(None)
-        case m.Block(inner):
-            return replace(statement, statements=tuple(_leaving(s, again) for s in inner))
-        case m.If(_, then, otherwise):
-            other = _leaving(otherwise, again) if otherwise is not None else None
-            return replace(statement, then=_leaving(then, again), otherwise=other)
-        case _:
-            return statement
-
-
 def _shown(statements: tuple[m.Statement, ...]) -> tuple[m.Statement, ...]:
     """Without what is only looked at."""
 
@@ -286,11 +261,6 @@ def _is_probe(statement: m.Statement) -> bool:
             return any(a.name == PROBE for a in annotations)
         case _:
             return False
-
-
-def _send(server: str, period: int) -> m.Statement:
-    after = m.IntLiteral(period) if period else None
-    return m.ExpressionStatement(m.Call(m.Self(), server, (), after))
 
 
 def _declared(type_: m.Type, name: str) -> m.Declaration:

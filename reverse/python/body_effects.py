@@ -17,6 +17,7 @@ from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_index import Scope, last_name
 from rebsync.reverse.python.py_tree import decorators_of, field, named, nodes_in, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Instance, Made, Value, Ways
+from rebsync.reverse.syntax.ancestors import ancestors, climb
 
 _LOCK = re.compile(LOCKS)
 DEFINITIONS = frozenset({"function_definition", "class_definition", "decorated_definition"})
@@ -149,10 +150,7 @@ def _are_quiet(reading: Reading, name: str, called: Node, ways: Ways, depth: int
 
 
 def _stands_in(node: Node, outer: Node) -> bool:
-    at = node.parent
-    while at is not None and at != outer:
-        at = at.parent
-    return at is not None
+    return outer in ancestors(node)
 
 
 def is_quiet_body(reading: Reading, scope: Scope, depth: int) -> bool:
@@ -221,11 +219,6 @@ def _is_never_zero(reading: Reading, node: Node, frame: Frame) -> bool:
     return bool(ways) and all(isinstance(w, int | float) and w for w in ways)
 
 
-def _acts(name: str) -> bool:
-    """Whether what has this name may act on the node, if nothing else is known of it."""
-    return libraries.acting().match(name) is not None
-
-
 def _ends(name: str) -> bool:
     return not name.endswith(("_async", "_once"))
 
@@ -252,13 +245,10 @@ def _is_safe_name(reading: Reading, node: Node, frame: Frame) -> bool:
 
 def _is_looked_at(node: Node) -> bool:
     """Whether something only looks at a message: a log or a text."""
-    at = node.parent
-    while at is not None and not at.type.endswith("statement"):
-        if at.type == "call":
-            name = last_name(field(at, "function"))
-            return is_log(at) or name in libraries.harmless()
-        at = at.parent
-    return True
+    at = climb(node, lambda n: n.type == "call" or n.type.endswith("statement"))
+    if at is None or at.type != "call":
+        return True
+    return is_log(at) or last_name(field(at, "function")) in libraries.harmless()
 
 
 def is_still(reading: Reading, own: Scope) -> bool:

@@ -13,11 +13,12 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.body_effects import is_log
-from rebsync.reverse.python.body_node_loops import Loop, forever
+from rebsync.reverse.python.body_node_loops import EndlessLoop, forever
 from rebsync.reverse.python.body_rounds import leaves_nothing
 from rebsync.reverse.python.body_scope import WHOLE, Key, Value
 from rebsync.reverse.python.py_index import arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, is_label, named, text_of
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.static.types import INT
 
 if TYPE_CHECKING:
@@ -102,21 +103,19 @@ def goes_on(node: Node) -> bool:
 
 def _follows(node: Node) -> bool:
     """Whether anything but a log stands behind a statement in its function."""
-    at: Node | None = node
-    while at is not None and at.type not in ("function_definition", "module"):
+    for at in (node, *ancestors(node, lambda n: n.type in ("function_definition", "module"))):
         behind = at.next_named_sibling
         while behind is not None:
             if behind.type not in ("comment", "pass_statement", "except_clause", "elif_clause"):
                 return True
             behind = behind.next_named_sibling
-        at = at.parent
     return False
 
 
 def _started(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     wish = reader.frame.scope.name
     name = reader.reading.server_name(node, wish if wish not in ("", "main") else "loop")
-    reader.loops.append(Loop(name, node, reader.frame, reader.running, reader.only))
+    reader.loops.append(EndlessLoop(name, node, reader.frame, reader.running, reader.only))
     reader.is_over = True
     yield m.ExpressionStatement(m.Call(m.Self(), name), (), reader.frame.span(node))
 

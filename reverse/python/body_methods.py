@@ -9,12 +9,12 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.bodies.returns import without_returns
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.body_arguments import arguments
 from rebsync.reverse.python.body_effects import HARMLESS_DECORATORS
 from rebsync.reverse.python.body_node_loops import forever
 from rebsync.reverse.python.body_reading import Reading
-from rebsync.reverse.python.body_returns import without_returns
 from rebsync.reverse.python.body_scope import Frame, Message, Nobody, Own, Var
 from rebsync.reverse.python.body_variables import give
 from rebsync.reverse.python.py_callbacks import body_of

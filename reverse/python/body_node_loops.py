@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Loop:
+class EndlessLoop:
     """A loop that keeps a node running, as the server that it becomes."""
 
     name: str

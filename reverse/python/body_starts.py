@@ -8,7 +8,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.python.body_methods import kept_names
-from rebsync.reverse.python.body_node_loops import Loop
+from rebsync.reverse.python.body_node_loops import EndlessLoop
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
     OTHER,
@@ -29,7 +29,7 @@ from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_worth import Class
 
 
-def constructor(reading: Reading, loops: list[Loop]) -> tuple[m.Statement, ...]:
+def constructor(reading: Reading, loops: list[EndlessLoop]) -> tuple[m.Statement, ...]:
     """All that starts a node; the loops that keep it running are put into `loops`."""
     unit = reading.unit
     if not unit.lineage:
@@ -48,7 +48,7 @@ def _read(
     reading: Reading,
     scope: Scope,
     nodes: list[Node],
-    loops: list[Loop],
+    loops: list[EndlessLoop],
     only: tuple[str, ...] = (),
 ) -> tuple[m.Statement, ...]:
     kept = kept_names(reading, scope) if scope.kind != MODULE else frozenset()

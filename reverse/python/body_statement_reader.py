@@ -11,7 +11,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.body_expressions import PyExpressions
-from rebsync.reverse.python.body_node_loops import Loop
+from rebsync.reverse.python.body_node_loops import EndlessLoop
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
     Frame,
@@ -32,7 +32,7 @@ class BodyStatementReader(ABC):
     within: str
     root: Node
     running: tuple[int, ...] = ()
-    loops: list[Loop] = with_default(default_factory=list)
+    loops: list[EndlessLoop] = with_default(default_factory=list)
     only: tuple[str, ...] = ()
     is_over: bool = False
 

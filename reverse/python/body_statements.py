@@ -8,6 +8,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.returns import always_leaves
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
@@ -27,7 +28,6 @@ from rebsync.reverse.python.body_effects import (
     is_log,
 )
 from rebsync.reverse.python.body_expressions import short
-from rebsync.reverse.python.body_returns import always_leaves
 from rebsync.reverse.python.body_scope import (
     Pending,
 )

@@ -27,6 +27,7 @@ from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import CLASS, LAMBDA, PyCode, Scope
 from rebsync.reverse.python.py_values import PyValues
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import Code
 
 _GIVES = frozenset({"value", "augmented", "loop", "opaque"})
@@ -113,12 +114,8 @@ def scope_of(code: PyCode, fact: Fact) -> Scope:
 
 def scope_around(code: PyCode, node: Node, path: str) -> Scope:
     """The function, class or module around a node."""
-    at = node.parent
-    while at is not None:
-        if (path, at.id) in code.scopes:
-            return code.scopes[path, at.id]
-        at = at.parent
-    return code.modules[path]
+    at = climb(node, lambda n: (path, n.id) in code.scopes)
+    return code.scopes[path, at.id] if at is not None else code.modules[path]
 
 
 # --- servers ------------------------------------------------------------------------------------

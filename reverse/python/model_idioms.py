@@ -13,6 +13,7 @@ from rebsync.reverse.bodies.building import binary, located
 from rebsync.reverse.python.model_cuts import other_division
 from rebsync.reverse.python.model_kinds import is_floating
 from rebsync.reverse.python.py_tree import calls_in, field, is_asked, named, text_of
+from rebsync.reverse.syntax.ancestors import climb
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
@@ -86,9 +87,7 @@ def grouped(node: Node, found: m.Expression) -> m.Expression:
 
 def is_within(node: Node) -> bool:
     """Whether something stands in an operation, be it in parentheses."""
-    above = node.parent
-    while above is not None and above.type == "parenthesized_expression":
-        above = above.parent
+    above = climb(node, lambda n: n.type != "parenthesized_expression")
     return above is not None and above.type in _AROUND
 
 

@@ -12,6 +12,7 @@ from rebsync.reverse.python.model_roles import PyRoles, plain_name, servers_of
 from rebsync.reverse.python.model_types import call_parts, passed_on, string_value
 from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.static.constants import constant
 
 POST = "self._mailbox.post"
@@ -101,12 +102,7 @@ def _is_kept(function: Scope, call: Node, value: Node) -> bool:
         return False
     if any(name == p.name for p in function.parameters):
         return True
-    above = call.parent
-    while above is not None and above != function.node:
-        if above.type in _LOOPS:
-            return False
-        above = above.parent
-    return True
+    return all(n.type not in _LOOPS for n in ancestors(call, lambda n: n == function.node))
 
 
 def own_posts(

@@ -23,6 +23,7 @@ from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, is_label, named, nodes_in, text_of
+from rebsync.reverse.syntax.ancestors import ancestors, climb
 
 _SET_UP = ("__init__", "_wire")
 _VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
@@ -283,15 +284,13 @@ def _odd(silent: Silent, root: Node) -> set[str]:
 
 def _is_quiet(silent: Silent, node: Node, name: str) -> bool:
     """Whether a member or local stands in a statement for people, or is set up there."""
-    above: Node | None = node
-    while above is not None and above.type not in _STATEMENTS:
+    for above in (node, *ancestors(node, lambda n: n.type in _STATEMENTS)):
         if above.type == "with_item":
             return name in silent.locks and text_of(above) == f"self.{name}"
         if above.type == "expression_statement" and _sets_up(above, name):
             return True
         if silent.holds(above):
             return True
-        above = above.parent
     return False
 
 
@@ -317,10 +316,7 @@ def _may_lock(node: Node) -> bool:
 
 
 def _enclosing(node: Node) -> Node | None:
-    above = node.parent
-    while above is not None and above.type != "function_definition":
-        above = above.parent
-    return above
+    return climb(node, lambda n: n.type == "function_definition")
 
 
 def _function(node: Node) -> int:

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
 _LOOPS = frozenset({"for_statement", "while_statement"})
 _FUNCTIONS = frozenset({"function_definition", "lambda", "class_definition"})
-_BRANCHES = frozenset({"if_statement", "match_statement"})
 _WHOLE = "say what is stored here element by element"
 
 

@@ -8,6 +8,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.ancestors import ancestors
 
 # What is in these may run or not; `with` always runs what is in it.
 _BRANCHES = frozenset(
@@ -174,9 +175,5 @@ def _all_ways(branch: Node, seen: set[int]) -> bool:
 
 
 def _in_a_loop_with(binding: Binding, use: Node) -> bool:
-    above = binding.node.parent
-    while above is not None and above.type not in _SCOPES:
-        if above.type in _LOOPS and _holds(above, use):
-            return True
-        above = above.parent
-    return False
+    around = ancestors(binding.node, lambda n: n.type in _SCOPES)
+    return any(n.type in _LOOPS and _holds(n, use) for n in around)

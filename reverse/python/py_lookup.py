@@ -30,6 +30,7 @@ from rebsync.reverse.python.py_worth import (
     Ways,
     distinct,
 )
+from rebsync.reverse.syntax.ancestors import climb
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.py_evaluator import PyEvaluator
@@ -126,12 +127,11 @@ def bound(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Way
 
 def scope_at(values: PyEvaluator, binding: Binding, scope: Scope) -> Scope:
     """The scope in which the value of a binding stands: a method may set a global or attribute."""
-    above = binding.node.parent
-    while above is not None:
-        if above.type in ("function_definition", "class_definition", "lambda"):
-            return values.code.scopes.get((scope.py.source.path, above.id), scope)
-        above = above.parent
-    return scope.module
+    scopes = ("function_definition", "class_definition", "lambda")
+    above = climb(binding.node, lambda n: n.type in scopes)
+    if above is None:
+        return scope.module
+    return values.code.scopes.get((scope.py.source.path, above.id), scope)
 
 
 def _unpacked(values: PyEvaluator, ways: Ways, binding: Binding, scope: Scope) -> Ways:

@@ -23,6 +23,7 @@ from rebsync.reverse.python.py_worth import (
     distinct,
     resolved,
 )
+from rebsync.reverse.syntax.ancestors import climb
 
 _NO_BOUND = "without `queue_size` there is no bound that the code gives"
 _KEPT = ("TRANSIENT_LOCAL", "RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL")
@@ -99,7 +100,5 @@ def _of_profile(values: PyValues, made: Made, key: str, node: Node, scope: Scope
 
 def _always(statement: Node, use: Node) -> bool:
     """Whether a statement stands in a block that the use is in as well."""
-    block = statement.parent
-    while block is not None and block.type == "expression_statement":
-        block = block.parent
+    block = climb(statement, lambda n: n.type != "expression_statement")
     return block is not None and block.start_byte <= use.start_byte <= block.end_byte

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from rebsync.reverse.build.cmake_text import Argument, Block, Command, Item, read_cmake
+from rebsync.reverse.build.cmake_text import Argument, Command, CommandBlock, Item, read_cmake
 from rebsync.reverse.scaffold.fact import Fact
 from rebsync.reverse.scaffold.texts import squeezed
 from rebsync.source import Source, Span
@@ -35,7 +35,7 @@ _Told = tuple[str, str, str, str, Span]
 def _commands(items: Iterable[Item]) -> Iterator[Command]:
     for item in items:
         match item:
-            case Block(head, body, others):
+            case CommandBlock(head, body, others):
                 yield head
                 yield from _commands(body)
                 for branch, inside in others:

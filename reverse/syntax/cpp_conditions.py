@@ -47,7 +47,7 @@ class Alternative:
 
 
 @dataclass(frozen=True, slots=True)
-class Conditional:
+class IfSection:
     """`#if` to `#endif`: the places of its directives, and its alternatives in their order."""
 
     condition: str
@@ -62,7 +62,7 @@ class Conditional:
 
 
 @lru_cache(maxsize=1)  # a text is read, and what of it is not read is then listed
-def alternatives(text: str) -> tuple[str, tuple[Conditional, ...]]:
+def alternatives(text: str) -> tuple[str, tuple[IfSection, ...]]:
     """A text as `blank` gives it, and its conditionals."""
     plain = blank(text)
     return plain, tuple(conditionals(plain))
@@ -80,7 +80,7 @@ def _blanks(match: re.Match[str]) -> str:
     return "\n".join([" " * len(line) for line in hidden.split("\n")])
 
 
-def conditionals(text: str) -> list[Conditional]:
+def conditionals(text: str) -> list[IfSection]:
     """All in a text of which comments are blank, inner ones before those around them."""
     reader = _DirectiveReader()
     for match in _directives(text):
@@ -120,7 +120,7 @@ class _DirectiveReader:
     """Reads directives in their order, and remembers what is defined."""
 
     def __init__(self) -> None:
-        self.found: list[Conditional] = []
+        self.found: list[IfSection] = []
         self.open: list[_OpenConditional] = []
         self.values: dict[str, int | None] = dict(_KNOWN)
         self.undefined = set(_UNDEFINED)
@@ -156,7 +156,7 @@ class _DirectiveReader:
         top = self.open.pop()
         self._end_branch(top, place)
         branches = tuple(top.branches)
-        self.found.append(Conditional(top.condition, tuple(top.directives), branches, top.guards))
+        self.found.append(IfSection(top.condition, tuple(top.directives), branches, top.guards))
 
     def _define(self, word: str, rest: str) -> None:
         name, _, value = rest.strip().partition(" ")
@@ -322,6 +322,6 @@ def _or(left: bool | None, right: bool | None) -> bool | None:
     return _not(_and(_not(left), _not(right)))
 
 
-def undecided(text: str) -> Iterator[Conditional]:
+def undecided(text: str) -> Iterator[IfSection]:
     """The conditionals of a text of which it is not known what is taken."""
     yield from (c for c in conditionals(text) if not c.decided)

@@ -12,6 +12,7 @@ from typing import TypeVar
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import (
     TYPES,
@@ -146,9 +147,7 @@ class Code:
 
     def file_of(self, node: Node) -> Cpp:
         """The file that a node is in: one of these, or of the code that this is a view of."""
-        root: Node | None = node
-        while root is not None and root.parent is not None:
-            root = root.parent
+        root = [node, *ancestors(node)][-1]
         files = (cpp for part_ in self._parts.values() for cpp in part_.files)
         return next(cpp for cpp in files if cpp.root == root)
 

@@ -56,6 +56,12 @@ def constant_number(node: Node, lookup: Lookup) -> int | None:
             return None
 
 
+def whole_result(operator: str, left: int, right: int) -> int | None:
+    """What an operator gives for whole numbers, before its type cuts it; None: it has no value."""
+    apply = _OPERATORS.get(operator)
+    return apply(left, right) if apply is not None else None
+
+
 @dataclass(frozen=True, slots=True)
 class KnownNumbers:
     """The numbers that enumerators and constants of a file stand for.
@@ -102,8 +108,7 @@ def _binary(node: Node, lookup: Lookup) -> int | None:
     left, right = values
     if left is None or right is None or operator is None:
         return None
-    apply = _OPERATORS.get(text_of(operator))
-    value = apply(left, right) if apply is not None else None
+    value = whole_result(text_of(operator), left, right)
     # A larger number may be cut off, as its type says, which is not looked at.
     return value if value in _INT else None
 

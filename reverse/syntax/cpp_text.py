@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 
-from rebsync.reverse.syntax.cpp_conditions import Conditional, alternatives
+from rebsync.reverse.syntax.cpp_conditions import IfSection, alternatives
 from rebsync.reverse.syntax.cpp_words import Plain
 
 # Patterns start with plain text where they can: this is what makes searching quick.
@@ -134,12 +134,12 @@ def dropped(text: str) -> list[tuple[int, int]]:
     return found
 
 
-def is_split(plain: str, conditional: Conditional) -> bool:
+def is_split(plain: str, conditional: IfSection) -> bool:
     """Whether an alternative is no whole piece of code: it opens or closes more than it may."""
     return not all(_balanced(plain[b.start : b.end]) for b in conditional.branches)
 
 
-def read_branch(conditional: Conditional) -> int | None:
+def read_branch(conditional: IfSection) -> int | None:
     """Which alternative is read, if only one can be: that of macros that nobody defines."""
     if conditional.condition.startswith("#ifndef"):
         return 0

@@ -13,7 +13,8 @@ from tree_sitter import Node
 
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.libraries.cpp import scopes, telling_words
-from rebsync.reverse.syntax.cpp_conditions import Conditional, alternatives
+from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.cpp_conditions import IfSection, alternatives
 from rebsync.reverse.syntax.cpp_declarations import only_braces
 from rebsync.reverse.syntax.cpp_text import has_alternatives, is_split, read_branch
 from rebsync.reverse.syntax.cpp_tree import Cpp
@@ -108,7 +109,7 @@ def _alternatives(cpp: Cpp) -> Iterator[Finding]:
             yield from _undecided(cpp, plain, each)
 
 
-def _undecided(cpp: Cpp, plain: str, each: Conditional) -> Iterator[Finding]:
+def _undecided(cpp: Cpp, plain: str, each: IfSection) -> Iterator[Finding]:
     code = [_DIRECTIVES.sub("", plain[b.start : b.end]) for b in each.branches]
     if not any(text.strip() for text in code):
         return
@@ -131,12 +132,9 @@ def _asks(text: str) -> bool:
     return any(s in text for s in scopes()) or not found.isdisjoint(telling_words())
 
 
-def _in_body(cpp: Cpp, each: Conditional) -> bool:
+def _in_body(cpp: Cpp, each: IfSection) -> bool:
     """Whether alternatives stand in the body of a function."""
     at = len(cpp.source.text[: each.directives[0][1]].encode("utf-8", "surrogatepass"))
     node = cpp.root.descendant_for_byte_range(at - 1, at)
-    while node is not None:
-        if node.type == "compound_statement":
-            return True
-        node = node.parent
-    return False
+    around = (node, *ancestors(node)) if node is not None else ()
+    return any(n.type == "compound_statement" for n in around)

@@ -6,13 +6,14 @@ A name is found in the text first and then looked up in the tree, so that nobody
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import field
 from functools import lru_cache
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.syntax.ancestors import ancestors, climb
 from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, function_of
 from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of
@@ -51,14 +52,6 @@ _SCOPES = frozenset(
         *("catch_clause", "translation_unit", "declaration_list"),
     }
 )
-
-
-def climb(node: Node, stop: Callable[[Node], bool]) -> Node | None:
-    """The nearest node around for which `stop` holds."""
-    above = node.parent
-    while above is not None and not stop(above):
-        above = above.parent
-    return above
 
 
 @dataclass(slots=True)
@@ -309,8 +302,7 @@ def _makes(declaration: Node, declarator: Node) -> bool:
 
 def made_of(name: Node) -> tuple[Node, ...] | None:
     """The arguments that a declared variable is made of; None where it is given none."""
-    above = name.parent
-    while above is not None and (above.type in _DECLARATORS or _of_pointer(above)):
+    for above in ancestors(name, lambda n: n.type not in _DECLARATORS and not _of_pointer(n)):
         if above.type == "function_declarator" and not is_pointer(above):
             found = [
                 p.child_by_field_name("type") for p in part(above, "parameters").named_children
@@ -321,7 +313,6 @@ def made_of(name: Node) -> tuple[Node, ...] | None:
             if value.type in ("argument_list", "initializer_list"):
                 return tuple(n for n in value.named_children if n.type != "comment")
             return (value,)
-        above = above.parent
     return None
 
 

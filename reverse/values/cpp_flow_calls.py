@@ -9,9 +9,10 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.values.cpp_flow import Texts, climb, declaration_of, made_of, nearness
+from rebsync.reverse.values.cpp_flow import Texts, declaration_of, made_of, nearness
 from rebsync.reverse.values.cpp_flow_types import Types, unscoped_member
 from rebsync.reverse.values.cpp_values_plain import NUMBERS, Use
 

@@ -9,6 +9,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts, declaration_of, is_pointer, made_of
 from rebsync.reverse.values.cpp_flow_types import Variable
@@ -67,9 +68,7 @@ def _declared(place: Node, declaration: Node) -> Definition | None:
     given = made_of(place)
     if given is None:
         return Definition("declared", place, place)
-    holder = place.parent
-    while holder is not None and not _holds_value(holder):
-        holder = holder.parent
+    holder = climb(place, _holds_value)
     plain = holder is not None and holder.type == "init_declarator"
     if holder is not None and plain and part(holder, "value").type not in _LISTS:
         return Definition("value", place, given[0])

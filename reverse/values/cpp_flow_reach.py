@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 from rebsync.reverse.values.cpp_flow_definitions import Definition
 
@@ -189,12 +190,11 @@ def _if_unset(branch: Branch, definition: Definition) -> bool:
 
 def in_loop(definition: Definition, scope: Node | None) -> bool:
     """Whether a definition may be made more than once while a variable of a scope lives."""
-    above = definition.place.parent
-    while above is not None and above != scope and above.type != "function_definition":
-        if above.type in _LOOPS:
-            return True
-        above = above.parent
-    return False
+
+    def ends(node: Node) -> bool:
+        return node == scope or node.type == "function_definition"
+
+    return any(n.type in _LOOPS for n in ancestors(definition.place, ends))
 
 
 def taken(place: Node, holds: Callable[[Node], bool | None]) -> bool | None:

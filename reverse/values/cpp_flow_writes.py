@@ -10,9 +10,10 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.values.cpp_flow import Texts, climb
+from rebsync.reverse.values.cpp_flow import Texts
 from rebsync.reverse.values.cpp_flow_calls import Calls
 from rebsync.reverse.values.cpp_flow_definitions import Definition, definitions
 from rebsync.reverse.values.cpp_flow_reach import Located, located

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from tree_sitter import Node
 
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.values.cpp_flow import Texts, climb, scope_of
+from rebsync.reverse.values.cpp_flow import Texts, scope_of
 from rebsync.reverse.values.cpp_flow_types import Variable
 
 

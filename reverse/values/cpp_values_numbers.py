@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import cast
 
 from rebsync.reverse.graph import FromParameter, OneOf, Plain, Unresolved
+from rebsync.reverse.syntax.cpp_numbers import whole_result
 from rebsync.reverse.values.cpp_values_plain import FLOATING, WHOLE, Choice, Nothing, Value, each
 
 
@@ -76,7 +77,10 @@ def computed(operator: str, left: Plain, right: Plain) -> Plain | None:
 
 
 def _number(operator: str, a: float, b: float) -> int | float | None:
-    whole = isinstance(a, int) and isinstance(b, int)
+    if isinstance(a, int) and isinstance(b, int):
+        whole = whole_result(operator, a, b)
+        if whole is not None:
+            return whole
     match operator:
         case "+":
             return a + b
@@ -85,9 +89,7 @@ def _number(operator: str, a: float, b: float) -> int | float | None:
         case "*":
             return a * b
         case "/" if b:
-            return _quotient(int(a), int(b)) if whole else a / b
-        case "%" if b and whole:
-            return int(a) - int(b) * _quotient(int(a), int(b))
+            return a / b
         case "<":
             return a < b
         case ">":
@@ -104,16 +106,8 @@ def _number(operator: str, a: float, b: float) -> int | float | None:
             return bool(a) and bool(b)
         case "||":
             return bool(a) or bool(b)
-        case "|" if whole:
-            return int(a) | int(b)
-        case "<<" if whole and 0 <= b < 64:
-            return int(a) << int(b)
         case _:
             return None
-
-
-def _quotient(a: int, b: int) -> int:
-    return abs(a) // abs(b) * (1 if (a < 0) == (b < 0) else -1)
 
 
 def converted(value: Value, type_: str) -> Value:

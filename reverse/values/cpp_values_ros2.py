@@ -12,9 +12,9 @@ from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import RATIOS, SUFFIXES, UNITS
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.values.cpp_flow import climb
 from rebsync.reverse.values.cpp_flow_definitions import Definition
 from rebsync.reverse.values.cpp_values_names import resolved
 from rebsync.reverse.values.cpp_values_numbers import used

@@ -148,7 +148,7 @@ def _of_library(context: Context, sign: str, to: Value, is_prefix: bool, place: 
     if isinstance(to.type, t.Reference):
         raise Unlowered("arithmetic of pointers")
     target = context.temporary(t.UNKNOWN, place)
-    argument = s.Argument(address(context, to, place))
+    argument = s.CallArgument(address(context, to, place))
     callee = s.LibraryCallee(f"operator{sign}")
     context.emit(s.Call(target, callee, (argument,), place))
     return to if is_prefix else Value(target, t.UNKNOWN)

@@ -79,7 +79,7 @@ def _functional_cast(
 def _construction(context: Context, type_: t.Type, nodes: Sequence[Node], place: Span) -> Value:
     if type_ == t.UNKNOWN:
         raise Unlowered("a construction of an object of a type that is not known")
-    is_object = isinstance(type_, t.Container | t.Record | t.Message)
+    is_object = isinstance(type_, t.Container | t.Record | t.RosMessage)
     if len(nodes) == 1 and not is_object:
         return cast(context, lower_value(context, nodes[0]), Declared(type_), place)
     return _made(context, type_, nodes, place, in_braces=False)
@@ -266,7 +266,7 @@ def call_value(context: Context, value: Value, nodes: Sequence[Node], place: Spa
 
     operands = [operand(n, d) for n, d in zip(nodes, declared, strict=True)]
     found = in_any_order(context, operands, place)
-    arguments = tuple(s.Argument(x) for x in found)
+    arguments = tuple(s.CallArgument(x) for x in found)
     return stored_result(context, callee, arguments, _declared(value.type.result), place)
 
 

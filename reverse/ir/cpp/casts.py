@@ -67,7 +67,7 @@ def cast(context: Context, value: Value, declared: Declared, place: Span) -> Val
         is_lvalue = value.is_lvalue and declared.reference is not ReferenceKind.RVALUE
         return Value(value.expression, to, is_lvalue)
     match to:
-        case t.Nothing():
+        case t.UnitType():
             context.emit(s.Evaluate(value.expression, place))
             return Value(e.Literal(None, t.NOTHING, place=place), t.NOTHING)
         case t.Enumeration(_, underlying):
@@ -136,7 +136,7 @@ def _new_array(context: Context, length: Node, type_: t.Type, place: Span) -> Va
     count = implicitly(context, lower_value(context, counts[0]), SIZE, place).expression
     pointer = t.Reference(type_, may_be_null=True)
     target = context.temporary(pointer, place)
-    context.emit(s.Call(target, s.LibraryCallee("new[]"), (s.Argument(count),), place))
+    context.emit(s.Call(target, s.LibraryCallee("new[]"), (s.CallArgument(count),), place))
     return Value(target, pointer)
 
 
@@ -168,9 +168,9 @@ def _created_value(
         raise Unlowered("a new value of a list in braces")
     inner = named(nodes[0]) if nodes else []
     values = [lower_value(context, n) for n in inner]
-    arguments = tuple(s.Argument(v.expression) for v in values)
+    arguments = tuple(s.CallArgument(v.expression) for v in values)
     target = context.temporary(pointer, place)
-    name = f"new {type_.name}" if isinstance(type_, t.Record | t.Message) else "new"
+    name = f"new {type_.name}" if isinstance(type_, t.Record | t.RosMessage) else "new"
     context.emit(s.Call(target, s.LibraryCallee(name), arguments, place))
     return Value(target, pointer)
 
@@ -185,7 +185,7 @@ def delete(context: Context, node: Node) -> Value:
         of = value.type.to if isinstance(value.type, t.Reference) else t.UNKNOWN
         if not ends_silently(context.world, of):
             raise Unlowered("an array of objects that end")
-        argument = s.Argument(value.expression)
+        argument = s.CallArgument(value.expression)
         context.emit(s.Call(None, s.LibraryCallee("delete[]"), (argument,), place))
         return nothing
     if not isinstance(value.type, t.Reference):

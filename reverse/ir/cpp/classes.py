@@ -29,7 +29,7 @@ _SILENT_NAMES = frozenset(
 
 
 @dataclass(frozen=True, slots=True)
-class Member:
+class DataMember:
     """A field of a class under the name that the form has for it."""
 
     key: str
@@ -37,12 +37,12 @@ class Member:
     symbol: FieldSymbol
 
 
-def members(world: World, owner: ClassSymbol) -> Iterator[Member]:
+def members(world: World, owner: ClassSymbol) -> Iterator[DataMember]:
     """The fields that a class itself declares, in their order; static members apart."""
     for symbol in owner.fields:
         if not symbol.is_static:
             declared = field_type(world, owner, symbol)
-            yield Member(field_key(world, owner, symbol.name), declared, symbol)
+            yield DataMember(field_key(world, owner, symbol.name), declared, symbol)
 
 
 def field_type(world: World, owner: ClassSymbol, symbol: FieldSymbol) -> Declared:
@@ -135,8 +135,8 @@ def ends_silently(world: World, type_: t.Type) -> bool:
 def _pointed(world: World, type_: t.Type) -> t.Type:
     """What a smart pointer ends; that of a class on its own line of descent is taken as silent."""
     if isinstance(type_, t.Record) and type_.name not in world.symbols.classes:
-        return t.Nothing()  # an object of a library, which ends itself as the library says
-    return t.Nothing() if type_ == t.UNKNOWN else type_
+        return t.UnitType()  # an object of a library, which ends itself as the library says
+    return t.UnitType() if type_ == t.UNKNOWN else type_
 
 
 def copies_trivially(world: World, type_: t.Type) -> bool:
@@ -201,7 +201,7 @@ def needs_constructor(world: World, owner: ClassSymbol) -> bool:
 
 def _constructs(world: World, declared: Declared) -> bool:
     match declared.type:
-        case t.Record(_) | t.Container() | t.Text() | t.Optional() | t.Message() | t.Unknown():
+        case t.Record(_) | t.Container() | t.Text() | t.Optional() | t.RosMessage() | t.Unknown():
             return not _refers(declared)
         case t.Reference(_, _, ownership):
             return ownership is not t.Ownership.NONE

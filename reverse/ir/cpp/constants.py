@@ -9,9 +9,16 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, World, lower_value
 from rebsync.reverse.ir.cpp.conversions import wrapped
 from rebsync.reverse.ir.operators import Conversion, Operator
+from rebsync.reverse.syntax.cpp_numbers import whole_result
 from rebsync.reverse.syntax.cpp_tree import Cpp
 
 _MOST = 40  # names that one constant may stand on
+_SIGNS = {
+    **{Operator.ADD: "+", Operator.SUBTRACT: "-", Operator.MULTIPLY: "*"},
+    **{Operator.TRUNCATING_DIVIDE: "/", Operator.TRUNCATING_REMAINDER: "%"},
+    **{Operator.SHIFT_LEFT: "<<", Operator.SHIFT_RIGHT: ">>"},
+    **{Operator.BIT_AND: "&", Operator.BIT_OR: "|", Operator.BIT_XOR: "^"},
+}
 
 
 class Constants:
@@ -61,7 +68,7 @@ class Constants:
     ) -> int | None:
         if left is None or right is None:
             return None
-        value = _apply(operator, left, right)
+        value = whole_result(_SIGNS.get(operator, ""), left, right)
         return None if value is None else wrapped(type_, value)
 
     def _variable(self, path: str, name: str) -> int | None:
@@ -92,29 +99,3 @@ def _is_constant(type_: Node) -> bool:
     parent = type_.parent
     words = {(c.text or b"").decode() for c in parent.children} if parent is not None else set()
     return bool(words & {"const", "constexpr"})
-
-
-def _apply(operator: Operator, left: int, right: int) -> int | None:
-    match operator:
-        case Operator.ADD:
-            return left + right
-        case Operator.SUBTRACT:
-            return left - right
-        case Operator.MULTIPLY:
-            return left * right
-        case Operator.TRUNCATING_DIVIDE if right:
-            return abs(left) // abs(right) * (1 if (left < 0) == (right < 0) else -1)
-        case Operator.TRUNCATING_REMAINDER if right:
-            return abs(left) % abs(right) * (-1 if left < 0 else 1)
-        case Operator.SHIFT_LEFT if 0 <= right < 64:
-            return left << right
-        case Operator.SHIFT_RIGHT if 0 <= right < 64:
-            return left >> right
-        case Operator.BIT_AND:
-            return left & right
-        case Operator.BIT_OR:
-            return left | right
-        case Operator.BIT_XOR:
-            return left ^ right
-        case _:
-            return None

@@ -64,7 +64,7 @@ def construct(
         passed(context, v, p.declared, place) for v, p in zip(values, parameters, strict=False)
     ]
     passed_values += default_arguments(context, function, len(values), place)
-    arguments = tuple(s.Argument(a) for a in passed_values)
+    arguments = tuple(s.CallArgument(a) for a in passed_values)
     context.emit(s.Construct(target, owner.name, arguments, function.name, place))
 
 
@@ -104,7 +104,7 @@ def call_library(
 ) -> None:
     """An object of a library, constructed of arguments that it may look at and change."""
     arguments = library_arguments(context, nodes, place, is_pure=False)
-    if isinstance(type_, t.Record | t.Message):
+    if isinstance(type_, t.Record | t.RosMessage):
         context.emit(s.Call(target, s.LibraryCallee(type_.name), arguments, place))
         return
     if type_ != t.UNKNOWN:

@@ -17,7 +17,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.symbol_table import Symbols
+from rebsync.reverse.ir.cpp.symbol_table import SymbolTable
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol
 from rebsync.reverse.ir.cpp.types import Declared, TypeReader
 from rebsync.reverse.ir.program import Function
@@ -55,7 +55,7 @@ class World:
     `construct` and `conversion` choose among functions of classes: overload resolution.
     """
 
-    symbols: Symbols
+    symbols: SymbolTable
     types: TypeReader
     construct: Constructing
     conversion: Converting

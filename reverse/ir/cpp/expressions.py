@@ -80,7 +80,7 @@ def user_defined(context: Context, node: Node) -> Value:
     type_ = t.Record(f"std::chrono::{_DURATIONS[suffix]}")
     target = context.temporary(type_, place)
     callee = s.LibraryCallee(f'std::literals::operator""{suffix}')
-    context.emit(s.Call(target, callee, (s.Argument(value.expression),), place))
+    context.emit(s.Call(target, callee, (s.CallArgument(value.expression),), place))
     return Value(target, type_)
 
 
@@ -264,7 +264,7 @@ def conditional(context: Context, node: Node) -> Value:
     with context.body() as otherwise:
         second = lower_value(context, sides[1])
     both = first.is_lvalue and second.is_lvalue and first.type == second.type
-    is_object = isinstance(first.type, t.Record | t.Container | t.Array | t.Message)
+    is_object = isinstance(first.type, t.Record | t.Container | t.Array | t.RosMessage)
     if both and is_object:
         type_: t.Type = t.Reference(first.type)
         with context.within(then):

@@ -11,7 +11,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.classes import (
-    Member,
+    DataMember,
     implicit_constructor,
     members,
     needs_constructor,
@@ -248,24 +248,24 @@ def _base(context: Context, name: str, base: ClassSymbol | None, node: Node | No
             raise Unlowered("a base that is copied or made of values")
         if needs_constructor(context.world, base):
             callee = s.FunctionCallee(implicit_constructor(base))
-            context.emit(s.Call(None, callee, (s.Argument(this),), place))
+            context.emit(s.Call(None, callee, (s.CallArgument(this),), place))
         return
     function = resolve(context, base.constructors, argument_values(context, nodes))
     if function.is_default:
         callee = s.FunctionCallee(implicit_constructor(base))
-        context.emit(s.Call(None, callee, (s.Argument(this),), place))
+        context.emit(s.Call(None, callee, (s.CallArgument(this),), place))
         return
     receiver = Value(this, t.Record(base.name), is_lvalue=True)
     call_function(context, function, nodes, place, receiver, True)
 
 
-def _target(context: Context, member: Member, node: Node | None) -> e.Lvalue:
+def _target(context: Context, member: DataMember, node: Node | None) -> e.Lvalue:
     place = context.place(node) if node is not None else NOWHERE
     return e.Attribute(_this(context), member.key, member.declared.form, False, place)
 
 
 def _member(
-    context: Context, owner: ClassSymbol, member: Member, target: e.Lvalue, node: Node | None
+    context: Context, owner: ClassSymbol, member: DataMember, target: e.Lvalue, node: Node | None
 ) -> None:
     """A member by the constructor's list, by its own initialiser, or by default."""
     declared = member.declared

@@ -125,7 +125,7 @@ def call(
     """A call with arguments that are passed as they are."""
     if function.is_deleted:
         raise Unlowered("a call of a deleted function")
-    taken = tuple(s.Argument(a) for a in arguments)
+    taken = tuple(s.CallArgument(a) for a in arguments)
     result = signature(context.world, function).result
     callee: s.Callee = s.FunctionCallee(function.name)
     if function.code.body is None:  # it is declared here, and defined in a library
@@ -140,14 +140,14 @@ def call(
         if isinstance(callee, s.LibraryCallee):
             callee = s.LibraryCallee(function.name, receiver.expression)
         elif isinstance(callee, s.FunctionCallee):
-            taken = (s.Argument(receiver.expression), *taken)
+            taken = (s.CallArgument(receiver.expression), *taken)
     return stored_result(context, callee, taken, result, place)
 
 
 def stored_result(
     context: Context,
     callee: s.Callee,
-    arguments: tuple[s.Argument, ...],
+    arguments: tuple[s.CallArgument, ...],
     result: Declared,
     place: Span,
 ) -> Value:
@@ -217,7 +217,7 @@ def method_key(world: World, function: FunctionSymbol) -> str:
 
 def library_arguments(
     context: Context, nodes: Sequence[Node], place: Span, is_pure: bool
-) -> tuple[s.Argument, ...]:
+) -> tuple[s.CallArgument, ...]:
     """Arguments of a function of a library: variables themselves, as it may change them."""
 
     def operand(node: Node) -> Callable[[], Value]:
@@ -230,4 +230,4 @@ def library_arguments(
         return lowered
 
     found = in_any_order(context, [operand(node) for node in nodes], place)
-    return tuple(s.Argument(x) for x in found)
+    return tuple(s.CallArgument(x) for x in found)

@@ -10,7 +10,7 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.classes import Member, is_aggregate, members
+from rebsync.reverse.ir.cpp.classes import DataMember, is_aggregate, members
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value, lower_value
 from rebsync.reverse.ir.cpp.objects import (
     as_value,
@@ -24,8 +24,6 @@ from rebsync.reverse.ir.cpp.symbols import ClassSymbol
 from rebsync.reverse.ir.cpp.types import ReferenceKind
 from rebsync.reverse.syntax.cpp_tree import named
 from rebsync.source import Span
-
-_SCALARS = t.Integer | t.Float | t.Truth | t.Enumeration | t.Text | t.Reference | t.FunctionType
 
 
 def initialised(context: Context, target: e.Lvalue, type_: t.Type, node: Node) -> None:
@@ -103,7 +101,7 @@ def by_arguments(
     if isinstance(type_, t.Record) and type_.name in context.world.types.tuples:
         _record(context, target, type_, context.world.types.tuples[type_.name], nodes, place)
         return
-    if isinstance(type_, t.Record | t.Message | t.Unknown):
+    if isinstance(type_, t.Record | t.RosMessage | t.Unknown):
         context.world.call_library(context, target, type_, nodes, place)
         return
     if len(nodes) != 1:
@@ -146,7 +144,7 @@ def _filled(
         if found is None:
             raise Unlowered("a container of objects that are constructed")
         fill = found
-    arguments = (s.Argument(count), s.Argument(fill))
+    arguments = (s.CallArgument(count), s.CallArgument(fill))
     context.emit(s.Call(target, s.LibraryCallee("std::vector"), arguments, place))
 
 
@@ -241,7 +239,7 @@ def _array(
     place: Span,
 ) -> None:
     """Elements, and default values for those that lack; braces in braces may be elided."""
-    is_inner = isinstance(element, t.Array | t.Container | t.Record | t.Message)
+    is_inner = isinstance(element, t.Array | t.Container | t.Record | t.RosMessage)
     if len(nodes) == 1 and nodes[0].type == "initializer_list" and not is_inner:
         nodes = named(nodes[0])
     if len(nodes) > length or length > 4096:
@@ -321,7 +319,7 @@ def _aggregate(
     context.emit(s.Assign(target, built, place))
 
 
-def _own_value(context: Context, owner: ClassSymbol, field: Member, place: Span) -> Value:
+def _own_value(context: Context, owner: ClassSymbol, field: DataMember, place: Span) -> Value:
     """What a field is where no element is given for it."""
     type_, node = field.declared.type, field.symbol.value
     if node is not None:

@@ -52,7 +52,7 @@ def library_class(type_: t.Type) -> str | None:
             return "std::array"
         case t.Record(name):
             return name.partition("<")[0]
-        case t.Message():
+        case t.RosMessage():
             return "message"
         case t.FunctionType():
             return "std::function"

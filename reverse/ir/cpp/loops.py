@@ -137,7 +137,7 @@ def _over_elements(context: Context, node: Node, range_: Value, place: Span) -> 
     element = _element(range_.type)
     declared, name = _declared(context, node, declarator, element)
     is_reference = declared.reference is not ReferenceKind.NONE
-    is_object = isinstance(element, t.Record | t.Container | t.Array | t.Message | t.Unknown)
+    is_object = isinstance(element, t.Record | t.Container | t.Array | t.RosMessage | t.Unknown)
     if isinstance(range_.type, t.Container) and range_.type.kind is t.ContainerKind.SET:
         kind = t.Container(t.ContainerKind.SEQUENCE, (element,))
         elements = context.temporary(kind, place)

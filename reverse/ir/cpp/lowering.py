@@ -31,7 +31,7 @@ from rebsync.reverse.ir.cpp.initialisation import initialised, value_initialised
 from rebsync.reverse.ir.cpp.names import global_value
 from rebsync.reverse.ir.cpp.objects import default_constructed
 from rebsync.reverse.ir.cpp.operator_functions import call_operator
-from rebsync.reverse.ir.cpp.symbol_table import Symbols
+from rebsync.reverse.ir.cpp.symbol_table import SymbolTable
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
 from rebsync.reverse.ir.cpp.types import ReferenceKind, TypeReader
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
@@ -52,20 +52,20 @@ _OPERATORS: dict[str, Operator | ImplicitCall] = {
 
 def program_of(code: Code) -> Program:
     """The program of some files: every function that has a body, classes, variables by file."""
-    return Lowering(code).program()
+    return CppLowering(code).program()
 
 
 def world_of(code: Code) -> World:
     """What lowerings of the functions of some files share."""
     constants = Constants()
-    symbols = Symbols(code)
+    symbols = SymbolTable(code)
     types = TypeReader(symbols, constants.number)
     world = World(symbols, types, construct, conversion, call_library, call_operator)
     constants.world = world
     return world
 
 
-class Lowering:
+class CppLowering:
     """The functions of some files by name, and what lowers each."""
 
     def __init__(self, code: Code) -> None:
@@ -244,7 +244,7 @@ def _begins(context: Context, target: e.Lvalue, type_: t.Type, value: Node | Non
 def _zero(context: Context, target: e.Lvalue, type_: t.Type) -> None:
     if isinstance(type_, t.Unknown):
         raise Unlowered("a variable of a type that is not known")
-    if isinstance(type_, t.Record | t.Message):
+    if isinstance(type_, t.Record | t.RosMessage):
         default_constructed(context, target, type_, target.place)
     else:
         value_initialised(context, target, type_, target.place)

@@ -145,7 +145,7 @@ def _put(
         return None
     value = element_value(context, element, nodes[0])
     callee = s.LibraryCallee(f"{library_class(of.type)}::{name}", of.expression)
-    arguments = (s.Argument(value),)
+    arguments = (s.CallArgument(value),)
     return stored_result(context, callee, arguments, Declared(t.NOTHING), place)
 
 
@@ -164,7 +164,7 @@ def _emplaced(
     by_arguments(context, made, element, nodes, place)
     put = name.replace("emplace", "push")
     callee = s.LibraryCallee(f"{library_class(of.type)}::{put}", of.expression)
-    context.emit(s.Call(None, callee, (s.Argument(made),), place))
+    context.emit(s.Call(None, callee, (s.CallArgument(made),), place))
     at_end = Value(of.expression, of.type, is_lvalue=True)
     return _indexed(at_end, -1 if put.endswith("back") else 0, element, place)
 

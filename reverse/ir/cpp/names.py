@@ -265,7 +265,7 @@ def field_of(context: Context, of: Value, name: str, place: Span) -> Value:
         if isinstance(type_, t.Reference) and not type_.may_be_null:
             return dereferenced(known, type_.to, place)
         return Value(known, type_, of.is_lvalue)
-    is_message = isinstance(of.type, t.Message)
+    is_message = isinstance(of.type, t.RosMessage)
     found_field = e.Attribute(of.expression, name, t.UNKNOWN, not is_message, place)
     return Value(found_field, t.UNKNOWN, of.is_lvalue or not is_message)
 

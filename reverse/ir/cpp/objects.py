@@ -55,7 +55,7 @@ def as_value(context: Context, value: Value, place: Span) -> e.Expression:
     if not value.is_lvalue and not is_xvalue(value):
         return value.expression
     match value.type:
-        case t.Record() | t.Container() | t.Array() | t.Optional() | t.Message() | t.Unknown():
+        case t.Record() | t.Container() | t.Array() | t.Optional() | t.RosMessage() | t.Unknown():
             return _copied(context, value, place)
         case _:
             return value.expression
@@ -109,14 +109,16 @@ def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value
     found = converted(value.expression, value.type, to, place)
     if found is not None:
         return Value(found, to, value.is_lvalue and found is value.expression)
-    if isinstance(to, t.Record | t.FunctionType | t.Handle | t.Message) or _of_library(value.type):
+    if isinstance(to, t.Record | t.FunctionType | t.RosHandle | t.RosMessage) or _of_library(
+        value.type
+    ):
         made_value = e.Convert(Conversion.CAST, as_value(context, value, place), to, True, place)
         return Value(made_value, to)
     raise Unlowered("a conversion that is not known")
 
 
 def _of_library(type_: t.Type) -> bool:
-    return isinstance(type_, t.Record | t.Message | t.Handle)
+    return isinstance(type_, t.Record | t.RosMessage | t.RosHandle)
 
 
 def passed(context: Context, value: Value, declared: Declared, place: Span) -> e.Expression:
@@ -226,7 +228,7 @@ def default_constructed(
     value = default_value(context, type_, place)
     if value is not None:
         context.emit(s.Assign(target, value, place))
-    elif isinstance(type_, t.Record | t.Message):
+    elif isinstance(type_, t.Record | t.RosMessage):
         context.emit(s.Call(target, s.LibraryCallee(type_.name), (), place))
 
 

@@ -31,7 +31,7 @@ _SHIFTS = frozenset({"<<", ">>"})
 def is_built_in(type_: t.Type) -> bool:
     """Whether operators on values of a type are the language's or the standard texts'."""
     return is_arithmetic(type_) or isinstance(
-        type_, t.Enumeration | t.Reference | t.Text | t.Nothing
+        type_, t.Enumeration | t.Reference | t.Text | t.UnitType
     )
 
 

@@ -37,22 +37,22 @@ class ParameterSignature:
 
 
 @dataclass(frozen=True, slots=True)
-class Signature:
+class CallSignature:
     """The parameters and the result of a function."""
 
     parameters: tuple[ParameterSignature, ...]
     result: Declared
 
 
-def signature(world: World, function: FunctionSymbol) -> Signature:
+def signature(world: World, function: FunctionSymbol) -> CallSignature:
     """The types of a function, read once."""
-    cached: dict[str, Signature] = world.symbols.__dict__.setdefault("signatures", {})
+    cached: dict[str, CallSignature] = world.symbols.__dict__.setdefault("signatures", {})
     if function.name not in cached:
         cached[function.name] = _signature(world, function)
     return cached[function.name]
 
 
-def _signature(world: World, function: FunctionSymbol) -> Signature:
+def _signature(world: World, function: FunctionSymbol) -> CallSignature:
     code = function.code
     parameters: list[ParameterSignature] = []
     for number, parameter in enumerate(code.parameters):
@@ -63,7 +63,7 @@ def _signature(world: World, function: FunctionSymbol) -> Signature:
         if isinstance(declared.type, t.Array):  # it decays to a pointer ([dcl.fct])
             declared = Declared(t.Reference(declared.type.element, may_be_null=True))
         parameters.append(ParameterSignature(parameter.name, declared, _default(function, number)))
-    return Signature(tuple(parameters), _result(world, function))
+    return CallSignature(tuple(parameters), _result(world, function))
 
 
 def _default(function: FunctionSymbol, number: int) -> tuple[Cpp, Node] | None:

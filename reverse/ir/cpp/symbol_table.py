@@ -24,7 +24,7 @@ from rebsync.reverse.syntax.cpp_tree import text_of
 TypeSymbol: TypeAlias = ClassSymbol | EnumSymbol | AliasSymbol
 
 
-class Symbols:
+class SymbolTable:
     """The entities of some code by their full names.
 
     A name that two files give to things of their own means none of them (`None` in `types`), but

@@ -11,8 +11,6 @@ from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 
-_CLASSES = frozenset({"class_specifier", "struct_specifier", "union_specifier"})
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VariableSymbol:
@@ -112,19 +110,6 @@ class ClassSymbol:
     def destructor(self) -> FunctionSymbol | None:
         """Its destructor, if the source declares one."""
         return next((f for f in self.functions if f.simple.startswith("~")), None)
-
-
-def enclosing_scope(node: Node) -> str:
-    """The namespaces and classes that a node stands in, as `a::B`; unnamed ones do not count."""
-    names: list[str] = []
-    parent = node.parent
-    while parent is not None:
-        if parent.type == "namespace_definition" or parent.type in _CLASSES:
-            name = parent.child_by_field_name("name")
-            if name is not None:
-                names.append("".join(text_of(name).split()))
-        parent = parent.parent
-    return "::".join(reversed(names))
 
 
 def joined(scope: str, name: str) -> str:

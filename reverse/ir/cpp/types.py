@@ -11,9 +11,10 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.symbol_table import Symbols
+from rebsync.reverse.ir.cpp.symbol_table import SymbolTable
 from rebsync.reverse.ir.cpp.symbols import AliasSymbol, ClassSymbol, EnumSymbol
 from rebsync.reverse.ir.dump_expressions import dump_type
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 
 INT = t.Integer(32)
@@ -81,7 +82,7 @@ Lookup: TypeAlias = Callable[[Node, str, Cpp], "int | None"]
 class TypeReader:
     """The types that nodes name. `constant` gives the number that an expression is."""
 
-    def __init__(self, symbols: Symbols, constant: Lookup) -> None:
+    def __init__(self, symbols: SymbolTable, constant: Lookup) -> None:
         self.symbols = symbols
         self.constant = constant
         self.tuples: dict[str, tuple[tuple[str, t.Type], ...]] = {}
@@ -197,7 +198,7 @@ class TypeReader:
             return t.Reference(self._of_library(cpp, outer), True, _POINTER_ALIASES[last])
         if (message := _MESSAGE.match(name)) is not None:
             package, inner = message[1] or message[3], message[2] or message[4]
-            return t.Message(f"{package}/{inner.replace('::', '_')}")
+            return t.RosMessage(f"{package}/{inner.replace('::', '_')}")
         return t.Record(name) if outer else t.UNKNOWN
 
     def imported(self, cpp: Cpp, name: str) -> str:
@@ -347,15 +348,11 @@ def _is_template_parameter(cpp: Cpp, node: Node) -> bool:
     """Whether a name is that of a parameter of a template around, which any type may be."""
     if b"template" not in cpp.words:
         return False
-    name, around = node.text, node.parent
-    while around is not None:
-        if around.type == "template_declaration":
-            list_ = around.child_by_field_name("parameters")
-            for parameter in named(list_) if list_ is not None else ():
-                if any(c.type == "type_identifier" and c.text == name for c in named(parameter)):
-                    return True
-        around = around.parent
-    return False
+    templates = (n for n in ancestors(node) if n.type == "template_declaration")
+    lists = (n.child_by_field_name("parameters") for n in templates)
+    parameters = (p for list_ in lists if list_ is not None for p in named(list_))
+    names = (c for p in parameters for c in named(p) if c.type == "type_identifier")
+    return any(name.text == node.text for name in names)
 
 
 def _is_pointer_to_function(node: Node) -> bool:

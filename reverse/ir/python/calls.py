@@ -100,17 +100,17 @@ def _named_rest(ctx: Lowering, node: Node) -> e.Expression:
     return ctx.saved(e.BuildMapping(MAPPING, (e.Spread(value),), ctx.place(node)))
 
 
-def _argument(node: Node, value: Operand) -> c.Argument:
+def _argument(node: Node, value: Operand) -> c.CallArgument:
     if isinstance(value, e.Spread):
-        return c.Argument(value.operand, stars=1)
+        return c.CallArgument(value.operand, stars=1)
     assert not isinstance(value, e.FormatPiece)
     match node.type:
         case "keyword_argument":
-            return c.Argument(value, text_of(field(node, "name")))
+            return c.CallArgument(value, text_of(field(node, "name")))
         case "dictionary_splat":
-            return c.Argument(value, stars=2)
+            return c.CallArgument(value, stars=2)
         case _:
-            return c.Argument(value)
+            return c.CallArgument(value)
 
 
 def _super_receiver(ctx: Lowering, node: Node) -> tuple[e.Expression, str] | None:

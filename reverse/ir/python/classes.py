@@ -9,7 +9,7 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
 from rebsync.reverse.ir.program import Class, Field, Property
-from rebsync.reverse.ir.python.names import Names
+from rebsync.reverse.ir.python.names import NameLookup
 from rebsync.reverse.ir.python.symbols import Binder, ScopeKind, Symbols
 from rebsync.reverse.python.py_tree import decorators_of, field, named, text_of
 from rebsync.source import NOWHERE
@@ -80,7 +80,7 @@ _PLAIN = frozenset(
 )
 
 
-def class_of(names: Names, binder: Binder, scope: Symbols) -> Class:
+def class_of(names: NameLookup, binder: Binder, scope: Symbols) -> Class:
     """A class of the text; it is complete where nothing but plain methods and values is in it."""
     methods: dict[str, str] = {}
     properties: dict[str, Property] = {}
@@ -135,7 +135,7 @@ def _add(
     return is_first and scope.bound.get(name) == 1 and set(decorators) <= _PLAIN
 
 
-def base_name(names: Names, node: Node, scope: Symbols) -> str | None:
+def base_name(names: NameLookup, node: Node, scope: Symbols) -> str | None:
     """The full name of a base: of a class of the program, or of a library."""
     value = _value(names, node, scope)
     match value:
@@ -156,7 +156,7 @@ def base_name(names: Names, node: Node, scope: Symbols) -> str | None:
             return None
 
 
-def _value(names: Names, node: Node, scope: Symbols) -> e.Expression | None:
+def _value(names: NameLookup, node: Node, scope: Symbols) -> e.Expression | None:
     """What the name of a base stands for."""
     around = scope.parent
     if around is None:

@@ -38,7 +38,7 @@ def generator(ctx: Lowering, node: Node) -> e.Expression:
     captures = captures_of(ctx, function)
     closure = e.Closure(function.name, captures, place=ctx.place(node))
     target = ctx.temporary(node)
-    first = s.Argument(iterable)
+    first = s.CallArgument(iterable)
     ctx.emit(s.Call(target, s.ValueCallee(closure), (first,), ctx.place(node)))
     return target
 

@@ -19,7 +19,7 @@ from rebsync.reverse.python.py_tree import Py, field, named, text_of
 from rebsync.source import Span
 
 if TYPE_CHECKING:
-    from rebsync.reverse.ir.python.names import Names
+    from rebsync.reverse.ir.python.names import NameLookup
 
 _STABLE = (
     *(e.Literal, e.Temporary, e.ClassReference, e.ModuleReference, e.LibraryReference),
@@ -53,7 +53,7 @@ class Lowering:
     tree that is evaluated after them.
     """
 
-    def __init__(self, names: Names, binder: Binder, scope: Symbols, rules: Rules) -> None:
+    def __init__(self, names: NameLookup, binder: Binder, scope: Symbols, rules: Rules) -> None:
         self._rules = rules
         self.names = names
         self.binder = binder

@@ -13,6 +13,7 @@ from rebsync.reverse.ir.python.references import name_target
 from rebsync.reverse.ir.python.symbols import Symbols
 from rebsync.reverse.ir.types import UNKNOWN, Container, ContainerKind, Type
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.ancestors import climb
 
 
 def closure_of(ctx: Lowering, node: Node) -> e.Expression:
@@ -80,9 +81,7 @@ def _parameter(ctx: Lowering, node: Node, kind: ParameterKind) -> tuple[Paramete
 
 def _function_of(node: Node) -> Node:
     """The function whose parameter a node is."""
-    above = node.parent
-    while above is not None and above.type not in ("function_definition", "lambda"):
-        above = above.parent
+    above = climb(node, lambda n: n.type in ("function_definition", "lambda"))
     assert above is not None
     return above
 
@@ -118,7 +117,7 @@ def define(ctx: Lowering, node: Node) -> None:
     for decorator in reversed(values):
         result = ctx.temporary(node)
         callee = _callee(decorator)
-        ctx.emit(s.Call(result, callee, (s.Argument(value),), ctx.place(node)))
+        ctx.emit(s.Call(result, callee, (s.CallArgument(value),), ctx.place(node)))
         value = result
     ctx.emit(s.Assign(target, value, ctx.place(definition)))
 
@@ -139,7 +138,7 @@ def _class(ctx: Lowering, node: Node, target: e.Lvalue | None) -> e.Expression |
         raise NoLowering("bases that are computed", node)
     values = ctx.values(nodes)
     bases = tuple(
-        s.Argument(v, text_of(field(p, "name")) if p.type == "keyword_argument" else None)
+        s.CallArgument(v, text_of(field(p, "name")) if p.type == "keyword_argument" else None)
         for p, v in zip(parts, values, strict=True)
     )
     name = ctx.binder.scopes[node.id].name

@@ -15,7 +15,7 @@ from rebsync.reverse.ir.python.comprehensions import FIRST, generator_body
 from rebsync.reverse.ir.python.context import Lowering, NoLowering, Rules
 from rebsync.reverse.ir.python.expressions import lower_value
 from rebsync.reverse.ir.python.functions import parameters_of
-from rebsync.reverse.ir.python.names import Names, captured_locals
+from rebsync.reverse.ir.python.names import NameLookup, captured_locals
 from rebsync.reverse.ir.python.references import unsupported
 from rebsync.reverse.ir.python.statements import lower_statement
 from rebsync.reverse.ir.python.symbols import Binder, ScopeKind, Symbols
@@ -25,7 +25,7 @@ from rebsync.reverse.python.py_tree import decorators_of, field, named
 
 def python_program(code: PyCode) -> Program:
     """The program of some files; a module's name is its path, and it has a body like a function."""
-    names = Names(code)
+    names = NameLookup(code)
     scopes: dict[str, tuple[Binder, Symbols]] = {}
     classes: list[Class] = []
     for path in code.modules:
@@ -40,7 +40,7 @@ def python_program(code: PyCode) -> Program:
     return Program(scopes, classes, lambda name: lower(names, *scopes[name]), modules)
 
 
-def lower(names: Names, binder: Binder, scope: Symbols) -> Function:
+def lower(names: NameLookup, binder: Binder, scope: Symbols) -> Function:
     """One function, module body or class body."""
     ctx = Lowering(names, binder, scope, Rules(lower_value, lower_statement))
     ctx.captured = captured_locals(scope)

@@ -23,7 +23,7 @@ _OF_MODULE = frozenset({"__name__", "__file__", "__doc__", "__package__", "__spe
 
 
 @dataclass(eq=False, slots=True)
-class Names:
+class NameLookup:
     """The binders of all files, by their paths, which are also the names of the modules.
 
     `changing` are attributes that may be other than a method: what is stored under their names.

@@ -157,7 +157,7 @@ def _raise(ctx: Lowering, node: Node) -> None:
             raise NoLowering("an exception with a traceback", node)
         callee, message = ctx.ordered([lambda: ctx.value(kind), lambda: ctx.value(rest[0])])
         target = ctx.temporary(node)
-        ctx.emit(s.Call(target, s.ValueCallee(callee), (s.Argument(message),), ctx.place(node)))
+        ctx.emit(s.Call(target, s.ValueCallee(callee), (s.CallArgument(message),), ctx.place(node)))
         ctx.emit(s.Raise(target, place=ctx.place(node)))
         return
     nodes = values if cause_node is None else [values[0], cause_node]
@@ -182,10 +182,10 @@ def _print(ctx: Lowering, node: Node) -> None:
     shown = [c for c in nodes if c.type != "chevron"]
     parts = [named(into[0])[0], *shown] if into else shown
     values = ctx.values(parts)
-    arguments = [s.Argument(v) for v in (values[1:] if into else values)]
-    arguments += [s.Argument(values[0], "file")] * bool(into)
+    arguments = [s.CallArgument(v) for v in (values[1:] if into else values)]
+    arguments += [s.CallArgument(values[0], "file")] * bool(into)
     if node.children[-1].type == ",":
-        arguments.append(s.Argument(e.Literal(" "), "end"))
+        arguments.append(s.CallArgument(e.Literal(" "), "end"))
     callee = s.LibraryCallee("builtins.print")
     ctx.emit(s.Call(None, callee, tuple(arguments), ctx.place(node)))
 

@@ -49,11 +49,6 @@ class Symbols:
     has_yield: bool = False
 
     @property
-    def is_function(self) -> bool:
-        """Whether it is lowered to a function with locals of its own that closures may capture."""
-        return self.kind in _FUNCTIONS
-
-    @property
     def function(self) -> Symbols:
         """The scope that is lowered to the function in which this stands."""
         scope = self
@@ -84,7 +79,6 @@ class Symbols:
         return name
 
 
-_FUNCTIONS = frozenset({ScopeKind.FUNCTION, ScopeKind.LAMBDA, ScopeKind.GENERATOR})
 _KINDS = {
     "class_definition": ScopeKind.CLASS,
     "function_definition": ScopeKind.FUNCTION,

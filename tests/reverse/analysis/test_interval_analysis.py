@@ -17,9 +17,9 @@ from rebsync import model as m
 from rebsync.intervals import ANY, Interval
 from rebsync.printing import print_expression, print_statement
 from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
+from rebsync.reverse.analysis.invariants import Body, BodyStart, unbounded
 from rebsync.reverse.analysis.needs import Need
 from rebsync.reverse.bodies.rewriting import rewritten
-from rebsync.reverse.python.body_proof import ClassBodies, proved
 from tests.reverse.analysis.drawing import BITS, LENGTH, STATE, bodies, type_of, widths
 from tests.reverse.analysis.running import Run, Stop, bits_of, is_int
 
@@ -114,9 +114,10 @@ def test_numbers_of_a_class_in_python_are_what_is_proved(
         bounds = Interval(random.choice((-(2**40), -5, 0, 1)), random.choice((1, 3, 100, 2**40)))
         needs[id(node)] = [Need(node, bounds, ("", number, 0, ""))]
     names = frozenset({*_PYTHON, "i1", "i5", "i6", "s1", "b1"})
-    found = proved(
-        ClassBodies(constructor, [(s, {}) for s in servers], frozenset(_PYTHON), names, {}, needs)
+    first, *others = (
+        Body("", BodyStart.BETWEEN, s, {}, needs=needs) for s in (constructor, *servers)
     )
+    found = unbounded(first, others, frozenset(_PYTHON), names)
     assume(not found.broken)
 
     def seen(node: m.Expression, value: int) -> None:

@@ -119,7 +119,7 @@ _CHECKS: dict[type, type | tuple[type, ...]] = {
     t.Float: float,
     t.Truth: bool,
     t.Text: (str, bytes),
-    t.Nothing: type(None),
+    t.UnitType: type(None),
 }
 
 

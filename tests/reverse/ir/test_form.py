@@ -20,7 +20,7 @@ _SELF = e.Local("self")
 _SPEED = e.Attribute(_SELF, "speed")
 _ONE = e.Literal(1, UNBOUNDED)
 _BODY: s.Body = (
-    s.Call(e.Temporary(1), c.MethodCallee(_SELF, "read"), (c.Argument(_ONE, "at"),)),
+    s.Call(e.Temporary(1), c.MethodCallee(_SELF, "read"), (c.CallArgument(_ONE, "at"),)),
     s.If(
         e.Binary(Operator.LESS, e.Temporary(1), _ONE, TRUTH),
         (s.CompoundAssign(_SPEED, Operator.ADD, e.Temporary(1)),),
