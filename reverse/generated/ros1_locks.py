@@ -1,4 +1,4 @@
-"""Mutexes in generated C++ that a thread may lock again while it holds them: it waits for ever then.
+"""Mutexes in generated C++ that a thread may lock again while it holds them, and wait for ever.
 
 The locks of the standard library (`std::lock_guard` and its kin) hold from their declaration to the
 end of the block. What else locks a mutex may hold it longer than any block shows.

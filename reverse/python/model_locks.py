@@ -1,4 +1,4 @@
-"""Which methods of generated Python may wait for a lock: whoever holds one and calls them may block.
+"""Which methods of generated Python may wait for a lock: who holds one and calls them may block.
 
 A method may wait if it enters a context or names `acquire`, or does anything with its object's own
 methods that may: a fixpoint over the call graph, by names, so that heirs and properties count.

@@ -40,7 +40,7 @@ class Silent:
     """The silent members of a class: `texts` are told to people only, `locks` whether again.
 
     `ticking` are timers that only log, as `timers` tells them. `locals` are the messages that a
-    function makes for people, by the function's node; `waiting` are methods that may wait for a lock.
+    function makes for people, by the function's node; `waiting` are methods that may lock.
     """
 
     texts: frozenset[str] = frozenset()
