@@ -12,6 +12,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, cell
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.python import model_aliases as aliases
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python import model_loops as loops
 from rebsync.reverse.python import model_stored as stored
@@ -62,6 +63,9 @@ class Statements(ModelStatementReader):
                     found.append(m.Continue(span=self.expressions.py.span(node)))
                     waiting.pop(0)
                     continue
+                if (read_behind := aliases.behind(self, node, list(waiting))) is not None:
+                    self.findings.statements[self.within] += 1
+                    return iter([*found, *read_behind])
                 sent = filled(self.expressions, node, waiting)
                 if sent is None:
                     found += stored.declared_before(self, node, waiting)
