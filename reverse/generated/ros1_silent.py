@@ -19,6 +19,8 @@ from rebsync.reverse.syntax.cpp_tree import part, text_of
 
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)::")
+_NUMBER = re.compile(r"(?:std::)?u?int(?:8|16|32|64)_t|(?:std::)?size_t|int|unsigned(?:int)?|long")
+_PLACES = ("identifier", "field_expression")
 _PUBLISHER = re.compile(r"ros::Publisher|rclcpp::Publisher<(.*)>::SharedPtr")
 
 
@@ -43,6 +45,50 @@ def only_logged(
             if not (is_other or any(n.id in known or is_logging(n) for n in around)):
                 left.discard(text_of(node))
     return left
+
+
+def counters(code: Code, owner: CppClass) -> set[str]:
+    """Numbers that are counted or set in statements of their own, and else only told to people.
+
+    Nothing but logs, and fields of messages that a function has made, gets what they are.
+    """
+    numbers = {f.name: f for f in owner.fields if _NUMBER.fullmatch(_without_blanks(f.type))}
+    left = {n for n, f in numbers.items() if not f.markers}
+    known = {f.node.id for f in owner.fields}
+    if not left:
+        return left
+    for cpp in code.files:
+        for node in code.named(cpp, cpp.root, sorted(left)):
+            around = list(_around(node))
+            is_told = any(n.id in known or is_logging(n) or _only_counts(n) for n in around)
+            if not is_told or any(map(_is_of_state, around)):
+                left.discard(text_of(node))
+    return left
+
+
+def _is_of_state(node: Node) -> bool:
+    """Whether it is the function that tells the state: its variables are those of the model."""
+    is_function = node.type == "function_definition"
+    return is_function and "publishState" in text_of(part(node, "declarator"))
+
+
+def _only_counts(statement: Node) -> bool:
+    """`++x;`, `x += 2;` and `message.data = x;`, where the message is a local."""
+    if statement.type != "expression_statement" or not statement.named_children:
+        return False
+    inner = statement.named_children[0]
+    if inner.type == "update_expression":
+        return part(inner, "argument").type in _PLACES
+    if inner.type != "assignment_expression":
+        return False
+    left, right = part(inner, "left"), part(inner, "right")
+    if left.type == "field_expression" and part(left, "argument").type == "identifier":
+        return True
+    return left.type in _PLACES and right.type == "number_literal"
+
+
+def _without_blanks(type_: Node) -> str:
+    return "".join(text_of(type_).split())
 
 
 def _around(node: Node) -> Iterator[Node]:
