@@ -144,7 +144,7 @@ def _called(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | N
             why = "the mailbox knows nothing of this sleep: to it the body takes no time"
             raise reader.unread(node, why, "call `delay` of the mailbox, in units of time")
         return _statement(reader, node, m.Call(None, "delay", (length,)))
-    if (swaps := cpp_swap.swapped(reader, node)) is not None:
+    if (swaps := cpp_swap.swap(reader, node)) is not None:
         return swaps
     if name in libraries.failing():
         return _statement(reader, node, m.Call(None, "assertion", (m.BoolLiteral(False),)))

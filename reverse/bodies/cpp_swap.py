@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 
-def swapped(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None:
+def swap(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None:
     """The statements that swap two places; None for other calls.
 
     Unread: the places are of two types, or which element is one depends on the other.

@@ -12,10 +12,9 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.python.model_closures import Closure
 from rebsync.reverse.python.model_cuts import Cuts
 from rebsync.reverse.python.model_kinds import kind_of
-from rebsync.reverse.python.model_names import ModelNames
+from rebsync.reverse.python.model_names import Closure, ModelNames
 from rebsync.reverse.python.py_tree import Py
 
 

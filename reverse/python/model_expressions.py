@@ -247,7 +247,7 @@ class Expressions(ModelExpressionReader):
     def _call(self, node: Node) -> m.Expression:
         called, arguments = call_parts(node) or ("", [])
         if called in self.closures:
-            return closures.given(self, node, called, arguments)
+            return closures.value_of_call(self, node, called, arguments)
         if called in formats.FORMATS and len(arguments) == 1:
             return self._converted(called, arguments[0])
         if called in _CASTS and len(arguments) == 1:

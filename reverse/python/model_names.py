@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field as with_default
 
+from tree_sitter import Node
+
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.model_posts import Post
@@ -63,3 +65,11 @@ class Filling:
     sends: PySends
     fields: tuple[tuple[str, str], ...]
     others: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Closure:
+    """A function of a body: its parameters with their types, and its block or its only value."""
+
+    parameters: tuple[tuple[str, m.Type | None], ...]
+    body: Node

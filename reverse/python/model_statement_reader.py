@@ -12,8 +12,8 @@ from rebsync.records import dataclass
 from rebsync.reserved import PYTHON_RESERVED, uncarry_local
 from rebsync.reverse.analysis.evaluation_order import note_store
 from rebsync.reverse.findings import Findings
-from rebsync.reverse.python.model_closures import Closure
 from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.model_names import Closure
 from rebsync.reverse.python.py_tree import named
 
 

@@ -13,8 +13,8 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, cell
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_aliases as aliases
-from rebsync.reverse.python import model_closures as closures
 from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python import model_inner as inner_functions
 from rebsync.reverse.python import model_loops as loops
 from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_users as users
@@ -116,7 +116,7 @@ class Statements(ModelStatementReader):
             case "try_statement":
                 return stored.tried(self, node)
             case "function_definition":
-                return closures.declared(self, node)
+                return inner_functions.declare(self, node)
             case "expression_statement":
                 return self._effect(node)
             case "if_statement":
@@ -163,7 +163,7 @@ class Statements(ModelStatementReader):
             return [m.ExpressionStatement(changed, span=span)]
         called, arguments = call_parts(inner) or ("", [])
         if called in self.inner:
-            return closures.done(self, inner, called, arguments)
+            return inner_functions.inline_call(self, inner, called, arguments)
         if called == "self._drive.move" and len(arguments) == 2:
             cells = tuple(map(self._cell, ("X", "Y"), arguments))
             return [m.Empty((m.Annotation("Move", cells, span),), span)]
@@ -187,7 +187,7 @@ class Statements(ModelStatementReader):
             return [self._declared(name, type_, value, node)]
         if name in self.hoisted:
             return [self._declared(name, self.hoisted.pop(name), value, node)]
-        if closures.named_lambda(self, left, value):
+        if inner_functions.named_lambda(self, left, value):
             return []
         if value.type == "assignment":
             return stored.chained(self, node)

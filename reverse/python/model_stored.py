@@ -13,7 +13,7 @@ from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
-from rebsync.reverse.python.model_closures import leaves
+from rebsync.reverse.python.model_inner import leaves
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 
