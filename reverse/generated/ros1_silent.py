@@ -48,22 +48,26 @@ def only_logged(
 
 
 def counters(code: Code, owner: CppClass) -> set[str]:
-    """Numbers that are counted or set in statements of their own, and else only told to people.
+    """Numbers that are told to people, and else only counted or set in statements of their own.
 
     Nothing but logs, and fields of messages that a function has made, gets what they are.
     """
     numbers = {f.name: f for f in owner.fields if _NUMBER.fullmatch(_without_blanks(f.type))}
     left = {n for n, f in numbers.items() if not f.markers}
     known = {f.node.id for f in owner.fields}
+    told = set[str]()
     if not left:
         return left
     for cpp in code.files:
         for node in code.named(cpp, cpp.root, sorted(left)):
             around = list(_around(node))
-            is_told = any(n.id in known or is_logging(n) or _only_counts(n) for n in around)
-            if not is_told or any(map(_is_of_state, around)):
+            is_told = any(is_logging(n) or _fills(n) for n in around)
+            is_counted = any(n.id in known or _counts(n) for n in around)
+            if any(map(_is_of_state, around)) or not (is_told or is_counted):
                 left.discard(text_of(node))
-    return left
+            elif is_told:
+                told.add(text_of(node))
+    return left & told
 
 
 def _is_of_state(node: Node) -> bool:
@@ -72,19 +76,29 @@ def _is_of_state(node: Node) -> bool:
     return is_function and "publishState" in text_of(part(node, "declarator"))
 
 
-def _only_counts(statement: Node) -> bool:
-    """`++x;`, `x += 2;` and `message.data = x;`, where the message is a local."""
-    if statement.type != "expression_statement" or not statement.named_children:
-        return False
-    inner = statement.named_children[0]
-    if inner.type == "update_expression":
-        return part(inner, "argument").type in _PLACES
+def _counts(statement: Node) -> bool:
+    """`++x;`, `x = 0;` and `x += 2;`."""
+    inner = _expression_in(statement)
+    if inner is None or inner.type == "update_expression":
+        return inner is not None and part(inner, "argument").type in _PLACES
     if inner.type != "assignment_expression":
         return False
-    left, right = part(inner, "left"), part(inner, "right")
-    if left.type == "field_expression" and part(left, "argument").type == "identifier":
-        return True
-    return left.type in _PLACES and right.type == "number_literal"
+    is_place = part(inner, "left").type in _PLACES
+    return is_place and part(inner, "right").type == "number_literal"
+
+
+def _fills(statement: Node) -> bool:
+    """`message.data = ++x;`, where the message is a local."""
+    inner = _expression_in(statement)
+    if inner is None or inner.type != "assignment_expression":
+        return False
+    left = part(inner, "left")
+    return left.type == "field_expression" and part(left, "argument").type == "identifier"
+
+
+def _expression_in(statement: Node) -> Node | None:
+    is_one = statement.type == "expression_statement" and bool(statement.named_children)
+    return statement.named_children[0] if is_one else None
 
 
 def _without_blanks(type_: Node) -> str:
