@@ -9,13 +9,14 @@ from functools import partial
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.bodies import cpp_roots, known_functions
+from rebsync.reverse.bodies import cpp_roots
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
+from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
 from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, is_number, may_end, root
-from rebsync.reverse.bodies.known_functions import acts, takes_values, type_takes_values
+from rebsync.reverse.bodies.known_functions import acts, may_change, takes_values, type_takes_values
 from rebsync.reverse.bodies.scope import (
     Called,
     Ignored,
@@ -234,15 +235,14 @@ class Effects:
         call = self.scope.call(node)
         if call is None or call.name.startswith("["):
             raise self._touches(node, "this runs a function of its own")
-        name = call.name.rpartition("::")[2]
-        known = False
+        name, known = call.name.rpartition("::")[2], False
         of, meaning = self._root(call.target) if call.target is not None else ("", None)
         if call.target is None or isinstance(meaning, Itself):
             known = self._function(call, name)
             known = self._is_matrix(node, name, call) or known
         else:
             self._method(call, name, of, meaning)
-        if (does := acts(call)) is not None:
+        if (does := acts(call, has_mailbox(self.scope))) is not None:
             raise self._touches(node, f'"{text_of(part(node, "function"))}" {does}')
         if known or takes_values(call):
             for argument in call.arguments:
@@ -266,7 +266,7 @@ class Effects:
                 meant = meant_by(known, call.name, len(call.arguments))
         if not meant or not all(map(self._is_calm, meant)):
             raise self._touches(call.node, f'"{name}" may change what the model has')
-        return not any(known_functions.may_change(p) for f in meant for p in f.parameters)
+        return not any(may_change(p) for f in meant for p in f.parameters)
 
     def _is_matrix(self, node: Node, name: str, call: CppCall) -> bool:
         """Whether a matrix is called; a function that somebody has put there may do anything.

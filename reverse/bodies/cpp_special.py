@@ -14,6 +14,7 @@ from rebsync.reverse.bodies import (
     cpp_mailbox,
     cpp_messages,
     cpp_plain_locals,
+    cpp_swap,
     cpp_timers,
 )
 from rebsync.reverse.bodies.building import bare, is_calm, negated
@@ -143,6 +144,8 @@ def _called(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | N
             why = "the mailbox knows nothing of this sleep: to it the body takes no time"
             raise reader.unread(node, why, "call `delay` of the mailbox, in units of time")
         return _statement(reader, node, m.Call(None, "delay", (length,)))
+    if (swaps := cpp_swap.swap(reader, node)) is not None:
+        return swaps
     if name in libraries.failing():
         return _statement(reader, node, m.Call(None, "assertion", (m.BoolLiteral(False),)))
     if name in libraries.named(Kind.CHECK) and name not in reader.scope.functions:

@@ -14,6 +14,7 @@ from rebsync.reverse.bodies import (
     cpp_aliases,
     cpp_control,
     cpp_counts,
+    cpp_either,
     cpp_failing,
     cpp_inline,
     cpp_locals,
@@ -101,7 +102,7 @@ class CppStatements(CppStatementReader):
     def statements(self, nodes: Sequence[Node]) -> Iterator[m.Statement]:
         comments: list[str] = []
         users: Effects | None = None
-        for node in nodes:
+        for index, node in enumerate(nodes):
             if (kind := node.type) == "comment" and self.cpp.has_markers:
                 comments.append(text_of(node))
             if kind == "comment" or node.start_byte in self.cpp.filled:
@@ -111,6 +112,9 @@ class CppStatements(CppStatementReader):
             local = bool(markers) and any(text.startswith("local ") for text in markers)
             comments = []
             self.findings.statements[self.within] += 1
+            if (both := cpp_either.behind(self, node, nodes[index + 1 :])) is not None:
+                yield from both
+                return
             if (users := cpp_users.block_after(self, markers, users)) and not self.scope.open:
                 yield from self._of_user(node, users)
             else:

@@ -47,9 +47,14 @@ def is_matrix(type_: str) -> bool:
     return _MATRIX.match(type_) is not None
 
 
-def acts(call: CppCall) -> str | None:
-    """What a call does to the node by its name: it takes time, or ends it; None for others."""
+def acts(call: CppCall, is_generated: bool) -> str | None:
+    """What a call does to the node by its name: it takes time, or ends it; None for others.
+
+    In generated code, where parameters are constants of the model, to set one acts as well.
+    """
     name = call.name.rpartition("::")[2]
+    if is_generated and not libraries.setting().isdisjoint((name, call.name.removeprefix("::"))):
+        return Effect.SETS.value
     if call.target is None and name in libraries.named(Kind.POLL):
         return Effect.WAITS.value
     return libraries.acting().get(name)

@@ -23,7 +23,7 @@ from rebsync.reverse.generated.ros1_descriptors import priority_of, server_of, t
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_parameters import own_parameters
 from rebsync.reverse.generated.ros1_queues import queue_length
-from rebsync.reverse.generated.ros1_silent import only_logged
+from rebsync.reverse.generated.ros1_silent import counters, only_logged
 from rebsync.reverse.generated.ros2_words import (
     constant_of_model,
     declared_array,
@@ -145,6 +145,7 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     roles.own, roles.reading = own_parameters(code, owner)
     roles.silent = only_logged(code, owner, roles.own, roles.reading)
     roles.own = {n: p for n, p in roles.own.items() if n not in roles.silent}
+    roles.silent |= counters(code, owner) - roles.own.keys() - roles.globals.keys()
     for constructor in (*owner.functions, *functions):
         if constructor.name == owner.name:
             roles.queue_length = queue_length(code, constructor) or roles.queue_length

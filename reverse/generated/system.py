@@ -16,6 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reserved import RESERVED_GLOBALS
 from rebsync.reverse.bodies.cpp_types import class_name, type_of
 from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.findings import Unread
 from rebsync.reverse.generated.env_values import (
     as_type,
     constant,
@@ -30,7 +31,7 @@ from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_names import stored_in, variable_name
 from rebsync.reverse.generated.ros2_words import made_in
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
-from rebsync.reverse.launch.misdirected import list_misdirected, redirected
+from rebsync.reverse.launch.misdirected import is_reached, list_misdirected, redirected
 from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.syntax.cpp_calls import calls_in, string_of
@@ -139,6 +140,7 @@ class GeneratedSystem:
         other = {k: to for k in known if (to := self._redirected(node, k, declared)) is not None}
         told = [k for k in known if k not in other]
         list_misdirected(node, told, self._nodes(), self.classes.findings, type_)
+        self._list_unreached(node, type_)
         bindings = [self._bound(node, f"knownrebecs/{graph_name(k)}", other.get(k)) for k in known]
         constructors = [c for c in declared[0].members if isinstance(c, m.Constructor)]
         own = self._stored(type_)
@@ -158,6 +160,20 @@ class GeneratedSystem:
             tuple(a for a in markers if a is not None),
             node.source.within(node.span),
         )
+
+    def _list_unreached(self, node: LaunchedNode, type_: str) -> None:
+        """Lists subscriptions that no remapping leads to, and that have not their server's name."""
+        for owner in (o for o in self.code.classes.values() if class_name(o.name) == type_):
+            for taken in self.classes.roles[owner.name].taken:
+                key = taken.topic.removeprefix("port/")
+                if key.startswith(graph_name(taken.server)) or not key:
+                    continue
+                if is_reached(node, taken.topic, self._nodes()):
+                    continue
+                cpp, why = taken.function.cpp, f'nothing comes to the topic of "{taken.server}"'
+                unread = Unread(cpp.span(taken.shim), why, "remap the topic of those who send")
+                if all((f.span, f.why) != (unread.span, why) for f in self.classes.findings.all):
+                    self.classes.findings.unreadable(cpp.source, unread, type_)
 
     def _nodes(self) -> tuple[LaunchedNode, ...]:
         return self.launch.nodes if self.launch is not None else ()

@@ -60,3 +60,9 @@ def list_misdirected(
             if private.startswith("~") and to in names and to != told.value:
                 why = f'this goes to "{to}", and the node is told that "{key}" is "{told.value}"'
                 findings.unreadable(remap.source, Unread(remap.span, why, _HINT), within)
+
+
+def is_reached(node: LaunchedNode, topic: str, nodes: Iterable[LaunchedNode]) -> bool:
+    """Whether a remapping of any node leads to a topic below a node."""
+    wanted = (f"{node.name}/{topic}", f"control_bridge/{node.name}/{topic}")
+    return any(str(r.target).lstrip("/") in wanted for each in nodes for r in each.remaps)

@@ -254,6 +254,14 @@ def acting() -> Mapping[str, str]:
 
 
 @derived
+def setting() -> frozenset[str]:
+    """What sets parameters, or takes them away: functions by full names, methods by their own."""
+    functions = ((n, r) for lib in _libraries() for n, r in lib.functions.items())
+    wanted = frozenset({Access.SET, Access.DELETE})
+    return frozenset(n for n, r in (*functions, *_methods()) if r.access in wanted)
+
+
+@derived
 def failing() -> frozenset[str]:
     """Those of them that have no condition, and so never go on."""
     return frozenset(n for n, r in _functions() if r.kind is Kind.CHECK and not r.arguments)

@@ -338,6 +338,7 @@ class ModelBodies:
             posts=posts,
             fillings=fillings,
             silent=silent_in(self.code, self.line(owner), [*map(self.roles, self.line(owner))]),
+            code=self.code,
         )
 
 

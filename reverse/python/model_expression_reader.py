@@ -14,7 +14,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.model_cuts import Cuts
 from rebsync.reverse.python.model_kinds import kind_of
-from rebsync.reverse.python.model_names import ModelNames
+from rebsync.reverse.python.model_names import Closure, ModelNames
 from rebsync.reverse.python.py_tree import Py
 
 
@@ -34,7 +34,7 @@ class ModelExpressionReader(ABC):
     kept: dict[str, Node] = with_default(default_factory=dict)
     types: dict[str, m.Type] = with_default(default_factory=dict)
     bound: dict[str, m.Expression] = with_default(default_factory=dict)
-    closures: dict[str, Node] = with_default(default_factory=dict)
+    closures: dict[str, Closure] = with_default(default_factory=dict)
     own: str = "self"
     cuts: Cuts = with_default(default_factory=Cuts)
 

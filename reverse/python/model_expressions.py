@@ -12,6 +12,7 @@ from rebsync.names import original
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import binary, located
 from rebsync.reverse.python import model_builtins as builtins
+from rebsync.reverse.python import model_closures as closures
 from rebsync.reverse.python import model_formats as formats
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
@@ -245,8 +246,8 @@ class Expressions(ModelExpressionReader):
 
     def _call(self, node: Node) -> m.Expression:
         called, arguments = call_parts(node) or ("", [])
-        if called in self.closures and not arguments:
-            return idioms.grouped(node, self.read(self.closures[called]))
+        if called in self.closures:
+            return closures.value_of_call(self, node, called, arguments)
         if called in formats.FORMATS and len(arguments) == 1:
             return self._converted(called, arguments[0])
         if called in _CASTS and len(arguments) == 1:

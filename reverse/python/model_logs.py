@@ -48,11 +48,13 @@ class Looks:
         return all(map(self.is_pure, node.named_children))
 
     def _is_look(self, call: Node) -> bool:
-        """Whether what is called only looks at its arguments, or at the clock."""
+        """Whether what is called only looks at its arguments, the clock, or the node's name."""
         function = field(call, "function")
         called = text_of(function)
-        if called in libraries.clocks():
+        if called in libraries.clocks() or called in libraries.own_names():
             return called.partition(".")[0] in self.trusted
+        if own_method(call) in libraries.own_name_methods():
+            return self._is_node and own_method(call) not in self.functions
         if function.type == "identifier":
             return called in self.makers or (called in LOOKS and called in self.trusted)
         if function.type != "attribute":

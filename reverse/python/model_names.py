@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field as with_default
 
+from tree_sitter import Node
+
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.model_posts import Post
 from rebsync.reverse.python.model_roles import PySends
 from rebsync.reverse.python.model_silent import NOTHING, Silent
 from rebsync.reverse.python.named_constants import NamedConstants
-from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.python.py_index import PyCode, Scope
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +25,7 @@ class ModelNames:
     those of functions, by their names in the model; `properties` functions that are read.
     `imported` are what names of the module are of, `helpers` functions without an object,
     `fillings` what publishers send, `posts` what is posted, by the ids of the calls. `silent` is
-    what only people are told.
+    what only people are told, `code` all that the package has of Python.
     """
 
     variables: Mapping[str, str]
@@ -39,6 +41,7 @@ class ModelNames:
     fillings: Mapping[str, Filling] = with_default(default_factory=dict)
     posts: Mapping[int, Post] = with_default(default_factory=dict)
     silent: Silent = NOTHING
+    code: PyCode = with_default(default_factory=PyCode)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,3 +65,11 @@ class Filling:
     sends: PySends
     fields: tuple[tuple[str, str], ...]
     others: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Closure:
+    """A function of a body: its parameters with their types, and its block or its only value."""
+
+    parameters: tuple[tuple[str, m.Type | None], ...]
+    body: Node

@@ -10,11 +10,13 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
+from dataclasses import replace
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1, PUBLISHER_METHOD
+from rebsync.reverse.python.model_locks import may_lock, waiting_methods
 from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
 from rebsync.reverse.python.model_roles import PyRoles, is_of_node
 from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
@@ -39,7 +41,7 @@ class Silent:
     """The silent members of a class: `texts` are told to people only, `locks` whether again.
 
     `ticking` are timers that only log, as `timers` tells them. `locals` are the messages that a
-    function makes for people, by the function's node.
+    function makes for people, by the function's node; `waiting` are methods that may lock.
     """
 
     texts: frozenset[str] = frozenset()
@@ -49,6 +51,7 @@ class Silent:
     locals: dict[int, frozenset[str]] = with_default(default_factory=dict)
     timers: Timers = Timers()
     shown: dict[str, Shown] = with_default(default_factory=dict)
+    waiting: frozenset[str] = frozenset()
 
     @property
     def looks(self) -> Looks:
@@ -124,7 +127,7 @@ class Silent:
         if name not in self.locks or items[0] == name:
             return None
         body = field(node, "body")
-        return body if self.locks[name] or not _may_lock(body) else None
+        return body if self.locks[name] or not may_lock(body, self.waiting) else None
 
 
 NOTHING = Silent()
@@ -148,14 +151,16 @@ def silent_in(
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
     timers = Timers.of(code, {n: functions[n] for n in roles[0].ticking}, looks)
+    locks = {n: _LOCKS[lock] for n, v in members.items() if (lock := _lock(owner.module, v))}
     found = Silent(
         frozenset(n for n, v in members.items() if v.type in _VALUES or _own_parameter(v)),
         frozenset(n for n, v in publishers.items() if _is_publisher(v, makers)),
         frozenset(n for n, v in members.items() if timers.is_idle(v)),
-        {n: _LOCKS[lock] for n, v in members.items() if (lock := _lock(owner.module, v))},
+        locks,
         {f.node.id: frozenset(_messages(f, makers)) for f in functions.values()},
         timers,
         {n: s for n, v in publishers.items() if (s := shown_by(code, owner.module, v, variables))},
+        waiting_methods(code) if locks else frozenset(),
     )
     while members or any(found.locals.values()):
         wrong = {n for module in modules for n in _odd(found, module.node)}
@@ -172,7 +177,15 @@ def _without(silent: Silent, wrong: set[str]) -> Silent:
         names - wrong for names in (silent.texts, silent.publishers, silent.ticking)
     )
     shown = {n: s for n, s in silent.shown.items() if n not in wrong}
-    return Silent(texts, publishers, ticking, locks, locals_, silent.timers, shown)
+    return replace(
+        silent,
+        texts=texts,
+        publishers=publishers,
+        ticking=ticking,
+        locks=locks,
+        locals=locals_,
+        shown=shown,
+    )
 
 
 def _made(functions: Mapping[str, Scope]) -> Iterator[tuple[str, Node]]:
@@ -301,18 +314,6 @@ def _sets_up(statement: Node, name: str) -> bool:
     is_first = function is not None and text_of(field(function, "name")) in _SET_UP
     is_made = inner.type == "assignment" and text_of(field(inner, "left")) == f"self.{name}"
     return is_first and is_made
-
-
-def _may_lock(node: Node) -> bool:
-    """Whether something waits for a lock, or calls what may."""
-    if node.type == "with_statement":
-        return True
-    if node.type == "call":
-        called = text_of(field(node, "function"))
-        is_own = called.startswith("self.") and called.count(".") == 1
-        if is_own and not called.startswith("self.send_"):
-            return True
-    return any(map(_may_lock, node.named_children))
 
 
 def _enclosing(node: Node) -> Node | None:

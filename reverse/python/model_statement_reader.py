@@ -13,6 +13,7 @@ from rebsync.reserved import PYTHON_RESERVED, uncarry_local
 from rebsync.reverse.analysis.evaluation_order import note_store
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.python.model_expressions import Expressions
+from rebsync.reverse.python.model_names import Closure
 from rebsync.reverse.python.py_tree import named
 
 
@@ -32,7 +33,7 @@ class ModelStatementReader(ABC):
     hoisted: dict[str, m.Type] = with_default(default_factory=dict)
     cases: list[str] = with_default(default_factory=list)
     implied: set[str] = with_default(default_factory=set)
-    inner: dict[str, Node] = with_default(default_factory=dict)
+    inner: dict[str, Closure] = with_default(default_factory=dict)
 
     def in_order(self, store: m.Expression) -> None:
         """Lists an assignment if its value has to be known after what it stores into."""
@@ -51,12 +52,13 @@ class ModelStatementReader(ABC):
 
     def branch(self, node: Node) -> m.Block:
         """A block. What it names first nobody knows behind it."""
-        outer = self.implied
-        self.implied = set()
+        outer, closures = self.implied, self.expressions.closures
+        inner, self.inner = self.inner, dict(self.inner)
+        self.implied, self.expressions.closures = set(), dict(closures)
         found = self.block(named(node), node)
         for name in self.implied:
             self.expressions.locals.pop(name, None)
-        self.implied = outer
+        self.implied, self.expressions.closures, self.inner = outer, closures, inner
         return found
 
     @abstractmethod

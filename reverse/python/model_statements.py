@@ -12,7 +12,9 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, cell
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.python import model_aliases as aliases
 from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python import model_inner as inner_functions
 from rebsync.reverse.python import model_loops as loops
 from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_users as users
@@ -62,6 +64,9 @@ class Statements(ModelStatementReader):
                     found.append(m.Continue(span=self.expressions.py.span(node)))
                     waiting.pop(0)
                     continue
+                if (read_behind := aliases.behind(self, node, list(waiting))) is not None:
+                    self.findings.statements[self.within] += 1
+                    return iter([*found, *read_behind])
                 sent = filled(self.expressions, node, waiting)
                 if sent is None:
                     found += stored.declared_before(self, node, waiting)
@@ -111,7 +116,7 @@ class Statements(ModelStatementReader):
             case "try_statement":
                 return stored.tried(self, node)
             case "function_definition":
-                return stored.inner(self, node)
+                return inner_functions.declare(self, node)
             case "expression_statement":
                 return self._effect(node)
             case "if_statement":
@@ -158,7 +163,7 @@ class Statements(ModelStatementReader):
             return [m.ExpressionStatement(changed, span=span)]
         called, arguments = call_parts(inner) or ("", [])
         if called in self.inner:
-            return stored.done_inside(self, inner, called, arguments)
+            return inner_functions.inline_call(self, inner, called, arguments)
         if called == "self._drive.move" and len(arguments) == 2:
             cells = tuple(map(self._cell, ("X", "Y"), arguments))
             return [m.Empty((m.Annotation("Move", cells, span),), span)]
@@ -182,6 +187,8 @@ class Statements(ModelStatementReader):
             return [self._declared(name, type_, value, node)]
         if name in self.hoisted:
             return [self._declared(name, self.hoisted.pop(name), value, node)]
+        if inner_functions.named_lambda(self, left, value):
+            return []
         if value.type == "assignment":
             return stored.chained(self, node)
         if left.type in ("pattern_list", "tuple_pattern"):

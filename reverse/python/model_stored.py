@@ -13,14 +13,13 @@ from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_inner import leaves
 from rebsync.reverse.python.model_types import call_parts, string_value
-from rebsync.reverse.python.py_tree import calls_in, field, named, nodes_in, text_of
+from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 
-_LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
-_LOOPS = frozenset({"for_statement", "while_statement"})
 _FUNCTIONS = frozenset({"function_definition", "lambda", "class_definition"})
 _WHOLE = "say what is stored here element by element"
 
@@ -264,54 +263,10 @@ def tried(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     if [c.type for c in clauses] != ["finally_clause"]:
         why = "what is caught here ends the body in the model"
         raise reader.expressions.unread(node, why)
-    if any(_leaves(part) for part in (body, clauses[0])):
+    if any(leaves(part) for part in (body, clauses[0])):
         raise reader.expressions.unread(node, "nothing is to leave a block that has a finally")
     last = next(c for c in named(clauses[0]) if c.type == "block")
     return [
         *reader.block(named(body), body).statements,
         *reader.block(named(last), last).statements,
     ]
-
-
-def _leaves(node: Node, in_loop: bool = False) -> bool:
-    for child in named(node):
-        if child.type in _LEAVING and not (in_loop and child.type != "return_statement"):
-            return True
-        if child.type not in _FUNCTIONS and _leaves(child, in_loop or child.type in _LOOPS):
-            return True
-    return False
-
-
-def inner(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
-    """A function in a body, which stands for what it does where it is called."""
-    name, body = text_of(field(node, "name")), field(node, "body")
-    calls = {text_of(field(c, "function")) for c in calls_in(body)}
-    is_plain = not named(field(node, "parameters")) and name not in calls
-    if is_plain and (value := _only_value(body)) is not None:
-        reader.expressions.closures[name] = value
-        return []
-    if not is_plain or _leaves(body) or idioms.stored_in(body):
-        why = "only a function that is given nothing and gives nothing stands for what it does"
-        raise reader.expressions.unread(node, why)
-    reader.inner[name] = body
-    return []
-
-
-def _only_value(body: Node) -> Node | None:
-    """What a function gives that does nothing else; None for another function."""
-    match [s for s in named(body) if s.type != "comment"]:
-        case [only] if only.type == "return_statement":
-            values = named(only)
-            return values[0] if len(values) == 1 and builtins.is_calm(values[0]) else None
-        case _:
-            return None
-
-
-def done_inside(
-    reader: ModelStatementReader, node: Node, name: str, arguments: list[Node]
-) -> list[m.Statement]:
-    """What a function in the body does, where it is called."""
-    if arguments:
-        raise reader.expressions.unread(node, f'"{name}" is given nothing')
-    body = reader.inner[name]
-    return list(reader.block(named(body), body).statements)

@@ -29,7 +29,7 @@ FILES = (
     *("python.toml", "rclcpp.toml", "cpp.toml", "mixed.toml"),
     *("harmless.toml", "library.toml", "forms.toml", "posts.toml", "shown.toml"),
     *("messages.toml", "natural.toml", "natural_python.toml"),
-    *("natural_rclpy.toml", "natural_sensors.toml", "joined.toml"),
+    *("natural_rclpy.toml", "natural_sensors.toml", "joined.toml", "months.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 

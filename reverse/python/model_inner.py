@@ -1,0 +1,143 @@
+"""Functions within bodies of Python: what they do stands where they are called (inlining).
+
+Such a function is bound once, and known to the end of its block. Its parameters are
+locals, or stand for the arguments where it only gives a value.
+"""
+
+from __future__ import annotations
+
+from itertools import count
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.python import model_builtins as builtins
+from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_closures import arguments_of
+from rebsync.reverse.python.model_names import Closure
+from rebsync.reverse.python.model_types import type_of
+from rebsync.reverse.python.py_tree import calls_in, field, named, nodes_in, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
+
+_LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
+_LOOPS = frozenset({"for_statement", "while_statement"})
+_FUNCTIONS = frozenset({"function_definition", "lambda", "class_definition"})
+_STORES = frozenset({"assignment", "augmented_assignment", "named_expression"})
+
+
+def declare(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
+    """A function in a body, which stands for what it does where it is called."""
+    name, body = text_of(field(node, "name")), field(node, "body")
+    parameters = _parameters(node)
+    calls = {text_of(field(c, "function")) for c in calls_in(body)}
+    if parameters is None or name in calls or not _is_bound_once(node, name):
+        why = "only a function that is bound once, and has no defaults, stands for what it does"
+        raise reader.expressions.unread(node, why)
+    if (value := _only_value(body)) is not None:
+        reader.expressions.closures[name] = Closure(parameters, value)
+        return []
+    if leaves(body) or idioms.stored_in(body):
+        why = "only a function that gives nothing, and stores nothing, stands for what it does"
+        raise reader.expressions.unread(node, why)
+    reader.inner[name] = Closure(parameters, body)
+    return []
+
+
+def named_lambda(reader: ModelStatementReader, left: Node, value: Node) -> bool:
+    """Whether `f = lambda x: e` was taken for a function that gives that."""
+    if value.type != "lambda" or left.type != "identifier":
+        return False
+    name, parameters = text_of(left), _parameters(value)
+    body = field(value, "body")
+    if parameters is None or not builtins.is_calm(body) or not _is_bound_once(value, name):
+        return False
+    reader.expressions.closures[name] = Closure(parameters, body)
+    return True
+
+
+def _parameters(function: Node) -> tuple[tuple[str, m.Type | None], ...] | None:
+    """The parameters with the types that they are said to have; None if some have more to them."""
+    listed = function.child_by_field_name("parameters")
+    found = []
+    for each in named(listed) if listed is not None else ():
+        if each.type == "typed_parameter" and named(each)[0].type == "identifier":
+            found.append((text_of(named(each)[0]), type_of(field(each, "type"))))
+        elif each.type == "identifier":
+            found.append((text_of(each), None))
+        else:
+            return None
+    return tuple(found)
+
+
+def _is_bound_once(node: Node, name: str) -> bool:
+    """Whether nothing else in the method around gives a name another meaning."""
+    around = node.parent
+    while around is not None and around.type != "function_definition":
+        around = around.parent
+    found = 0
+    for each in nodes_in(around) if around is not None else ():
+        if each.type == "identifier" and text_of(each) == name and each.parent is not None:
+            above = each.parent
+            called = above.type == "call" and field(above, "function") == each
+            found += not called
+    return found == 1
+
+
+def inline_call(
+    reader: ModelStatementReader, node: Node, called: str, arguments: list[Node]
+) -> list[m.Statement]:
+    """What a function of the body does, where it is called: its parameters are locals."""
+    closure, own = reader.inner[called], reader.expressions
+    passed = arguments_of(own, node, closure, arguments)
+    locals_ = [_local(reader, p, a) for p, a in zip(closure.parameters, passed, strict=True)]
+    outer = dict(own.locals)
+    for (name, _), local in zip(closure.parameters, locals_, strict=True):
+        own.locals[name] = local.declaration.declarators[0].name
+    body = reader.block(named(closure.body), closure.body)
+    own.locals.clear()
+    own.locals.update(outer)
+    if not locals_:
+        return list(body.statements)
+    return [m.Block((*locals_, *body.statements), (), own.py.span(node))]
+
+
+def _local(
+    reader: ModelStatementReader, parameter: tuple[str, m.Type | None], argument: Node
+) -> m.Local:
+    """The local that a parameter is."""
+    name, said = parameter
+    own = reader.expressions
+    read = own.read(argument)
+    type_ = said if said is not None else own.kind(read)
+    if type_ is None or type_.dimensions:
+        raise own.unread(argument, f'say the type of "{name}"')
+    taken = {*own.locals.values(), *own.names.types, *own.types}
+    free = next(n for i in count(1) if (n := name if i == 1 else f"{name}_{i}") not in taken)
+    plain = reader.local(free)
+    own.types[plain] = type_
+    span = own.py.span(argument)
+    declaration = m.Declaration(type_, (m.Declarator(plain, read, span),), span=span)
+    return m.Local(declaration, span=span)
+
+
+def _only_value(body: Node) -> Node | None:
+    """What a function gives that does nothing else; None for another function."""
+    match [s for s in named(body) if s.type != "comment"]:
+        case [only] if only.type == "return_statement":
+            values = named(only)
+            return values[0] if len(values) == 1 and builtins.is_calm(values[0]) else None
+        case _:
+            return None
+
+
+def leaves(node: Node, in_loop: bool = False) -> bool:
+    """Whether something in a block ends it, or the function."""
+    for child in named(node):
+        if child.type in _LEAVING and not (in_loop and child.type != "return_statement"):
+            return True
+        if child.type not in _FUNCTIONS and leaves(child, in_loop or child.type in _LOOPS):
+            return True
+    return False
