@@ -159,6 +159,12 @@ def profiles() -> Mapping[str, int]:
 
 
 @derived
+def policies() -> Mapping[str, tuple[str, str]]:
+    """Reliability and durability of those that have other ones than the usual."""
+    return {n: p for library in _libraries() for n, p in library.table.policies.items()}
+
+
+@derived
 def spans() -> Mapping[str, float]:
     """Functions and classes that make a span of time, full, with the seconds of their unit."""
     return {n: s for library in _libraries() for n, s in library.table.spans.items()}

@@ -207,12 +207,13 @@ class Table:
 
     `qualities` are classes of qualities of service with the depth they have by themselves (None:
     the first argument says it), `profiles` names of such qualities, by the last name or the last
-    two. `spans` are functions and classes that make a span of time of a number, with the seconds of
-    its unit.
+    two; `policies` are their reliability and durability where these are not the usual ones. `spans`
+    are functions and classes that make a span of time of a number, with the seconds of its unit.
     """
 
     qualities: Mapping[str, int | None] = field(default_factory=dict)
     profiles: Mapping[str, int] = field(default_factory=dict)
+    policies: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     spans: Mapping[str, float] = field(default_factory=dict)
 
 

@@ -154,6 +154,24 @@ _PROFILES = {
     "QoSPresetProfiles.ACTION_STATUS_DEFAULT": 1,
     "QoSPresetProfiles.BEST_AVAILABLE": 10,
 }
+# Reliability and durability of those that are not reliable and volatile.
+_POLICIES = {
+    **dict.fromkeys(
+        ("qos_profile_sensor_data", "QoSPresetProfiles.SENSOR_DATA"), ("best_effort", "volatile")
+    ),
+    **dict.fromkeys(
+        ("qos_profile_action_status_default", "QoSPresetProfiles.ACTION_STATUS_DEFAULT"),
+        ("reliable", "transient_local"),
+    ),
+    **dict.fromkeys(
+        ("qos_profile_system_default", "QoSPresetProfiles.SYSTEM_DEFAULT"),
+        ("system_default", "system_default"),
+    ),
+    **dict.fromkeys(
+        ("qos_profile_best_available", "QoSPresetProfiles.BEST_AVAILABLE"),
+        ("best_available", "best_available"),
+    ),
+}
 
 LIBRARIES = (
     Library(
@@ -164,7 +182,7 @@ LIBRARIES = (
         nodes=frozenset(_NODES),
         managed=frozenset(n for n in _NODES if n.startswith("rclpy.lifecycle.")),
         marks=("rclpy", "message_filters"),
-        table=Table(profiles=_PROFILES),
+        table=Table(profiles=_PROFILES, policies=_POLICIES),
         logs=("get_logger",),
         strict=True,
     ),
