@@ -242,7 +242,8 @@ class Library:
     in other libraries. `versions` are macros that compare the library's version with their
     arguments; `included` is the folder that its headers are in where that has another name. What
     is `generated` is called by code that rebsync makes, and its names mean
-    something there only.
+    something there only. `actions` make the ends of actions, by their full names: what these do
+    has no place in a model, so that they are no functions.
     """
 
     name: str
@@ -269,3 +270,4 @@ class Library:
     included: str = ""
     strict: bool = False
     generated: bool = False
+    actions: Mapping[str, Routine] = field(default_factory=dict)

@@ -58,6 +58,11 @@ def graph_with(values: PyValues) -> Graph:
     return Graph(tuple(f for asked in asked_in(values) for f in facts.of(asked)))
 
 
+def facts_of(values: PyValues, asked: PyRosCall) -> Iterator[Fact]:
+    """The facts of one call."""
+    return _Facts(values).of(asked)
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class _Facts:
     """Makes facts of calls."""

@@ -171,6 +171,10 @@ LIBRARIES = (
         Language.CPP,
         _FUNCTIONS,
         _METHODS,
+        actions={
+            "rclcpp_action::create_server": _asks(Kind.SERVICE, "", "name"),
+            "rclcpp_action::create_client": _asks(Kind.CLIENT, "", "name"),
+        },
         nodes=frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"}),
         managed=frozenset({"rclcpp_lifecycle::LifecycleNode"}),
         plain=frozenset({"ParameterValue"}),

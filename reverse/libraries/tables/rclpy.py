@@ -18,6 +18,8 @@ _KEYWORDS = (
     *(("frequency", "hz"), ("alternative_value", "default"), ("topic_name", "name")),
 )
 
+_ACTION_KEYWORDS = (("action_type", "type"), ("action_name", "name"))
+
 
 def _asks(kind: Kind, *arguments: str, access: Access | None = None, least: int = 9) -> Routine:
     return Routine(kind, arguments, _KEYWORDS, access, flat=True, least=least)
@@ -179,6 +181,14 @@ LIBRARIES = (
         Language.PYTHON,
         _FUNCTIONS,
         _METHODS,
+        actions={
+            "rclpy.action.ActionServer": Routine(
+                Kind.SERVICE, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
+            ),
+            "rclpy.action.ActionClient": Routine(
+                Kind.CLIENT, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
+            ),
+        },
         nodes=frozenset(_NODES),
         managed=frozenset(n for n in _NODES if n.startswith("rclpy.lifecycle.")),
         marks=("rclpy", "message_filters"),
