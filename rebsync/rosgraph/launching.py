@@ -40,19 +40,14 @@ class LaunchFiles:
                 if is_launch(path) and is_known and is_whole:
                     yield package, source
 
-    def named(self, path: str) -> tuple[PackageCode, Source] | None:
-        """The launch file of a path on the disk, or `package/file` by its name."""
+    def named(self, path: str) -> tuple[PackageCode, str] | None:
+        """The package and the path in it of a launch file: on the disk, or `package/file`."""
+        every = [(package, inside) for package in self.packages for inside in package.files]
         real = os.path.realpath(path)
-        for package in self.packages:
-            for source in package.files.values():
-                if os.path.realpath(source.path) == real:
-                    return package, source
-        ends = [
-            (package, source)
-            for package in self.packages
-            for inside, source in package.files.items()
-            if f"/{package.name}/{inside}".endswith(f"/{path}")
-        ]
+        for package, inside in every:
+            if os.path.realpath(package.files[inside].path) == real:
+                return package, inside
+        ends = [(p, i) for p, i in every if f"/{p.name}/{i}".endswith(f"/{path}")]
         return ends[0] if len(ends) == 1 else None
 
     def read(self, package: PackageCode, source: Source) -> Launch:

@@ -94,8 +94,8 @@ def picture_of(graph: ComputationGraph) -> Picture:
     names: dict[str, Box] = {}
     wires: list[Wire] = []
     for box, node in nodes:
-        for number, end in enumerate(node.ends):
-            other = _box_of(box, number, end)
+        for end in node.ends:
+            other = _box_of(box, end)
             before = names.setdefault(other.key, other)
             types = tuple(dict.fromkeys((*before.types, *other.types)))
             names[other.key] = replace(before, types=types)
@@ -127,13 +127,13 @@ def _node(key: str, node: RosNode) -> Box:
     )
 
 
-def _box_of(node: Box, number: int, end: NodeEnd) -> Box:
+def _box_of(node: Box, end: NodeEnd) -> Box:
     kind = _KINDS[end.channel]
     if end.name is not None:
         namespace = end.name.rpartition("/")[0] or "/"
         return Box(f"{kind.value} {end.name}", kind, end.name, "", namespace, types=end.types)
     name = UNKNOWN if end.pattern == "*" else f"{UNKNOWN} {end.pattern}"
-    key = f"unknown {node.key} {end.end.role.value} {end.pattern} {number}"
+    key = f"unknown {node.key} {end.end.role.value} {end.pattern} {' '.join(end.types)}"
     return Box(
         key, Kind.UNKNOWN, name, node.package, types=end.types, place=end.end.place, note=end.why
     )

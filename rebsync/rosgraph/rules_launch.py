@@ -125,6 +125,5 @@ def _is_flat(code: NodeCode | None) -> bool:
 
 def _has(known: set[str], name: str) -> bool:
     """Whether a parameter is one of these, or a part of one."""
-    return "" in known or any(
-        name == k or name.startswith(f"{k}/") or k.startswith(f"{name}/") for k in known
-    )
+    parts = (name == k or name.startswith(f"{k}/") or k.startswith(f"{name}/") for k in known)
+    return "" in known or any(parts)
