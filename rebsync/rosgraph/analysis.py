@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import chain, combinations
+from itertools import chain
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
 from rebsync.reverse.launch.launched import Launch
 from rebsync.rosgraph.ends import PackageCode
-from rebsync.rosgraph.findings import GraphFinding, Known, interfaces_of, of_rules
+from rebsync.rosgraph.findings import GraphFinding, Known, interfaces_of, of_rules, program_of
 from rebsync.rosgraph.graph import (
     ComputationGraph,
     RosNode,
     graph_of_code,
     graph_of_launch,
+    loose_ends,
 )
 from rebsync.rosgraph.launching import LaunchFiles
 from rebsync.rosgraph.rules_absence import nobody, slips
@@ -44,7 +45,13 @@ def analysed(packages: Sequence[PackageCode], title: str, launch: str | None = N
     graph = graph_of_code(packages, title)
     read = [files.read(package, source) for package, source in files.all()]
     systems = [graph_of_launch(packages, each, "").nodes for each in read]
-    known = Known(graph, interfaces_of(packages), _remapped(read), _pairs(systems))
+    known = Known(
+        graph,
+        interfaces_of(packages),
+        _remapped(read),
+        tuple(map(_started, systems)),
+        loose_ends(packages),
+    )
     return Analysed(graph, _findings(known, systems))
 
 
@@ -56,7 +63,7 @@ def _of_launch_file(packages: Sequence[PackageCode], files: LaunchFiles, launch:
     package, inside = found
     source = package.files[inside]
     graph = graph_of_launch(packages, files.read(package, source), source.path)
-    known = Known(graph, interfaces_of(packages), frozenset(), frozenset())
+    known = Known(graph, interfaces_of(packages), frozenset(), (), loose_ends(packages))
     return Analysed(graph, _findings(known, [graph.nodes]), f"{package.name}/{inside}")
 
 
@@ -72,13 +79,9 @@ def _remapped(read: Sequence[Launch]) -> frozenset[str]:
     return frozenset(n.rpartition("/")[2] for n in names if isinstance(n, str))
 
 
-def _pairs(systems: Sequence[Sequence[RosNode]]) -> frozenset[frozenset[str]]:
-    """The packages that have nodes in one system."""
-    found = set()
-    for nodes in systems:
-        packages = sorted({n.package for n in nodes if n.code is not None})
-        found |= {frozenset(pair) for pair in combinations(packages, 2)}
-    return frozenset(found)
+def _started(nodes: Sequence[RosNode]) -> frozenset[tuple[str, str]]:
+    """The nodes of a launch file that it starts whatever its arguments are."""
+    return frozenset(program_of(n) for n in nodes if n.code is not None and not n.when)
 
 
 def _of_launch(systems: Sequence[Sequence[RosNode]]) -> Iterator[GraphFinding]:

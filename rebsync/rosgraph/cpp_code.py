@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 
@@ -180,7 +181,7 @@ def _groups(together: Sequence[Start]) -> Iterator[list[Start]]:
     for start in together:
         if start in nodes:
             continue
-        near = groups if len(groups) == 1 else [g for g in groups if _mentions(g[0], start)]
+        near = groups if len(groups) == 1 else [g for g in groups if _makes(g[0], start)]
         if len(near) == 1:
             near[0].append(start)
         else:
@@ -190,8 +191,11 @@ def _groups(together: Sequence[Start]) -> Iterator[list[Start]]:
         yield apart
 
 
-def _mentions(node: Start, part: Start) -> bool:
-    """Whether the code of a node names the class of an object."""
-    name = part.unit.owner.name.encode() if part.unit.owner is not None else b""
+def _makes(node: Start, part: Start) -> bool:
+    """Whether the code of a node makes objects of the class of another."""
+    if part.unit.owner is None:
+        return False
+    name = re.escape(part.unit.owner.name.encode())
+    made = re.compile(rb"(?:make_(?:shared|unique)\s*<[^;(]*|new\s+[\w:]*)\b" + name + rb"\b")
     files = [f.cpp for f in node.unit.functions] + [c.cpp for c in node.unit.lineage]
-    return bool(name) and any(name in cpp.words for cpp in files)
+    return any(made.search(cpp.data) is not None for cpp in files)

@@ -12,7 +12,7 @@ from rebsync.diagnostics import Diagnostic, Findings, Severity
 from rebsync.records import dataclass
 from rebsync.reverse.graph import Place
 from rebsync.rosgraph.ends import PackageCode
-from rebsync.rosgraph.graph import ComputationGraph
+from rebsync.rosgraph.graph import ComputationGraph, NodeEnd, RosNode
 from rebsync.source import Source
 
 
@@ -32,19 +32,27 @@ class GraphFinding:
 class Known:
     """What the rules look at: the graph, its packages, and names that launch files remap.
 
-    `together` says whether two packages have nodes that one launch file starts.
+    `systems` are the nodes that each launch file starts for certain, by `program_of`; `loose` the
+    ends of code that any node may run.
     """
 
     graph: ComputationGraph
     interfaces: frozenset[str]
     remapped: frozenset[str]
-    pairs: frozenset[frozenset[str]]
+    systems: tuple[frozenset[tuple[str, str]], ...]
+    loose: tuple[NodeEnd, ...]
 
-    def together(self, one: str, other: str) -> bool:
-        """Whether nodes of two packages are known to run in one system."""
-        if self.graph.launch is not None or one == other:
-            return True
-        return frozenset({one, other}) in self.pairs
+    def together(self, one: RosNode, other: RosNode) -> bool:
+        """Whether two nodes are known to run in one system."""
+        if self.graph.launch is not None:
+            return not one.when and not other.when
+        both = {program_of(one), program_of(other)}
+        return one is other or any(both <= system for system in self.systems)
+
+
+def program_of(node: RosNode) -> tuple[str, str]:
+    """By what a node is known again in another graph of the same packages."""
+    return node.package, node.label
 
 
 Rule = Callable[[Known], Iterable[GraphFinding]]

@@ -105,7 +105,22 @@ def graph_of_launch(
     for package in packages:
         by_package.setdefault(package.name, []).extend(package.nodes)
     nodes = [n for each in launch.nodes for n in started(each, launch, by_package)]
-    return ComputationGraph(title, tuple(nodes), launch)
+    return ComputationGraph(title, tuple(_alternatives(nodes)), launch)
+
+
+def _alternatives(nodes: Iterable[RosNode]) -> Iterator[RosNode]:
+    """The nodes, those once that are the same on different conditions."""
+    found: dict[tuple[object, ...], RosNode] = {}
+    for number, node in enumerate(nodes):
+        same: tuple[object, ...] = node.name, node.package, node.label, node.ends
+        key = same if node.when else (number,)
+        before = found.get(key)
+        if before is None:
+            found[key] = node
+        else:
+            both = " and ".join(before.when), " and ".join(node.when)
+            found[key] = replace(before, when=(" or ".join(dict.fromkeys(both)),))
+    yield from found.values()
 
 
 # --- nodes --------------------------------------------------------------------------------------
@@ -125,6 +140,12 @@ def _node_of_code(code: NodeCode) -> RosNode:
         naming=naming,
         place=code.place,
     )
+
+
+def loose_ends(packages: Sequence[PackageCode]) -> tuple[NodeEnd, ...]:
+    """The ends of code of which it is not known what runs it, as plugins are."""
+    loose = (c for package in packages for c in package.nodes if not c.is_node)
+    return tuple(end for code in loose for end in _node_of_code(code).ends)
 
 
 def own_name(code: NodeCode) -> str | None:

@@ -34,7 +34,7 @@ def _inside(path: str) -> str:
     """The path from the top of the repository."""
     top = _told("rev-parse", "--show-toplevel")
     inside = os.path.relpath(os.path.realpath(path), os.path.realpath(top)) if top else ".."
-    if inside.split(os.sep)[0] == os.pardir:
+    if inside == os.pardir or inside.startswith(f"{os.pardir}{os.sep}"):
         message = "this is not in the repository of the current directory"
         raise RebsyncError.of(path, "RS815", message)
     return inside.replace(os.sep, "/")

@@ -53,7 +53,9 @@ def lonely(known: Known) -> Iterator[Lonely]:
         if _SYSTEM.match(name) or name.rpartition("/")[2] in known.remapped:
             continue
         missing = OTHER_END[role]
-        if not any(_may_be(end, missing, name, held) for end in every):
+        if any(_may_be(end, missing, name, held) for end in every):
+            continue
+        if not any(_may_become(end, missing, name, held) for end in known.loose):
             yield Lonely(channel, name, role, tuple(held))
 
 
@@ -63,6 +65,13 @@ def _may_be(end: NodeEnd, role: Role, name: str, held: Sequence[Held]) -> bool:
         return False
     types = {t for _, other in held for t in other.types}
     return not end.types or not types or bool(types & set(end.types))
+
+
+def _may_become(end: NodeEnd, role: Role, name: str, held: Sequence[Held]) -> bool:
+    """Whether an end of code that some node runs, in its namespace, may be the missing one."""
+    if end.name is not None and end.end.role is role:
+        return end.name.rpartition("/")[2] == name.rpartition("/")[2]
+    return _may_be(end, role, name, held)
 
 
 def nobody(known: Known) -> Iterator[GraphFinding]:

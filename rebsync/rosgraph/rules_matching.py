@@ -37,10 +37,10 @@ def _of_types(
             continue
         node, end = odd[0]
         other, usual = next(
-            (h for h in by_type[most] if known.together(h[0].package, node.package)),
+            (h for h in by_type[most] if known.together(h[0], node)),
             by_type[most][0],
         )
-        sure = known.together(node.package, other.package)
+        sure = known.together(node, other)
         yield GraphFinding(
             "RS990",
             end.end.place,
@@ -93,7 +93,7 @@ def _misfits(known: Known, name: str, to: Held, sent: Sequence[Held]) -> Iterato
             reasons.append((other, offering, "; ".join(why)))
     for other, offering, text in reasons:
         alone = len(reasons) == len(sent)
-        sure = alone and known.together(node.package, other.package)
+        sure = alone and known.together(node, other)
         yield GraphFinding(
             "RS991",
             end.end.place,
