@@ -38,6 +38,8 @@ _KINDS = {
     Channel.SERVICE: Kind.SERVICE,
     Channel.ACTION: Kind.ACTION,
 }
+# Of a node that hands itself to libraries which were not read.
+MORE = "libraries that it uses may have more names"
 NODES = frozenset({Kind.NODE, Kind.CODE, Kind.UNREAD})
 
 
@@ -123,8 +125,15 @@ def _node(key: str, node: RosNode) -> Box:
         namespace=node.namespace or "/",
         label=node.label,
         place=node.place,
-        note=" and ".join(node.when),
+        note="; ".join(_notes(node)),
     )
+
+
+def _notes(node: RosNode) -> Iterator[str]:
+    if node.when:
+        yield f"if {' and '.join(node.when)}"
+    if node.code is not None and not node.code.closed:
+        yield MORE
 
 
 def _box_of(node: Box, end: NodeEnd) -> Box:

@@ -40,13 +40,25 @@ def unused_remappings(nodes: Iterable[RosNode]) -> Iterator[GraphFinding]:
             continue
         used = {name for node in run for name in _used(node)}
         for remap in tag.remaps:
-            inside = tag.span.start <= remap.span.start < tag.span.end
-            if not inside or remap.source is not tag.source or _SYSTEM.match(remap.private):
+            if not _is_own(tag, remap) or _SYSTEM.match(remap.private):
                 continue
             meant = run[0].naming.before_remapping(remap.private)
             if not isinstance(meant, str) or any(_is_of(meant, name) for name in used):
                 continue
             yield _unused(run[0], remap, used)
+
+
+def _is_own(tag: LaunchedNode, remap: LaunchedRemap) -> bool:
+    """Whether a remapping stands in the node itself, not in a group for several.
+
+    The place of an element of XML is that of its first tag.
+    """
+    start, at = tag.span.start, remap.span.start
+    if remap.source is not tag.source or at < start:
+        return False
+    between = tag.source.text[start + 1 : at]
+    in_xml = tag.source.text.startswith("<", start)
+    return at < tag.span.end or (in_xml and not re.search(r"<node\b|</node>", between))
 
 
 def _is_of(meant: str, name: str) -> bool:

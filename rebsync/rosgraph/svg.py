@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from rebsync.checker.show.markup import Markup, element, joined, number
 from rebsync.rosgraph.layout import Layout, Spot, layout
-from rebsync.rosgraph.picture import NODES, Box, Kind, Mark, Picture, Wire
+from rebsync.rosgraph.picture import MORE, NODES, Box, Kind, Mark, Picture, Wire
 
 STYLE = """
 .graph { font: 13px system-ui, sans-serif; }
@@ -88,7 +88,8 @@ def _shown(name: str) -> str:
 def _sub(box: Box) -> str:
     """The second line: the package of a node, the type of a topic."""
     if box.kind in NODES:
-        return _shown(f"{box.package}/{box.label}")
+        more = " ..." if MORE in box.note else ""
+        return _shown(f"{box.package}/{box.label}") + more
     return _shown(" or ".join(box.types))
 
 

@@ -36,7 +36,7 @@ def _order(box: Box) -> tuple[str, str, str]:
 def _title(box: Box) -> str:
     about = [f"{box.package}/{box.label}"]
     about += [_KINDS[box.kind]] if box.kind in _KINDS else []
-    about += [f"if {box.note}"] if box.note else []
+    about += [box.note] if box.note else []
     return f"{box.name} ({', '.join(about)})"
 
 
