@@ -85,7 +85,7 @@ def nobody(known: Known) -> Iterator[GraphFinding]:
         code, does, what = _MISSING[each.role]
         end = next(end for _, end in each.held if end.certain)
         message = f"nothing of what was read {does} {what} {each.name}"
-        hint = f"{unread} nodes of the launch file were not read" if unread else None
+        hint = f"not read of what the launch file starts: {unread}" if unread else None
         yield GraphFinding(code, end.end.place, message, hint, (), Severity.NOTE)
 
 
