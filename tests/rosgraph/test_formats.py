@@ -8,28 +8,31 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import jsonschema  # type: ignore[import-untyped]
+import pytest
 
-from tests.cli.run import Outcome, rebsync
+from tests.cli.run import rebsync
+from tests.rosgraph.commands import graph
 
 HERE = Path(__file__).parent
+Capture = pytest.CaptureFixture[str]
 LAUNCH = "robot/robot/launch/robot.launch.py"
 SCHEMA = json.loads((HERE.parents[1] / "docs" / "graph.schema.json").read_text(encoding="utf-8"))
 CODE = (HERE / "robot" / "code.txt").read_text(encoding="utf-8")
 LAUNCHED = (HERE / "robot" / "launch.txt").read_text(encoding="utf-8")
 
 
-def graph(*arguments: str) -> Outcome:
-    """Runs the command beside the workspace."""
-    return rebsync("graph", *arguments, cwd=HERE)
+@pytest.fixture(autouse=True)
+def _here(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(HERE)
 
 
 def test_the_graph_of_all_code() -> None:
-    done = graph("robot")
+    done = rebsync("graph", "robot", cwd=HERE)
     assert (done.out, done.err, done.status) == (CODE, "", 0)
 
 
-def test_the_graph_of_a_launch_file_with_findings() -> None:
-    done = graph("robot", "--launch", LAUNCH)
+def test_the_graph_of_a_launch_file_with_findings(capfd: Capture) -> None:
+    done = graph(capfd, "robot", "--launch", LAUNCH)
     assert done.out == LAUNCHED
     found = re.findall(r"^(\S+:\d+):\d+: (RS\d+)", done.err, re.MULTILINE)
     assert found == [
@@ -38,11 +41,11 @@ def test_the_graph_of_a_launch_file_with_findings() -> None:
         ("robot/tools/tools/console.py:11", "RS997"),
     ]
     assert done.status == 1
-    assert graph("robot", "--launch", "robot/launch/robot.launch.py").out == LAUNCHED
+    assert graph(capfd, "robot", "--launch", "robot/launch/robot.launch.py").out == LAUNCHED
 
 
-def test_json_is_as_its_schema_says() -> None:
-    done = graph("robot", "--launch", LAUNCH, "--format", "json")
+def test_json_is_as_its_schema_says(capfd: Capture) -> None:
+    done = graph(capfd, "robot", "--launch", LAUNCH, "--format", "json")
     given = json.loads(done.out)
     jsonschema.validate(given, SCHEMA)
     scan = next(w for w in given["wires"] if w["place"]["line"] == 9 and w["role"] == "publisher")
@@ -52,39 +55,39 @@ def test_json_is_as_its_schema_says() -> None:
     assert {f["code"] for f in given["findings"]} == {"RS991", "RS997", "RS998"}
 
 
-def test_dot_and_mermaid_declare_what_they_join() -> None:
-    dot = graph("robot", "--format", "dot").out
+def test_dot_and_mermaid_declare_what_they_join(capfd: Capture) -> None:
+    dot = graph(capfd, "robot", "--format", "dot").out
     boxes = set(re.findall(r'^ +("[^"]*") \[label', dot, re.MULTILINE))
     joined = re.findall(r'^ +("[^"]*") -> ("[^"]*")', dot, re.MULTILINE)
     assert len(boxes) == 8 and len(joined) == 9
     assert {name for pair in joined for name in pair} <= boxes
-    mermaid = graph("robot", "--format", "mermaid").out
+    mermaid = graph(capfd, "robot", "--format", "mermaid").out
     named = set(re.findall(r"^ +(b\d+)[\[({]", mermaid, re.MULTILINE))
     arrows = re.findall(r"^ +(b\d+) -\.?->? ?(b\d+)", mermaid, re.MULTILINE)
     assert len(named) == 8 and len(arrows) == 9
     assert {name for pair in arrows for name in pair} <= named
 
 
-def test_svg_has_every_box_and_wire() -> None:
-    root = ElementTree.fromstring(graph("robot", "--format", "svg").out)
+def test_svg_has_every_box_and_wire(capfd: Capture) -> None:
+    root = ElementTree.fromstring(graph(capfd, "robot", "--format", "svg").out)
     drawn = [e for e in root.iter() if e.get("data-box") is not None]
     wires = [e for e in root.iter() if "wire" in (e.get("class") or "").split()]
     assert len(drawn) == 8 and len(wires) == 9
 
 
-def test_sarif_and_annotations_have_the_findings() -> None:
-    sarif = json.loads(graph("robot", "--launch", LAUNCH, "--format", "sarif").out)
+def test_sarif_and_annotations_have_the_findings(capfd: Capture) -> None:
+    sarif = json.loads(graph(capfd, "robot", "--launch", LAUNCH, "--format", "sarif").out)
     results = sarif["runs"][0]["results"]
     assert [(r["ruleId"], r["level"]) for r in results] == [
         ("RS998", "note"),
         ("RS991", "warning"),
         ("RS997", "note"),
     ]
-    lines = graph("robot", "--launch", LAUNCH, "--format", "github").out.splitlines()
+    lines = graph(capfd, "robot", "--launch", LAUNCH, "--format", "github").out.splitlines()
     assert lines[1].startswith("::warning file=robot/robot/src/planner.cpp,line=9,col=13,")
 
 
-def test_a_launch_file_that_is_not_read(tmp_path: Path) -> None:
-    done = graph("robot", "--launch", "other.launch.py")
+def test_a_launch_file_that_is_not_read(capfd: Capture, tmp_path: Path) -> None:
+    done = graph(capfd, "robot", "--launch", "other.launch.py")
     assert done.status == 2 and "RS801" in done.err
-    assert graph(str(tmp_path)).status == 2
+    assert graph(capfd, str(tmp_path)).status == 2
