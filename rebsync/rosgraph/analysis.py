@@ -9,7 +9,7 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
 from rebsync.reverse.launch.launched import Launch
 from rebsync.rosgraph.ends import PackageCode
-from rebsync.rosgraph.findings import GraphFinding, Known, interfaces_of, of_rules, program_of
+from rebsync.rosgraph.findings import Evidence, GraphFinding, interfaces_of, of_rules, program_of
 from rebsync.rosgraph.graph import (
     ComputationGraph,
     RosNode,
@@ -45,7 +45,7 @@ def analysed(packages: Sequence[PackageCode], title: str, launch: str | None = N
     graph = graph_of_code(packages, title)
     read = [files.read(package, source) for package, source in files.all()]
     systems = [graph_of_launch(packages, each, "").nodes for each in read]
-    known = Known(
+    known = Evidence(
         graph,
         interfaces_of(packages),
         _remapped(read),
@@ -63,11 +63,11 @@ def _of_launch_file(packages: Sequence[PackageCode], files: LaunchFiles, launch:
     package, inside = found
     source = package.files[inside]
     graph = graph_of_launch(packages, files.read(package, source), source.path)
-    known = Known(graph, interfaces_of(packages), frozenset(), (), loose_ends(packages))
+    known = Evidence(graph, interfaces_of(packages), frozenset(), (), loose_ends(packages))
     return Analysed(graph, _findings(known, [graph.nodes]), f"{package.name}/{inside}")
 
 
-def _findings(known: Known, systems: Sequence[Sequence[RosNode]]) -> tuple[GraphFinding, ...]:
+def _findings(known: Evidence, systems: Sequence[Sequence[RosNode]]) -> tuple[GraphFinding, ...]:
     of_launch = list(_of_launch(systems))
     return tuple(of_rules((*_RULES, lambda _: of_launch), known))
 

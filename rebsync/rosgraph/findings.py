@@ -29,7 +29,7 @@ class GraphFinding:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Known:
+class Evidence:
     """What the rules look at: the graph, its packages, and names that launch files remap.
 
     `systems` are the nodes that each launch file starts for certain, by `program_of`; `loose` the
@@ -55,7 +55,7 @@ def program_of(node: RosNode) -> tuple[str, str]:
     return node.package, node.label
 
 
-Rule = Callable[[Known], Iterable[GraphFinding]]
+Rule = Callable[[Evidence], Iterable[GraphFinding]]
 
 
 def interfaces_of(packages: Sequence[PackageCode]) -> frozenset[str]:
@@ -91,7 +91,7 @@ def _diagnostic(finding: GraphFinding) -> Diagnostic:
     )
 
 
-def of_rules(rules: Iterable[Rule], known: Known) -> Iterator[GraphFinding]:
+def of_rules(rules: Iterable[Rule], known: Evidence) -> Iterator[GraphFinding]:
     """All that some rules find, each once for a place."""
     seen: set[tuple[str, str, int, str]] = set()
     for rule in rules:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from rebsync.diagnostics import Severity
 from rebsync.records import dataclass
 from rebsync.rosgraph.ends import OTHER_END, SENDING, Channel, Role
-from rebsync.rosgraph.findings import GraphFinding, Known
+from rebsync.rosgraph.findings import Evidence, GraphFinding
 from rebsync.rosgraph.graph import NodeEnd, RosNode
 
 Held = tuple[RosNode, NodeEnd]
@@ -42,7 +42,7 @@ class Lonely:
     held: tuple[Held, ...]
 
 
-def lonely(known: Known) -> Iterator[Lonely]:
+def lonely(known: Evidence) -> Iterator[Lonely]:
     """The names with one role, whose other end no unknown name can be."""
     every = [end for node in known.graph.nodes for end in node.ends]
     for (channel, name), held in known.graph.channels().items():
@@ -74,7 +74,7 @@ def _may_become(end: NodeEnd, role: Role, name: str, held: Sequence[Held]) -> bo
     return _may_be(end, role, name, held)
 
 
-def nobody(known: Known) -> Iterator[GraphFinding]:
+def nobody(known: Evidence) -> Iterator[GraphFinding]:
     """RS992, RS993, RS997, RS998: the other end is nowhere in what was read."""
     every = list(lonely(known))
     slipped = {(each.channel, each.name) for pair in _pairs(every) for each in pair}
@@ -89,7 +89,7 @@ def nobody(known: Known) -> Iterator[GraphFinding]:
         yield GraphFinding(code, end.end.place, message, hint, (), Severity.NOTE)
 
 
-def slips(known: Known) -> Iterator[GraphFinding]:
+def slips(known: Evidence) -> Iterator[GraphFinding]:
     """RS994: two names with one role each, of the same type, that differ by one letter."""
     for one, other in _pairs(list(lonely(known))):
         end, usual = one.held[0][1], other.held[0][1]

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from rebsync.diagnostics import Severity
 from rebsync.rosgraph.ends import Role
-from rebsync.rosgraph.findings import GraphFinding, Known
+from rebsync.rosgraph.findings import Evidence, GraphFinding
 from rebsync.rosgraph.graph import NodeEnd, RosNode
 from rebsync.rosgraph.quality import misfits
 
@@ -14,7 +14,7 @@ _MESSAGES = ("_msgs", "_srvs", "_interfaces", "_msg")
 Held = tuple[RosNode, NodeEnd]
 
 
-def different_types(known: Known) -> Iterator[GraphFinding]:
+def different_types(known: Evidence) -> Iterator[GraphFinding]:
     """RS990: ends of one name whose types are known, certain, and not the same."""
     for (channel, name), held in known.graph.channels().items():
         plain = [h for h in _fixed(held) if _is_interface(known, h[1].types[0])]
@@ -24,7 +24,7 @@ def different_types(known: Known) -> Iterator[GraphFinding]:
 
 
 def _of_types(
-    known: Known, channel: str, name: str, held: Sequence[Held]
+    known: Evidence, channel: str, name: str, held: Sequence[Held]
 ) -> Iterator[GraphFinding]:
     by_type: dict[str, list[Held]] = {}
     for node, end in held:
@@ -62,7 +62,7 @@ def _fixed(held: Sequence[Held]) -> Iterator[Held]:
             yield node, end
 
 
-def _is_interface(known: Known, type_: str) -> bool:
+def _is_interface(known: Evidence, type_: str) -> bool:
     """Whether this is a type of messages: another class may only be converted to one."""
     return type_.partition("/")[0].endswith(_MESSAGES) or type_ in known.interfaces
 
@@ -71,7 +71,7 @@ def _is_flat(node: RosNode) -> bool:
     return node.code is not None and node.code.is_flat
 
 
-def misfit_qualities(known: Known) -> Iterator[GraphFinding]:
+def misfit_qualities(known: Evidence) -> Iterator[GraphFinding]:
     """RS991: a subscription and a publisher whose qualities of service never match."""
     for (_, name), held in known.graph.channels().items():
         sent = [h for h in held if h[1].end.role is Role.PUBLISHER and h[1].end.policies]
@@ -80,7 +80,7 @@ def misfit_qualities(known: Known) -> Iterator[GraphFinding]:
                 yield from _misfits(known, name, (node, end), sent)
 
 
-def _misfits(known: Known, name: str, to: Held, sent: Sequence[Held]) -> Iterator[GraphFinding]:
+def _misfits(known: Evidence, name: str, to: Held, sent: Sequence[Held]) -> Iterator[GraphFinding]:
     node, end = to
     requested = end.end.policies
     if requested is None:
