@@ -10,7 +10,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.calls.action_calls import actions_in
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
-from rebsync.reverse.graph import ClientFact, Fact, NodeFact, ServiceFact
+from rebsync.reverse.graph import ClientFact, Fact, NodeFact, Place, ServiceFact
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_programs import programs, with_nodes
 from rebsync.reverse.nodes.node_units import Start, Unit
@@ -63,11 +63,11 @@ class _Reading:
                 yield from self.node(group)
 
     def node(self, group: Sequence[Start], *, is_node: bool = True) -> Iterator[NodeCode]:
-        """The node that some objects are together, if it is one or has ends."""
+        """The node that some objects are together, if it is one or asks for anything."""
         ends = tuple(distinct(e for start in group for e in self._ends(start)))
         uses = tuple(distinct(p for start in group for p in _uses(start)))
         own = _own_nodes(group[0].unit)
-        if not ends and not own:
+        if not ends and not own and not uses:
             return
         program = group[0].program
         made = own or ([program.node] if program is not None and program.node is not None else [])
@@ -79,8 +79,8 @@ class _Reading:
             executables=frozenset(n for start in group for n in self._executables(start)),
             ends=ends,
             parameters=uses,
-            place=made[0].site.place if made else ends[0].place,
-            is_node=is_node,
+            place=made[0].site.place if made else first_place(ends, uses),
+            is_node=is_node and bool(ends or own),
             is_flat=any(s.unit.flat for s in group),
             closed=is_node and is_closed(self._sources(group), [self.package]),
             anonymous=any(n.anonymous for n in made),
@@ -129,25 +129,28 @@ def loose_code(
     package: str, ends: Iterable[End], uses: Iterable[ParameterUse]
 ) -> Iterator[NodeCode]:
     """Code of which it is not known what runs it, by its files."""
-    by_path: dict[str, list[End]] = {}
-    for end in ends:
-        by_path.setdefault(end.place.source.path, []).append(end)
-    parameters = list(uses)
-    for path, of_file in by_path.items():
-        label = path.rpartition("/")[2]
-        own = tuple(p for p in parameters if p.place.source.path == path)
+    ends, uses = list(ends), list(uses)
+    places = [e.place for e in ends] + [u.place for u in uses]
+    for path in dict.fromkeys(place.source.path for place in places):
+        of_file = tuple(e for e in ends if e.place.source.path == path)
+        own = tuple(p for p in uses if p.place.source.path == path)
         yield NodeCode(
             package=package,
-            label=label,
+            label=path.rpartition("/")[2],
             name=None,
             executables=frozenset(),
-            ends=tuple(of_file),
+            ends=of_file,
             parameters=own,
-            place=of_file[0].place,
+            place=first_place(of_file, own),
             is_node=False,
             is_flat=False,
             closed=False,
         )
+
+
+def first_place(ends: Sequence[End], uses: Sequence[ParameterUse]) -> Place:
+    """Where the first of several ends stands, or else the first parameter."""
+    return ends[0].place if ends else uses[0].place
 
 
 def _of_start(start: Start, end: End) -> End:

@@ -21,7 +21,8 @@ class NodeEnd:
     """An end of a node: its name in the graph, or None with the reason and what is known of it.
 
     `certain` says that it is this name whatever parameters are set. `types` are those that it may
-    have; empty where they are not known.
+    have; empty where they are not known. `pattern` is what the code tells of the name, `reach` the
+    absolute names that it may be.
     """
 
     end: End
@@ -30,6 +31,7 @@ class NodeEnd:
     types: tuple[str, ...]
     why: str = ""
     pattern: str = "*"
+    reach: str = "*"
 
     @property
     def channel(self) -> Channel:
@@ -40,7 +42,7 @@ class NodeEnd:
         """Whether its name, which is not known for certain, may be this one."""
         if self.name is not None:
             return self.name == name or not self.certain
-        return fnmatchcase(name, self.pattern) or fnmatchcase(name, f"*/{self.pattern}")
+        return fnmatchcase(name, self.reach)
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,7 +210,17 @@ def _ends(ends: Iterable[End], naming: Naming) -> Iterator[NodeEnd]:
                     yield NodeEnd(end, text, certain, types)
                 case NotKnown(why, place, pattern):
                     here = replace(end, place=place) if place is not None and not why else end
-                    yield NodeEnd(here, None, False, types, why, pattern)
+                    reach = _reach(pattern, naming)
+                    yield NodeEnd(here, None, False, types, why, pattern, reach)
+
+
+def _reach(pattern: str, naming: Naming) -> str:
+    """The absolute names that a name of some pattern may be; what is remapped may be any."""
+    if naming.launched is not None and naming.launched.remaps:
+        return "*"
+    if pattern.startswith(("/", "*")):
+        return pattern
+    return f"*/{pattern.removeprefix('~').lstrip('/')}"
 
 
 def types_of(value: Resolved) -> Iterator[str]:

@@ -11,7 +11,7 @@ from rebsync.checker.show.markup import Markup, element, joined, metadata
 from rebsync.diagnostics import Severity
 from rebsync.rosgraph.data import graph_data
 from rebsync.rosgraph.findings import GraphFinding
-from rebsync.rosgraph.picture import NODES, Box, Picture
+from rebsync.rosgraph.picture import NODES, Box, Kind, Picture
 from rebsync.rosgraph.svg import STYLE, drawing, laid_out
 from rebsync.rosgraph.text import counted
 
@@ -92,7 +92,7 @@ def _items(boxes: Sequence[Box]) -> list[Markup]:
     return [
         element(
             "button",
-            box.name,
+            " ".join((box.name, *box.types)) if box.kind is Kind.UNKNOWN else box.name,
             type="button",
             data_item=str(i),
             data_package=box.package or "names",

@@ -132,7 +132,7 @@ def _node(key: str, node: RosNode) -> Box:
 def _notes(node: RosNode) -> Iterator[str]:
     if node.when:
         yield f"if {' and '.join(node.when)}"
-    if node.code is not None and not node.code.closed:
+    if node.code is not None and node.code.is_node and not node.code.closed:
         yield MORE
 
 

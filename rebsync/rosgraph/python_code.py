@@ -17,6 +17,7 @@ from rebsync.reverse.python.py_tree import parse
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.rosgraph.closed import is_closed
+from rebsync.rosgraph.cpp_code import first_place
 from rebsync.rosgraph.ends import End, NodeCode
 from rebsync.rosgraph.facts import action_end, distinct, end_of, parameter_of
 from rebsync.source import Source
@@ -51,11 +52,12 @@ class _Reading:
     code: Mapping[str, Source]
 
     def node(self, group: Sequence[PyUnit]) -> NodeCode | None:
-        """The node that some units are together, if it is one or has ends."""
+        """The node that some units are together, if it is one or asks for anything."""
         facts = [fact for unit in group for fact in unit.unit.facts]
         made = [f for f in facts if isinstance(f, NodeFact)]
         ends = tuple(distinct(e for unit in group for e in self._ends(unit)))
-        if not ends and not made:
+        uses = tuple(distinct(p for f in facts if (p := parameter_of(f)) is not None))
+        if not ends and not made and not uses:
             return None
         names = [f.name for f in made if f.name is not None]
         return NodeCode(
@@ -64,8 +66,8 @@ class _Reading:
             name=one_of(names),
             executables=frozenset(self._executables(group)),
             ends=ends,
-            parameters=tuple(distinct(p for f in facts if (p := parameter_of(f)) is not None)),
-            place=made[0].site.place if made else ends[0].place,
+            parameters=uses,
+            place=made[0].site.place if made else first_place(ends, uses),
             is_node=bool(made),
             is_flat=group[0].library.flat,
             closed=bool(made) and is_closed(_sources(group), self.own),

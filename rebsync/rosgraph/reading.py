@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from rebsync.reverse.build.built import unbuilt
@@ -36,8 +37,19 @@ def read_package(given: Chosen) -> PackageCode:
     settings = {p: s for p, s in files.items() if p.endswith(_SETTINGS) or is_launch(p)}
     odd = tuple((f.source.path, f.why) for f in given.findings if f.grade is Grade.UNREADABLE)
     types = frozenset(Path(p).stem for p in given.files if p.endswith(_INTERFACES))
-    nodes = tuple(_nodes(files, name))
+    nodes = tuple(_without_loose(list(_nodes(files, name)), is_whole=not odd))
     return PackageCode(name, given.root, nodes, settings, types, odd)
+
+
+def _without_loose(nodes: list[NodeCode], *, is_whole: bool) -> Iterator[NodeCode]:
+    """The nodes and what else has ends.
+
+    None is closed where code that any of them may run asks for more, or a file was not read.
+    """
+    is_closed = is_whole and all(node.is_node for node in nodes)
+    for node in nodes:
+        if node.is_node or node.ends:
+            yield replace(node, closed=node.closed and is_closed)
 
 
 def _nodes(files: Mapping[str, Source], package: str) -> Iterator[NodeCode]:
