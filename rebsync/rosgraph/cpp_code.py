@@ -10,7 +10,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.calls.action_calls import actions_in
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
-from rebsync.reverse.graph import ClientFact, Fact, NodeFact, Place, ServiceFact
+from rebsync.reverse.graph import ClientFact, Fact, NodeFact, ServiceFact
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_programs import programs, with_nodes
 from rebsync.reverse.nodes.node_units import Start, Unit
@@ -21,7 +21,7 @@ from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.rosgraph.closed import is_closed
 from rebsync.rosgraph.ends import End, NodeCode, ParameterUse
-from rebsync.rosgraph.facts import action_end, distinct, end_of, parameter_of
+from rebsync.rosgraph.facts import action_end, distinct, end_of, first_place, parameter_of
 from rebsync.source import Source
 
 _CODE = tuple(sorted(CODE))
@@ -146,11 +146,6 @@ def loose_code(
             is_flat=False,
             closed=False,
         )
-
-
-def first_place(ends: Sequence[End], uses: Sequence[ParameterUse]) -> Place:
-    """Where the first of several ends stands, or else the first parameter."""
-    return ends[0].place if ends else uses[0].place
 
 
 def _of_start(start: Start, end: End) -> End:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeVar
 
 from rebsync.reverse.graph import (
     ClientFact,
     Fact,
     ParameterFact,
+    Place,
     PublisherFact,
     ServiceFact,
     SubscriptionFact,
@@ -59,6 +60,11 @@ def parameter_of(fact: Fact) -> ParameterUse | None:
     if not isinstance(fact, ParameterFact):
         return None
     return ParameterUse(fact.name, fact.access, fact.site.place)
+
+
+def first_place(ends: Sequence[End], uses: Sequence[ParameterUse]) -> Place:
+    """Where the first of several ends stands, or else the first parameter."""
+    return ends[0].place if ends else uses[0].place
 
 
 def distinct(items: Iterable[T]) -> Iterator[T]:

@@ -17,9 +17,8 @@ from rebsync.reverse.python.py_tree import parse
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.rosgraph.closed import is_closed
-from rebsync.rosgraph.cpp_code import first_place
 from rebsync.rosgraph.ends import End, NodeCode
-from rebsync.rosgraph.facts import action_end, distinct, end_of, parameter_of
+from rebsync.rosgraph.facts import action_end, distinct, end_of, first_place, parameter_of
 from rebsync.source import Source
 
 

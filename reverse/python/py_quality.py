@@ -126,16 +126,14 @@ def _policies(values: PyValues, way: Value, node: Node, scope: Scope) -> Policie
 
 def _policy(values: PyValues, made: Made, key: str, usual: str, node: Node, scope: Scope) -> str:
     """One policy of a profile: the usual one where nothing gives it."""
-    given = _of_profile(values, made, key, node, scope)
+    given = _of_profile(values, made, key, node, scope, (External(usual),))
     words = {policy_of(w.name) if isinstance(w, External) else UNKNOWN for w in given}
-    return words.pop() if len(words) == 1 else UNKNOWN if words else usual
+    return words.pop() if len(words) == 1 else UNKNOWN
 
 
 def _period(values: PyValues, made: Made, key: str, node: Node, scope: Scope) -> Period:
     """A span of time of a profile, in seconds."""
-    given = _of_profile(values, made, key, node, scope)
-    if not given:
-        return FOR_EVER
+    given = _of_profile(values, made, key, node, scope, (Duration(FOR_EVER),))
     seconds = given[0].seconds if len(given) == 1 and isinstance(given[0], Duration) else None
     known = isinstance(seconds, (int, float)) and not isinstance(seconds, bool)
     return float(seconds) if known and isinstance(seconds, (int, float)) else UNKNOWN
@@ -151,13 +149,15 @@ def _keeps(values: PyValues, way: Value, node: Node, scope: Scope) -> Value:
             return values.unknown("the durability is not known", node, scope)
 
 
-def _of_profile(values: PyValues, made: Made, key: str, node: Node, scope: Scope) -> Ways:
-    """A key of a profile: set after it was made, or given when it was."""
+def _of_profile(
+    values: PyValues, made: Made, key: str, node: Node, scope: Scope, usual: Ways = ()
+) -> Ways:
+    """A key of a profile: set after it was made, or given when it was, or else `usual`."""
     stored = scope.stores.get((text_of(node), key), [])
     seen = reaching(stored, node)
     later = [w for b in seen for w in bound(values, b, key, scope)]
     _, keywords = arguments_of(made.call)
-    first = values.ways(keywords[key], made.scope) if key in keywords else ()
+    first = values.ways(keywords[key], made.scope) if key in keywords else usual
     if seen and reaching([seen[0]], node) and _always(seen[0].node, node):
         return distinct(later)
     return distinct([*first, *later])

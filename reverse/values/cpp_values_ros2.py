@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from functools import partial
+from functools import partial, reduce
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -13,7 +13,7 @@ from rebsync.reverse.graph import FromParameter, Resolved, Unresolved
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import RATIOS, SUFFIXES, UNITS
-from rebsync.reverse.policies import NOT_KNOWN, UNKNOWN, USUAL, Period, policy_of
+from rebsync.reverse.policies import NOT_KNOWN, UNKNOWN, USUAL, Period, either, policy_of
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow import climb
@@ -31,6 +31,7 @@ from rebsync.reverse.values.cpp_values_plain import (
     Value,
     choice,
     each,
+    ways,
 )
 
 if TYPE_CHECKING:
@@ -149,7 +150,16 @@ def _quality(values: CppEvaluator, name: str, use: Use, frame: Frame) -> Value:
         unknown = values.unknown("a quality without a depth", use.node, frame)
         return _named(name, depth if depth is not None else unknown)
     own = name if name in libraries.policies() else ""
-    return each(lambda v: _deep(values, v, use.node, frame, own), values.value(given[0], frame))
+    found = each(lambda v: _deep(values, v, use.node, frame, own), values.value(given[0], frame))
+    return found if len(given) == 1 else _of_profile(values, found, given[1], frame)
+
+
+def _of_profile(values: CppEvaluator, found: Value, profile: Node, frame: Frame) -> Value:
+    """A quality with the policies of the profile that its constructor is given behind the depth."""
+    given = ways(values.value(profile, frame))
+    kinds = [v.policies if isinstance(v, Quality) else NOT_KNOWN for v in given]
+    policies = reduce(either, kinds) if kinds else NOT_KNOWN
+    return each(lambda v: replace(v, policies=policies) if isinstance(v, Quality) else v, found)
 
 
 def _named(name: str, depth: Resolved) -> Quality:
