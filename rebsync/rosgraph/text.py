@@ -43,7 +43,7 @@ def _title(box: Box) -> str:
 def _said(wire: Wire, boxes: dict[str, Box]) -> str:
     name = boxes[_name_of(wire)]
     types = f" [{' or '.join(wire.types)}]" if wire.types else ""
-    doubt = "" if wire.certain or name.kind is Kind.UNKNOWN else " (unless a parameter is set)"
+    doubt = "" if wire.certain or name.kind is Kind.UNKNOWN else " (perhaps)"
     why = f" ({name.note})" if name.kind is Kind.UNKNOWN and name.note else ""
     place = f"{wire.place.source.path}:{wire.place.line}"
     return f"{_VERBS[wire.role]} {name.name}{types}{doubt}{why}  {place}"
