@@ -14,7 +14,7 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.terminal import json_text, lines_text, say
 
 if TYPE_CHECKING:
-    from rebsync.rosgraph.analysis import Analysed
+    from rebsync.rosgraph.analysis import AnalysedGraph
     from rebsync.rosgraph.ends import PackageCode
     from rebsync.rosgraph.findings import GraphFinding
     from rebsync.rosgraph.picture import Picture
@@ -75,7 +75,7 @@ def command(
     return status_of(listed)
 
 
-def _now(paths: Sequence[str], launch: str | None) -> Analysed:
+def _now(paths: Sequence[str], launch: str | None) -> AnalysedGraph:
     from rebsync.reverse.files.parallel import each
     from rebsync.reverse.files.reading import all_listings
     from rebsync.rosgraph.analysis import analysed
@@ -89,7 +89,7 @@ def _now(paths: Sequence[str], launch: str | None) -> Analysed:
     return analysed(packages, ", ".join(paths), launch)
 
 
-def _before(paths: Sequence[str], launch: str | None, revision: str) -> Analysed:
+def _before(paths: Sequence[str], launch: str | None, revision: str) -> AnalysedGraph:
     """The same as of a revision; without nodes where it has no such launch file."""
     from rebsync.rosgraph.analysis import analysed
     from rebsync.rosgraph.launching import LaunchFiles

@@ -26,7 +26,7 @@ _RULES = (different_types, misfit_qualities, slips, nobody)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Analysed:
+class AnalysedGraph:
     """A graph with its findings; `launch` is the launch file, by its package and path in that."""
 
     graph: ComputationGraph
@@ -34,7 +34,9 @@ class Analysed:
     launch: str | None = None
 
 
-def analysed(packages: Sequence[PackageCode], title: str, launch: str | None = None) -> Analysed:
+def analysed(
+    packages: Sequence[PackageCode], title: str, launch: str | None = None
+) -> AnalysedGraph:
     """The graph of a launch file, or of all that was read.
 
     RebsyncError: the launch file is none of those that were read.
@@ -52,10 +54,12 @@ def analysed(packages: Sequence[PackageCode], title: str, launch: str | None = N
         tuple(map(_started, systems)),
         loose_ends(packages),
     )
-    return Analysed(graph, _findings(known, systems))
+    return AnalysedGraph(graph, _findings(known, systems))
 
 
-def _of_launch_file(packages: Sequence[PackageCode], files: LaunchFiles, launch: str) -> Analysed:
+def _of_launch_file(
+    packages: Sequence[PackageCode], files: LaunchFiles, launch: str
+) -> AnalysedGraph:
     found = files.named(launch)
     if found is None:
         hint = "it must be in a package that is read; PACKAGE/FILE names one, too"
@@ -64,7 +68,7 @@ def _of_launch_file(packages: Sequence[PackageCode], files: LaunchFiles, launch:
     source = package.files[inside]
     graph = graph_of_launch(packages, files.read(package, source), source.path)
     known = Evidence(graph, interfaces_of(packages), frozenset(), (), loose_ends(packages))
-    return Analysed(graph, _findings(known, [graph.nodes]), f"{package.name}/{inside}")
+    return AnalysedGraph(graph, _findings(known, [graph.nodes]), f"{package.name}/{inside}")
 
 
 def _findings(known: Evidence, systems: Sequence[Sequence[RosNode]]) -> tuple[GraphFinding, ...]:

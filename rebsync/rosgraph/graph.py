@@ -11,7 +11,7 @@ from rebsync.reverse.graph import OneOf, Place, Resolved
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.unknowns import Open, Text
 from rebsync.rosgraph.ends import CHANNEL_OF, Channel, End, NodeCode, PackageCode
-from rebsync.rosgraph.naming import Known, Naming, NotKnown
+from rebsync.rosgraph.naming import KnownName, Naming, UnknownName
 
 UNKNOWN = "?"
 
@@ -153,7 +153,7 @@ def loose_ends(packages: Sequence[PackageCode]) -> tuple[NodeEnd, ...]:
 def own_name(code: NodeCode) -> str | None:
     """The name that the code gives its node."""
     found = list(Naming(None, code.is_flat).values(code.name)) if code.name is not None else []
-    names = {n.text.strip("/") for n in found if isinstance(n, Known)}
+    names = {n.text.strip("/") for n in found if isinstance(n, KnownName)}
     return names.pop() if len(found) == 1 and len(names) == 1 else None
 
 
@@ -206,9 +206,9 @@ def _ends(ends: Iterable[End], naming: Naming) -> Iterator[NodeEnd]:
         types = tuple(types_of(end.type))
         for name in naming.names(end.name):
             match name:
-                case Known(text, certain):
+                case KnownName(text, certain):
                     yield NodeEnd(end, text, certain, types)
-                case NotKnown(why, place, pattern):
+                case UnknownName(why, place, pattern):
                     here = replace(end, place=place) if place is not None and not why else end
                     reach = _reach(pattern, naming)
                     yield NodeEnd(here, None, False, types, why, pattern, reach)

@@ -16,7 +16,7 @@ _BY_PARAMETER = "the parameter that it comes from is not known"
 
 
 @dataclass(frozen=True, slots=True)
-class Known:
+class KnownName:
     """A name; `certain` says that nothing but an edit of the code or launch file changes it."""
 
     text: str
@@ -24,7 +24,7 @@ class Known:
 
 
 @dataclass(frozen=True, slots=True)
-class NotKnown:
+class UnknownName:
     """A name that is not known: why, where that is so, and what it looks like; `*` is any text."""
 
     why: str
@@ -32,7 +32,7 @@ class NotKnown:
     pattern: str = "*"
 
 
-Name: TypeAlias = "Known | NotKnown"
+Name: TypeAlias = "KnownName | UnknownName"
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,9 +51,9 @@ class Naming:
     def names(self, value: Resolved) -> Iterator[Name]:
         """The absolute names that a value of the code may be."""
         for found in self.values(value):
-            yield found if isinstance(found, NotKnown) else self._absolute(found)
+            yield found if isinstance(found, UnknownName) else self._absolute(found)
 
-    def _absolute(self, name: Known) -> Name:
+    def _absolute(self, name: KnownName) -> Name:
         meant = self.before_remapping(name.text)
         for remap in self.launched.remaps if self.launched is not None else ():
             if self.before_remapping(remap.private) == self.before_remapping(name.text):
@@ -61,8 +61,8 @@ class Naming:
                 meant = target if isinstance(target, Open) else self.before_remapping(target)
         if isinstance(meant, Open):
             last = name.text.removeprefix("~").strip("/")
-            return NotKnown(meant.why, None, f"*/{last}")
-        return Known(meant, name.certain)
+            return UnknownName(meant.why, None, f"*/{last}")
+        return KnownName(meant, name.certain)
 
     def before_remapping(self, name: str) -> Text:
         """The absolute name that the code means."""
@@ -76,45 +76,47 @@ class Naming:
         """The texts that a value may be, not resolved."""
         match value:
             case str() if value:
-                yield Known(value)
+                yield KnownName(value)
             case FromParameter():
                 yield from self._from_parameter(value)
             case OneOf(values):
                 for each in values:
                     for found in self.values(each):
-                        yield Known(found.text, False) if isinstance(found, Known) else found
+                        yield (
+                            KnownName(found.text, False) if isinstance(found, KnownName) else found
+                        )
             case Under(name, handles):
                 inner = join(handles[0], name) if len(handles) == 1 else None
                 why = "its node handle comes from outside of the files"
                 known = isinstance(inner, str)
-                yield Known(str(inner)) if known else NotKnown(why, None, f"*{name}")
+                yield KnownName(str(inner)) if known else UnknownName(why, None, f"*{name}")
             case Unresolved(why, place, partial):
-                yield NotKnown(why, place, partial or "*")
+                yield UnknownName(why, place, partial or "*")
             case _:
-                yield NotKnown("it is no text")
+                yield UnknownName("it is no text")
 
     def _from_parameter(self, value: FromParameter) -> Iterator[Name]:
         set_ = self._parameter(value)
         if value.expression is not None:
-            yield NotKnown(_BY_PARAMETER)
+            yield UnknownName(_BY_PARAMETER)
         elif set_ is not None:
             text = set_.value
             known = isinstance(text, str) and text
-            yield self._within(value, Known(str(text))) if known else NotKnown(_BY_PARAMETER)
+            yield self._within(value, KnownName(str(text))) if known else UnknownName(_BY_PARAMETER)
         elif value.default is not None:
             for found in self.values(value.default):
                 certain = self.launched is not None and not self._is_open
-                is_known = isinstance(found, Known)
-                text = found.text if isinstance(found, Known) else ""
-                yield self._within(value, Known(text, certain)) if is_known else found
+                is_known = isinstance(found, KnownName)
+                text = found.text if isinstance(found, KnownName) else ""
+                yield self._within(value, KnownName(text, certain)) if is_known else found
         else:
-            yield NotKnown(_BY_PARAMETER)
+            yield UnknownName(_BY_PARAMETER)
 
-    def _within(self, value: FromParameter, name: Known) -> Name:
+    def _within(self, value: FromParameter, name: KnownName) -> Name:
         if len(value.within) > 1:
-            return NotKnown("one of several namespaces", None, f"*{name.text}")
+            return UnknownName("one of several namespaces", None, f"*{name.text}")
         inner = join(value.within[0], name.text) if value.within and value.within[0] else name.text
-        return Known(inner, name.certain) if isinstance(inner, str) else NotKnown(inner.why)
+        return KnownName(inner, name.certain) if isinstance(inner, str) else UnknownName(inner.why)
 
     def _parameter(self, value: FromParameter) -> Parameter | None:
         """The parameter, where the launch files set it."""

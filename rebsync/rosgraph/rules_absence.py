@@ -11,7 +11,7 @@ from rebsync.rosgraph.ends import OTHER_END, SENDING, Channel, Role
 from rebsync.rosgraph.findings import Evidence, GraphFinding
 from rebsync.rosgraph.graph import NodeEnd, RosNode
 
-Held = tuple[RosNode, NodeEnd]
+NodeWithEnd = tuple[RosNode, NodeEnd]
 _SHORTEST = 4  # letters of a part of a name in which a slip is told
 
 # What every node has, or what the tools and the middleware serve.
@@ -33,16 +33,16 @@ _MISSING = {
 
 
 @dataclass(frozen=True, slots=True)
-class Lonely:
+class OneSided:
     """A name all of whose ends have one role."""
 
     channel: Channel
     name: str
     role: Role
-    held: tuple[Held, ...]
+    held: tuple[NodeWithEnd, ...]
 
 
-def lonely(known: Evidence) -> Iterator[Lonely]:
+def one_sided(known: Evidence) -> Iterator[OneSided]:
     """The names with one role, whose other end no unknown name can be."""
     every = [end for node in known.graph.nodes for end in node.ends]
     for (channel, name), held in known.graph.channels().items():
@@ -56,10 +56,10 @@ def lonely(known: Evidence) -> Iterator[Lonely]:
         if any(_may_be(end, missing, name, held) for end in every):
             continue
         if not any(_may_become(end, missing, name, held) for end in known.loose):
-            yield Lonely(channel, name, role, tuple(held))
+            yield OneSided(channel, name, role, tuple(held))
 
 
-def _may_be(end: NodeEnd, role: Role, name: str, held: Sequence[Held]) -> bool:
+def _may_be(end: NodeEnd, role: Role, name: str, held: Sequence[NodeWithEnd]) -> bool:
     """Whether an end whose name is not known may be the missing one."""
     if end.end.role is not role or not end.may_be(name):
         return False
@@ -67,7 +67,7 @@ def _may_be(end: NodeEnd, role: Role, name: str, held: Sequence[Held]) -> bool:
     return not end.types or not types or bool(types & set(end.types))
 
 
-def _may_become(end: NodeEnd, role: Role, name: str, held: Sequence[Held]) -> bool:
+def _may_become(end: NodeEnd, role: Role, name: str, held: Sequence[NodeWithEnd]) -> bool:
     """Whether an end of code that some node runs, in its namespace, may be the missing one."""
     if end.name is not None and end.end.role is role:
         return end.name.rpartition("/")[2] == name.rpartition("/")[2]
@@ -76,7 +76,7 @@ def _may_become(end: NodeEnd, role: Role, name: str, held: Sequence[Held]) -> bo
 
 def nobody(known: Evidence) -> Iterator[GraphFinding]:
     """RS992, RS993, RS997, RS998: the other end is nowhere in what was read."""
-    every = list(lonely(known))
+    every = list(one_sided(known))
     slipped = {(each.channel, each.name) for pair in _pairs(every) for each in pair}
     unread = sum(not node.is_read for node in known.graph.nodes)
     for each in every:
@@ -91,7 +91,8 @@ def nobody(known: Evidence) -> Iterator[GraphFinding]:
 
 def slips(known: Evidence) -> Iterator[GraphFinding]:
     """RS994: two names with one role each, of the same type, that differ by one letter."""
-    for one, other in _pairs(list(lonely(known))):
+    unread = any(not node.is_read for node in known.graph.nodes)
+    for one, other in _pairs(list(one_sided(known))):
         end, usual = one.held[0][1], other.held[0][1]
         yield GraphFinding(
             "RS994",
@@ -99,10 +100,11 @@ def slips(known: Evidence) -> Iterator[GraphFinding]:
             f"nothing has the other end of {one.name}, which is a letter off {other.name}",
             f'did you mean "{other.name}"?',
             ((usual.end.place, f"{usual.end.role.value} of {other.name}"),),
+            Severity.NOTE if unread else Severity.WARNING,
         )
 
 
-def _pairs(every: Sequence[Lonely]) -> Iterator[tuple[Lonely, Lonely]]:
+def _pairs(every: Sequence[OneSided]) -> Iterator[tuple[OneSided, OneSided]]:
     """A name that is sent to, with one that is received from, of which one is misspelled."""
     receiving = [e for e in every if e.role not in SENDING]
     for one in (e for e in every if e.role in SENDING):
@@ -112,7 +114,7 @@ def _pairs(every: Sequence[Lonely]) -> Iterator[tuple[Lonely, Lonely]]:
                 yield one, other
 
 
-def _types(each: Lonely) -> set[str]:
+def _types(each: OneSided) -> set[str]:
     return {t for _, end in each.held for t in end.types}
 
 

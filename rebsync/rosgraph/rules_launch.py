@@ -14,7 +14,7 @@ from rebsync.reverse.launch.launched import LaunchedNode, LaunchedRemap
 from rebsync.rosgraph.ends import NodeCode
 from rebsync.rosgraph.findings import GraphFinding
 from rebsync.rosgraph.graph import RosNode
-from rebsync.rosgraph.naming import Known
+from rebsync.rosgraph.naming import KnownName
 
 _SYSTEM = re.compile(
     r"/?(?:tf|tf_static|clock|rosout|parameter_events|diagnostics)\Z|__|.*[:*\\]|.*/_action/"
@@ -70,7 +70,7 @@ def _used(node: RosNode) -> Iterator[str]:
     """The names that the code has, before any remapping."""
     for end in node.code.ends if node.code is not None else ():
         for value in node.naming.values(end.name):
-            if isinstance(value, Known):
+            if isinstance(value, KnownName):
                 meant = node.naming.before_remapping(value.text)
                 if isinstance(meant, str):
                     yield meant

@@ -11,7 +11,7 @@ from rebsync.rosgraph.graph import NodeEnd, RosNode
 from rebsync.rosgraph.quality import misfits
 
 _MESSAGES = ("_msgs", "_srvs", "_interfaces", "_msg")
-Held = tuple[RosNode, NodeEnd]
+NodeWithEnd = tuple[RosNode, NodeEnd]
 
 
 def different_types(known: Evidence) -> Iterator[GraphFinding]:
@@ -24,9 +24,9 @@ def different_types(known: Evidence) -> Iterator[GraphFinding]:
 
 
 def _of_types(
-    known: Evidence, channel: str, name: str, held: Sequence[Held]
+    known: Evidence, channel: str, name: str, held: Sequence[NodeWithEnd]
 ) -> Iterator[GraphFinding]:
-    by_type: dict[str, list[Held]] = {}
+    by_type: dict[str, list[NodeWithEnd]] = {}
     for node, end in held:
         by_type.setdefault(end.types[0], []).append((node, end))
     if len(by_type) < 2:
@@ -52,7 +52,7 @@ def _of_types(
         )
 
 
-def _fixed(held: Sequence[Held]) -> Iterator[Held]:
+def _fixed(held: Sequence[NodeWithEnd]) -> Iterator[NodeWithEnd]:
     """The ends with one type; a node with several types of one name chooses among them."""
     chosen: dict[int, set[str]] = {}
     for node, end in held:
@@ -80,7 +80,9 @@ def misfit_qualities(known: Evidence) -> Iterator[GraphFinding]:
                 yield from _misfits(known, name, (node, end), sent)
 
 
-def _misfits(known: Evidence, name: str, to: Held, sent: Sequence[Held]) -> Iterator[GraphFinding]:
+def _misfits(
+    known: Evidence, name: str, to: NodeWithEnd, sent: Sequence[NodeWithEnd]
+) -> Iterator[GraphFinding]:
     node, end = to
     requested = end.end.policies
     if requested is None:
