@@ -107,7 +107,7 @@ def as_mermaid(picture: Picture) -> str:
 
 def _mermaid_text(text: str) -> str:
     """A text in quotes; what has a meaning there stands as its number."""
-    return '"' + "".join(f"#{ord(c)};" if c in '"#&<>' else c for c in text) + '"'
+    return '"' + "".join(f"#{ord(c)};" if c in '"#&<>\n\r' else c for c in text) + '"'
 
 
 def _mermaid_box(box: Box, ids: dict[str, str]) -> str:
