@@ -110,7 +110,7 @@ def _canvas(picture: Picture) -> Markup:
         drawing(picture, found),
         id="canvas",
         class_="graph",
-        viewBox=f"0 0 {found.width + 40:.0f} {found.height + 40:.0f}",
+        viewBox=f"0 0 {found.width + 80:.0f} {found.height + 80:.0f}",
         role="group",
         aria_label="Computation graph",
     )

@@ -22,7 +22,7 @@ STYLE = """
 .graph .added rect, .graph .wire.added { stroke: #1a7f37; stroke-width: 3; }
 .graph .removed rect, .graph .wire.removed { stroke: #cf222e; stroke-width: 3; opacity: .6; }
 """
-_MARGIN = 20.0
+_MARGIN = 40.0
 _LETTER = 7.2  # the width of one, about
 _LONGEST = 46  # letters that are shown of a name
 
@@ -124,10 +124,12 @@ def _wire(wire: Wire, ids: dict[str, int], boxes: Sequence[Box], found: Layout) 
     (aw, ah), (_, bh) = _size(boxes[a]), _size(boxes[b])
     start, end = found.spots[a], found.spots[b]
     x, y, to_x, to_y = start.x + aw, start.y + ah / 2, end.x, end.y + bh / 2
-    bend = max(30.0, abs(to_x - x) / 2)
+    bend, lift = max(30.0, abs(to_x - x) / 2), 0.0
+    if to_x < x:  # back, below what is between
+        bend, lift = 60.0, 40.0 + 0.05 * (x - to_x)
     line = (
-        f"M{number(x)} {number(y)} C{number(x + bend)} {number(y)} "
-        f"{number(to_x - bend)} {number(to_y)} {number(to_x)} {number(to_y)}"
+        f"M{number(x)} {number(y)} C{number(x + bend)} {number(y + lift)} "
+        f"{number(to_x - bend)} {number(to_y + lift)} {number(to_x)} {number(to_y)}"
     )
     doubt = "" if wire.certain else "perhaps"
     mark = wire.mark.value if wire.mark is not Mark.SAME else ""
