@@ -23,6 +23,7 @@ SECTIONS = (
     ("RS95x and RS96x: model and code in step", codes.STEP),
     ("RS97x: differences between two models", codes.DIFFERENCES),
     ("RS98x: recorded runs", codes.CONFORMANCE),
+    ("RS99x: the computation graph", codes.GRAPH),
 )
 
 HEAD = """\

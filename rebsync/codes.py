@@ -4,7 +4,7 @@ RS1xx syntax, RS2xx names, RS3xx types, RS4xx declarations and structure, RS5xx 
 model that is accepted, RS6xx warnings about robotic models (thesis, section 3.2), RS7xx what
 cannot be generated, RS8xx files, options and configuration, RS90x and RS91x properties, RS92x
 runs and state spaces, RS94x extraction, RS95x and RS96x model and code in step, RS97x
-differences between two models, RS98x recorded runs.
+differences between two models, RS98x recorded runs, RS99x the computation graph.
 """
 
 from __future__ import annotations
@@ -259,6 +259,18 @@ CONFORMANCE = {
     "RS987": "a property that a recorded run violates",
 }
 
+GRAPH = {
+    "RS990": "a topic, service or action whose ends have different types",
+    "RS991": "a subscription that asks more of a quality of service than a publisher offers",
+    "RS992": "a topic to which nothing of what was read publishes",
+    "RS993": "a topic to which nothing of what was read subscribes",
+    "RS994": "two names of the computation graph that differ by a slip",
+    "RS995": "a remapping of a name that its node does not use",
+    "RS996": "a parameter that is set and that its node does not have",
+    "RS997": "a service or action that nothing of what was read offers",
+    "RS998": "a service or action that nothing of what was read calls",
+}
+
 CODES: dict[str, str] = {
     **SYNTAX,
     **NAMES,
@@ -274,4 +286,5 @@ CODES: dict[str, str] = {
     **DIFFERENCES,
     **STEP,
     **CONFORMANCE,
+    **GRAPH,
 }

@@ -15,6 +15,7 @@ from tree_sitter import Node as SyntaxNode
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.routines import Access
+from rebsync.reverse.policies import Policies
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp
 from rebsync.source import Source, Span
@@ -144,7 +145,10 @@ class NodeFact:
 
 @dataclass(frozen=True, slots=True)
 class PublisherFact:
-    """`type` is `package/Type`, as for all others."""
+    """`type` is `package/Type`, as for all others.
+
+    `policies` are those of its quality of service; None in ROS 1, which has none.
+    """
 
     site: Site
     topic: Resolved
@@ -152,11 +156,12 @@ class PublisherFact:
     depth: Resolved
     latched: Resolved = False
     transport: str | None = None
+    policies: Policies | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
 class SubscriptionFact:
-    """`single` says that the call waits for one message."""
+    """`single` says that the call waits for one message; `policies` as of a publisher."""
 
     site: Site
     topic: Resolved
@@ -165,6 +170,7 @@ class SubscriptionFact:
     callbacks: Callbacks
     single: bool = False
     transport: str | None = None
+    policies: Policies | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,6 +31,7 @@ from rebsync.reverse.graph import (
     Under,
     Unresolved,
 )
+from rebsync.reverse.policies import FOR_EVER, Period, Policies
 
 Data: TypeAlias = "bool | int | float | str | list[Data] | dict[str, Data] | None"
 Item: TypeAlias = "dict[str, Data]"
@@ -130,7 +131,24 @@ def _channel(fact: PublisherFact | SubscriptionFact) -> Item:
         item |= {"callback": _called(fact.callbacks), "single": fact.single}
     if fact.transport is not None:
         item["transport"] = fact.transport
+    if fact.policies is not None:
+        item["qos"] = policies_data(fact.policies)
     return item
+
+
+def policies_data(policies: Policies) -> Item:
+    """The policies of a quality of service; null for a period that never ends."""
+    return {
+        "reliability": policies.reliability,
+        "durability": policies.durability,
+        "liveliness": policies.liveliness,
+        "deadline": _period(policies.deadline),
+        "lease": _period(policies.lease),
+    }
+
+
+def _period(period: Period) -> Data:
+    return None if period == FOR_EVER else period
 
 
 def _parameter(fact: ParameterFact) -> Item:

@@ -28,7 +28,7 @@ _INEXACT = {
 
 
 @dataclass(frozen=True, slots=True)
-class Share:
+class BodyShare:
     """How many statements a body has, and how many places of each grade are not exact."""
 
     statements: int
@@ -68,11 +68,11 @@ def _diagnostic(finding: Finding) -> Diagnostic:
     return Diagnostic(code, finding.span, message, hint, severity=severity)
 
 
-def shares(extracted: Extracted) -> list[tuple[str, Share]]:
+def shares(extracted: Extracted) -> list[tuple[str, BodyShare]]:
     """Each body with its share."""
     grades = Counter((f.within, f.grade) for f in extracted.findings)
     return [
-        (name, Share(count, tuple(grades[name, grade] for grade in _INEXACT)))
+        (name, BodyShare(count, tuple(grades[name, grade] for grade in _INEXACT)))
         for name, count in extracted.statements
     ]
 
@@ -98,7 +98,7 @@ def summary(extracted: Extracted) -> str:
     """How many statements of all bodies are exact, and how many are not."""
     found = [share for _, share in shares(extracted)]
     columns = zip([0] * len(_INEXACT), *(s.inexact for s in found), strict=True)
-    return Share(sum(s.statements for s in found), tuple(map(sum, columns))).text
+    return BodyShare(sum(s.statements for s in found), tuple(map(sum, columns))).text
 
 
 def _outside(extracted: Extracted) -> str:

@@ -18,6 +18,7 @@ COMMANDS = {
     "extract": "Read the code of a package back into a model.",
     "fmt": "Bring models into the canonical layout.",
     "generate": "Write the ROS package of a model.",
+    "graph": "Draw the computation graph of packages, and tell what is wrong in it.",
     "lint": "Report mistakes in models and properties.",
     "monitor": "Write the node that compares a run of a system with its model.",
     "new": "Begin a model from a conceptual model in TOML.",

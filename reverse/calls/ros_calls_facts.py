@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import field, replace
+from functools import reduce
 
 from tree_sitter import Node
 
@@ -18,6 +19,7 @@ from rebsync.reverse.graph import (
     Callback,
     ClientFact,
     Fact,
+    FromParameter,
     NodeFact,
     OneOf,
     ParameterFact,
@@ -31,6 +33,7 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Access, Kind
+from rebsync.reverse.policies import NOT_KNOWN, USUAL, Policies, either
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_names import is_plain, name_under, one_of, resolved
@@ -60,6 +63,7 @@ class _Answer:
     values: dict[str, Resolved | None] = field(default_factory=dict)
     called: list[Called] = field(default_factory=list)
     searched: bool = False
+    policies: list[Policies] = field(default_factory=list)
 
 
 @dataclass(slots=True)
@@ -95,7 +99,12 @@ class Facts:
         if not called and "callback" not in ask.arguments and ask.kind is Kind.SUBSCRIPTION:
             called = registered(self.values, self.callbacks, site)
         searched = any(a.searched for a in answers)
-        return [self._fact(asked, merged, distinct(called), called, searched)]
+        fact = self._fact(asked, merged, distinct(called), called, searched)
+        policies = [p for a in answers for p in a.policies]
+        if policies and isinstance(fact, PublisherFact | SubscriptionFact):
+            both = NOT_KNOWN if self.values.truncated else reduce(either, policies)
+            return [replace(fact, policies=both)]
+        return [fact]
 
     def _answers(self, asked: Asked) -> list[_Answer]:
         """What the arguments are on each way into the function around a call."""
@@ -200,6 +209,7 @@ class Facts:
         value = self.values.value(given.node, given.frame)
         answer.values["depth"] = self._resolved(value, given)
         qualities = [v for v in ways(value) if isinstance(v, Quality)]
+        answer.policies += [_policies_of(v) for v in ways(value)] if flat else []
         if qualities:
             answer.values["latched"] = one_of(q.latched for q in qualities)
         elif flat and isinstance(value, Unresolved):
@@ -358,6 +368,17 @@ def _told_apart(value: Resolved | None, key: str, answers: list[_Answer]) -> Res
         return value
     known = [(a.frame, v) for a in answers if (v := a.values.get(key)) is not None]
     return OneOf(value.values, tuple((given_to(frame), v) for frame, v in known))
+
+
+def _policies_of(value: Value) -> Policies:
+    """What a quality of service asks of the other end; a number alone is a depth."""
+    match value:
+        case Quality(policies=policies):
+            return policies
+        case int() | FromParameter():
+            return USUAL
+        case _:
+            return NOT_KNOWN
 
 
 def _text(nodes: tuple[Node, ...]) -> bool:

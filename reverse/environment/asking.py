@@ -16,7 +16,7 @@ _SHOWN = 12
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class TopicVocabulary:
     """What can be asked of: observations with their rebecs, constants of messages by their names.
 
     `unit` is the length of the model's unit of time in seconds.

@@ -26,7 +26,7 @@ _EITHER = m.Choice((m.BoolLiteral(False), m.BoolLiteral(True)))
 
 
 @dataclass(frozen=True, slots=True)
-class Closed:
+class ClosedModel:
     """A closed model; what is assumed of the environment, and where that may be too little.
 
     `gaps` say of which values only some are sent, so that nothing is proved.
@@ -37,16 +37,18 @@ class Closed:
     gaps: tuple[str, ...] = ()
 
 
-def closed(model: m.Model, ends: Sequence[OpenEnd], properties: Properties) -> Closed:
+def closed(model: m.Model, ends: Sequence[OpenEnd], properties: Properties) -> ClosedModel:
     """The model with an environment at its open ends; without `main` it stays as it is."""
     started = {r.name for r in model.main.rebecs} if model.main is not None else set()
     at = [e for e in ends if e.rebec in started]
     if not at:
-        return Closed(replace(model, classes=tuple(map(without_open, model.classes))))
+        return ClosedModel(replace(model, classes=tuple(map(without_open, model.classes))))
     environment = _Environment(model, properties, set(started))
     for together in _topics(at).values():
         environment.add(together)
-    return Closed(environment.closed(at), tuple(environment.assumptions), tuple(environment.gaps))
+    return ClosedModel(
+        environment.closed(at), tuple(environment.assumptions), tuple(environment.gaps)
+    )
 
 
 def _topics(ends: Iterable[OpenEnd]) -> dict[tuple[str, str], list[OpenEnd]]:

@@ -47,14 +47,14 @@ def overwritten(model: m.Model, topics: Iterable[str]) -> Iterator[tuple[str, st
     for owner in model.classes:
         for topic in topics if isinstance(owner, m.ReactiveClass) else ():
             assert isinstance(owner, m.ReactiveClass)
-            of_class = _Class(owner, topic, {})
+            of_class = _PublicationCount(owner, topic, {})
             bodies = [x for x in owner.members if isinstance(x, m.Constructor | m.MessageServer)]
             if any(of_class.most(x.body) >= _MANY for x in bodies if x.body is not None):
                 yield owner.name, topic
 
 
 @dataclass(frozen=True, slots=True)
-class _Class:
+class _PublicationCount:
     """Counts what the bodies of a class publish to one topic; `methods` are those known by now."""
 
     owner: m.ReactiveClass

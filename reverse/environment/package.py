@@ -15,9 +15,9 @@ from rebsync.questions import LeadsTo, Question
 from rebsync.records import dataclass
 from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.build.message_types import MessageTypes
-from rebsync.reverse.environment.asking import Asked
+from rebsync.reverse.environment.asking import TopicVocabulary
 from rebsync.reverse.environment.assumptions import assumed
-from rebsync.reverse.environment.closing import Closed, closed, without_open
+from rebsync.reverse.environment.closing import ClosedModel, closed, without_open
 from rebsync.reverse.environment.observation import (
     ANY,
     COUNT,
@@ -99,19 +99,19 @@ def asked_of(
     files, extracted = in_fitting_unit(files, () if within is None else (within,))
     types = message_types(files)
     seen = tuple(observations(extracted.joined, types))
-    asked = Asked(text, seen, types.constants(), unit_of_time(files))
+    asked = TopicVocabulary(text, seen, types.constants(), unit_of_time(files))
     return files, asked.property_text(question)
 
 
 def _surrounded(
     model: m.Model, ends: tuple[OpenEnd, ...], properties: Properties, choice: EnvironmentChoice
-) -> Closed:
+) -> ClosedModel:
     if choice == "free":
         return closed(model, ends, properties)
     names = dict.fromkeys(end.name or f"{end.rebec}.{end.server}" for end in ends)
     told = (f"nothing comes from outside: {', '.join(names)}",) if names else ()
     classes = tuple(without_open(c) for c in model.classes)
-    return Closed(replace(model, classes=classes), told)
+    return ClosedModel(replace(model, classes=classes), told)
 
 
 # --- the unit of time ---------------------------------------------------------------------------
@@ -145,7 +145,7 @@ def in_fitting_unit(
     return files, extracted
 
 
-def _time(unit: Fraction, around: Closed) -> Iterator[str]:
+def _time(unit: Fraction, around: ClosedModel) -> Iterator[str]:
     if around.assumptions or unit != 1:
         yield f"a unit of time is {float(unit):g} s"
 

@@ -126,8 +126,10 @@ class DataFlow:
             for owner in classes:
                 for member in owner.members:
                     if isinstance(member, _BODIES) and member.body is not None:
-                        _Body(self, classes, owners, owner.name, member.name).visit(member.body)
-            outside = _Body(self, classes, owners, _PROPERTIES, "")
+                        _FlowThroughBody(self, classes, owners, owner.name, member.name).visit(
+                            member.body
+                        )
+            outside = _FlowThroughBody(self, classes, owners, _PROPERTIES, "")
             for define in properties.defines:
                 for expression in state_expressions(define.value):
                     if outside.visit(expression):
@@ -138,7 +140,7 @@ class DataFlow:
 
 
 @dataclass(frozen=True, slots=True)
-class _Body:
+class _FlowThroughBody:
     """Follows the value through one body."""
 
     flow: DataFlow

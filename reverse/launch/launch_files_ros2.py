@@ -6,7 +6,7 @@ from rebsync.reverse.launch import launch_python
 from rebsync.reverse.launch.launch_tags import actions_of_xml, actions_of_yaml, has_words_of_ros_2
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.launch.ros2_actions import Action
-from rebsync.reverse.launch.ros2_reading import Load, Reader
+from rebsync.reverse.launch.ros2_reading import Load, Reader, nothing
 from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source
 
@@ -25,9 +25,12 @@ def actions_of(source: Source) -> tuple[Action, ...] | Unknown:
     return actions_of_yaml(source) if source.path.endswith(_YAML) else actions_of_xml(source)
 
 
-def read_ros2_launch(source: Source, load: Load, package: str = "") -> Launch:
+def read_ros2_launch(
+    source: Source, load: Load, package: str = "", elsewhere: Load = nothing
+) -> Launch:
     """What a launch file of ROS 2 and those that it includes start and set.
 
-    `load` gives the text of a path below the folder of the package `package`.
+    `load` gives the text of a path below the folder of the package `package`, `elsewhere` that of
+    a path as the file writes it: `share:/` and the package in front, or on the disk.
     """
-    return Reader(load, actions_of, package).result(source)
+    return Reader(load, actions_of, package, elsewhere).result(source)

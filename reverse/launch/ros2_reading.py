@@ -42,6 +42,11 @@ _DEEPEST = 20
 _COMPUTED = "it is computed when the file runs"
 
 
+def nothing(_: str) -> Source | None:
+    """No text at all."""
+    return None
+
+
 @dataclass(frozen=True, slots=True)
 class _Scope:
     """What holds for the actions of one group or file."""
@@ -73,11 +78,15 @@ class _Scope:
 
 @dataclass(slots=True)
 class Reader:
-    """Plays the actions of files; `common` are the parameters that files give all nodes."""
+    """Plays the actions of files; `common` are the parameters that files give all nodes.
+
+    `elsewhere` gives texts of other packages.
+    """
 
     load: Load
     actions: Actions
     package: str = ""
+    elsewhere: Load = nothing
     nodes: list[LaunchedNode] = field(default_factory=list)
     common: dict[str, Parameter] = field(default_factory=dict)
     files: dict[str, Source] = field(default_factory=dict)
@@ -159,13 +168,12 @@ class Reader:
         if isinstance(path, Open):
             self._unknown("an included launch file", path.why, include.span, scope)
             return
-        inside = below_share(path, self.package)
-        file = self.load(inside) if inside is not None else None
+        inside, file = self._at(path)
         if file is None or depth > _DEEPEST:
             why = "it is not at hand" if file is None else "files include each other too deeply"
             self._unknown("an included launch file", f"`{path}`: {why}", include.span, scope)
             return
-        self.files.setdefault(inside or path, file)
+        self.files.setdefault(inside, file)
         self._file(replace(scope, source=file), depth + 1)
 
     # --- nodes ----------------------------------------------------------------------------------
@@ -263,9 +271,8 @@ class Reader:
         if isinstance(path, Open):
             self._unknown("parameters of a node", path.why, words.span, scope)
             return
-        inside = below_share(path, self.package)
-        file = self.load(inside) if inside is not None else None
-        if inside is None or file is None:
+        inside, file = self._at(path)
+        if file is None:
             why = f"`{path}` is not at hand"
             self._unknown("parameters of a node", why, words.span, scope)
             return
@@ -291,6 +298,14 @@ class Reader:
                 self.common[f"/{key}"] = replace(entry, name=f"/{key}")
             elif _is_for(node.replace("//", "/"), name, namespace):
                 yield replace(entry, name=key)
+
+    def _at(self, path: str) -> tuple[str, Source | None]:
+        """The file of a path, and by which path it is known."""
+        inside = below_share(path, self.package)
+        file = self.load(inside) if inside is not None else None
+        if inside is not None and file is not None:
+            return inside, file
+        return path, self.elsewhere(path)
 
     # --- texts and unknowns ---------------------------------------------------------------------
 

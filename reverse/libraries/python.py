@@ -221,6 +221,18 @@ def profiles() -> Mapping[str, int]:
     return {n: d for library in _libraries() for n, d in library.table.profiles.items()}
 
 
+@derived
+def actions() -> Mapping[str, tuple[Routine, Library]]:
+    """By full names what makes the end of an action, and of which library."""
+    return {n: (r, library) for library in _libraries() for n, r in library.actions.items()}
+
+
+@derived
+def policies() -> Mapping[str, tuple[str, str]]:
+    """Reliability and durability of those that have other ones than the usual."""
+    return {n: p for library in _libraries() for n, p in library.table.policies.items()}
+
+
 # --- what calls do ------------------------------------------------------------------------------
 
 

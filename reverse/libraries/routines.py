@@ -207,12 +207,13 @@ class Table:
 
     `qualities` are classes of qualities of service with the depth they have by themselves (None:
     the first argument says it), `profiles` names of such qualities, by the last name or the last
-    two. `spans` are functions and classes that make a span of time of a number, with the seconds of
-    its unit.
+    two; `policies` are their reliability and durability where these are not the usual ones. `spans`
+    are functions and classes that make a span of time of a number, with the seconds of its unit.
     """
 
     qualities: Mapping[str, int | None] = field(default_factory=dict)
     profiles: Mapping[str, int] = field(default_factory=dict)
+    policies: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     spans: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -241,7 +242,8 @@ class Library:
     in other libraries. `versions` are macros that compare the library's version with their
     arguments; `included` is the folder that its headers are in where that has another name. What
     is `generated` is called by code that rebsync makes, and its names mean
-    something there only.
+    something there only. `actions` make the ends of actions, by their full names: what these do
+    has no place in a model, so that they are no functions.
     """
 
     name: str
@@ -268,3 +270,4 @@ class Library:
     included: str = ""
     strict: bool = False
     generated: bool = False
+    actions: Mapping[str, Routine] = field(default_factory=dict)

@@ -124,12 +124,17 @@ class UnitFacts:
 
 @dataclass(slots=True)
 class Units:
-    """The units of some code, and where they start."""
+    """The units of some code, and where they start.
+
+    With `whole` these are all that ask ROS for anything: generated ones, and those with clients or
+    parameters alone.
+    """
 
     code: Code
     facts: UnitFacts
     programs: tuple[Program, ...]
     generated: bool = False
+    whole: bool = False
     _owners: dict[int, str | None] = field(default_factory=dict)
     _here: list[Fact] | None = None
     # By the names of classes, each fact with its number in the order of all.
@@ -160,7 +165,7 @@ class Units:
         own: list[Unit] = []
         for program in self.programs:
             unit = self.of_program(program)
-            if any(_connects(f) for f in unit.facts):
+            if any(self._counts(f) for f in unit.facts):
                 own.append(unit)
                 starts.append(Start(unit, program, None))
             for m in made[program.main.node.id]:
@@ -187,7 +192,7 @@ class Units:
 
     def _classes(self) -> list[str]:
         """The classes with callbacks, publishers or timers, inherited ones counted."""
-        with_facts = {o for f in self._facts() if _connects(f) for o in [self.owner_of(f)] if o}
+        with_facts = {o for f in self._facts() if self._counts(f) for o in [self._holder(f)] if o}
         names = [
             n
             for n, c in self.code.classes.items()
@@ -197,8 +202,20 @@ class Units:
         ]
         return names
 
+    def _counts(self, fact: Fact) -> bool:
+        """Whether a fact makes a unit of what it belongs to."""
+        return self.whole or _connects(fact)
+
+    def _holder(self, fact: Fact) -> str | None:
+        """The class that a fact belongs to, of whatever kind it is."""
+        if isinstance(fact, _CONNECTS):
+            return self.owner_of(fact)
+        return fact.site.owner if fact.site.owner in self.code.classes else None
+
     def _is_generated(self, owner: CppClass) -> bool:
         """Whether a class is one of those that rebsync makes, which are read another way."""
+        if self.whole:
+            return False
         fields = (f for c in self.code.lineage(owner.name) for f in c.fields)
         return any(text_of(f.type) == "Mailbox" for f in fields)
 

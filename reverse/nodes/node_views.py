@@ -19,24 +19,31 @@ _HEADERS = tuple(HEADERS)
 
 
 def all_units(
-    code: Code, graph: Graph, programs: tuple[Program, ...], generated: bool
+    code: Code,
+    graph: Graph,
+    programs: tuple[Program, ...],
+    generated: bool,
+    whole: bool = False,
 ) -> tuple[list[Unit], list[Start]]:
-    """All units of some code, and where they start; the names of units are different."""
+    """All units of some code, and where they start; the names of units are different.
+
+    `whole` asks for all that ask ROS for anything.
+    """
     facts = UnitFacts.of(graph)
     if not _is_ambiguous(code):
-        return _renamed(*Units(code, facts, programs, generated).all())
+        return _renamed(*Units(code, facts, programs, generated, whole).all())
     units: list[Unit] = []
     starts: list[Start] = []
     included = _Included(code)
     for program in programs:
         seen = included.seen_by(program)
         view = code.view(cpp for cpp in code.files if cpp.source.path in seen)
-        of_program, started = Units(view, facts, (program,), generated).all()
+        of_program, started = Units(view, facts, (program,), generated, whole).all()
         known = {id(u): _same(u, units) for u in of_program}
         used = {id(s.unit) for s in started}
         units += [u for u in of_program if known[id(u)] is u and id(u) in used]
         starts += [replace(s, unit=known[id(s.unit)]) for s in started]
-    rest, more = Units(code, facts, (), generated).all()
+    rest, more = Units(code, facts, (), generated, whole).all()
     places = {u.owner.cpp.source.path for u in units if u.owner is not None}
     units += [u for u in rest if u.owner is not None and u.owner.cpp.source.path not in places]
     return _renamed(units, [*starts, *(s for s in more if s.unit in units)])

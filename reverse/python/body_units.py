@@ -41,14 +41,20 @@ def units_of(
     graph: Graph,
     is_people: Callable[[Fact], bool],
     taken: Collection[str] = (),
+    whole: bool = False,
 ) -> list[PyUnit]:
-    """The classes and modules that talk to ROS, under names that are not `taken`."""
+    """The classes and modules that talk to ROS, under names that are not `taken`.
+
+    With `whole` those are units too that have clients or parameters alone.
+    """
     code = values.code
     facts = [(f, scope_of(code, f)) for f in graph.facts if is_people(f)]
     grouped: dict[Scope, list[Fact]] = {}
     for fact, scope in facts:
         grouped.setdefault(scope.owner or scope.module, []).append(fact)
-    owners = [o for o, own in grouped.items() if any(isinstance(f, _CONNECTS) for f in own)]
+    owners = [
+        o for o, own in grouped.items() if whole or any(isinstance(f, _CONNECTS) for f in own)
+    ]
     families = {o: _family(values, o) for o in owners}
     below = {above for o in owners for above in families[o][1:]}
     names = Names.beside(taken)

@@ -31,7 +31,7 @@ from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_asks import PyRosCall, asked_in
 from rebsync.reverse.python.py_callbacks import callbacks_of, filtered
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, PyCode, Scope, arguments_of
-from rebsync.reverse.python.py_quality import depth_of, latched_of
+from rebsync.reverse.python.py_quality import depth_of, latched_of, policies_of
 from rebsync.reverse.python.py_results import declared_together
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_values import PyValues
@@ -56,6 +56,11 @@ def graph_with(values: PyValues) -> Graph:
     """The same of files some of whose values may be known."""
     facts = _Facts(values)
     return Graph(tuple(f for asked in asked_in(values) for f in facts.of(asked)))
+
+
+def facts_of(values: PyValues, asked: PyRosCall) -> Iterator[Fact]:
+    """The facts of one call."""
+    return _Facts(values).of(asked)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -102,10 +107,13 @@ class _Facts:
         site, name, type_ = site_of(asked), self._name(asked), self._type(asked)
         depth = depth_of(self.values, asked)
         if asked.ask.kind is Kind.PUBLISHER:
-            return PublisherFact(site, name, type_, depth, latched_of(self.values, asked))
+            latched = latched_of(self.values, asked)
+            policies = policies_of(self.values, asked)
+            return PublisherFact(site, name, type_, depth, latched, policies=policies)
         if asked.ask.kind is Kind.SINGLE:
             return SubscriptionFact(site, name, type_, 1, (), True)
-        return SubscriptionFact(site, name, type_, depth, self._callbacks(asked))
+        policies = policies_of(self.values, asked)
+        return SubscriptionFact(site, name, type_, depth, self._callbacks(asked), policies=policies)
 
     # --- parameters -----------------------------------------------------------------------------
 

@@ -3,11 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import reduce
 
 from tree_sitter import Node
 
-from rebsync.reverse.graph import Resolved, Unresolved
+from rebsync.reverse.graph import FromParameter, Resolved, Unresolved
 from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.policies import (
+    FOR_EVER,
+    NOT_KNOWN,
+    UNKNOWN,
+    USUAL,
+    Period,
+    Policies,
+    either,
+    policy_of,
+)
 from rebsync.reverse.python.py_asks import PyRosCall
 from rebsync.reverse.python.py_bindings import reaching
 from rebsync.reverse.python.py_index import Scope, arguments_of
@@ -15,6 +26,7 @@ from rebsync.reverse.python.py_lookup import bound
 from rebsync.reverse.python.py_tree import text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import (
+    Duration,
     External,
     Made,
     NoneValue,
@@ -76,6 +88,58 @@ def latched_of(values: PyValues, asked: PyRosCall) -> Resolved:
     return resolved(distinct(found), unknown) if found else False
 
 
+def policies_of(values: PyValues, asked: PyRosCall) -> Policies | None:
+    """The policies of its quality of service; None for a library that has none."""
+    if not asked.ask.flat or not libraries.client_in(asked.scope.py.source.text).flat:
+        return None
+    node = asked.given.get("depth")
+    if node is None:
+        return NOT_KNOWN
+    found = [_policies(values, way, node, asked.scope) for way in values.ways(node, asked.scope)]
+    return reduce(either, found) if found else NOT_KNOWN
+
+
+def _policies(values: PyValues, way: Value, node: Node, scope: Scope) -> Policies:
+    match way:
+        case Made(by) if by.endswith("QoSProfile"):
+            return Policies(
+                _policy(values, way, "reliability", USUAL.reliability, node, scope),
+                _policy(values, way, "durability", USUAL.durability, node, scope),
+                _policy(values, way, "liveliness", USUAL.liveliness, node, scope),
+                _period(values, way, "deadline", node, scope),
+                _period(values, way, "liveliness_lease_duration", node, scope),
+            )
+        case External(name):
+            parts = name.removesuffix(".value").split(".")
+            named_ = libraries.policies()
+            last = next(
+                (n for n in (".".join(parts[-2:]), parts[-1]) if n in libraries.profiles()), ""
+            )
+            if not last:
+                return NOT_KNOWN
+            reliability, durability = named_.get(last, (USUAL.reliability, USUAL.durability))
+            return Policies(reliability, durability)
+        case int() | FromParameter():
+            return USUAL
+        case _:
+            return NOT_KNOWN
+
+
+def _policy(values: PyValues, made: Made, key: str, usual: str, node: Node, scope: Scope) -> str:
+    """One policy of a profile: the usual one where nothing gives it."""
+    given = _of_profile(values, made, key, node, scope, (External(usual),))
+    words = {policy_of(w.name) if isinstance(w, External) else UNKNOWN for w in given}
+    return words.pop() if len(words) == 1 else UNKNOWN
+
+
+def _period(values: PyValues, made: Made, key: str, node: Node, scope: Scope) -> Period:
+    """A span of time of a profile, in seconds."""
+    given = _of_profile(values, made, key, node, scope, (Duration(FOR_EVER),))
+    seconds = given[0].seconds if len(given) == 1 and isinstance(given[0], Duration) else None
+    known = isinstance(seconds, (int, float)) and not isinstance(seconds, bool)
+    return float(seconds) if known and isinstance(seconds, (int, float)) else UNKNOWN
+
+
 def _keeps(values: PyValues, way: Value, node: Node, scope: Scope) -> Value:
     match way:
         case External(name):
@@ -86,13 +150,15 @@ def _keeps(values: PyValues, way: Value, node: Node, scope: Scope) -> Value:
             return values.unknown("the durability is not known", node, scope)
 
 
-def _of_profile(values: PyValues, made: Made, key: str, node: Node, scope: Scope) -> Ways:
-    """A key of a profile: set after it was made, or given when it was."""
+def _of_profile(
+    values: PyValues, made: Made, key: str, node: Node, scope: Scope, usual: Ways = ()
+) -> Ways:
+    """A key of a profile: set after it was made, or given when it was, or else `usual`."""
     stored = scope.stores.get((text_of(node), key), [])
     seen = reaching(stored, node)
     later = [w for b in seen for w in bound(values, b, key, scope)]
     _, keywords = arguments_of(made.call)
-    first = values.ways(keywords[key], made.scope) if key in keywords else ()
+    first = values.ways(keywords[key], made.scope) if key in keywords else usual
     if seen and reaching([seen[0]], node) and _always(seen[0].node, node):
         return distinct(later)
     return distinct([*first, *later])

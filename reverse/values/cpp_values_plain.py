@@ -12,6 +12,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import FromParameter, OneOf, Place, Resolved, Unresolved
+from rebsync.reverse.policies import USUAL, Policies
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp
 
@@ -103,10 +104,14 @@ class Length:
 
 @dataclass(frozen=True, slots=True)
 class Quality:
-    """A quality of service: how many messages wait at most, and whether the last is kept."""
+    """A quality of service: how many messages wait at most, and whether the last is kept.
+
+    `policies` are those that must fit the other end.
+    """
 
     depth: Resolved
     latched: Resolved = False
+    policies: Policies = USUAL
 
 
 @dataclass(frozen=True, slots=True)

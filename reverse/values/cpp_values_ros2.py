@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import re
-from functools import partial
+from dataclasses import replace
+from functools import partial, reduce
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.graph import FromParameter, Unresolved
+from rebsync.reverse.graph import FromParameter, Resolved, Unresolved
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import RATIOS, SUFFIXES, UNITS
+from rebsync.reverse.policies import NOT_KNOWN, UNKNOWN, USUAL, Period, either, policy_of
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -29,6 +31,7 @@ from rebsync.reverse.values.cpp_values_plain import (
     Value,
     choice,
     each,
+    ways,
 )
 
 if TYPE_CHECKING:
@@ -86,8 +89,9 @@ def _declared_types(declarator: Node) -> tuple[Node, ...]:
 
 def unset(type_: str) -> Quality | None:
     """What a variable of a quality of service is that is declared without a value."""
-    depth = libraries.qualities().get(type_.rpartition("::")[2])
-    return Quality(depth) if depth is not None else None
+    name = type_.rpartition("::")[2]
+    depth = libraries.qualities().get(name)
+    return _named(name, depth) if depth is not None else None
 
 
 # --- time ---------------------------------------------------------------------------------------
@@ -144,24 +148,49 @@ def _quality(values: CppEvaluator, name: str, use: Use, frame: Frame) -> Value:
     if not given:
         depth = libraries.qualities()[name]
         unknown = values.unknown("a quality without a depth", use.node, frame)
-        return Quality(depth if depth is not None else unknown)
-    return each(lambda v: _deep(values, v, use.node, frame), values.value(given[0], frame))
+        return _named(name, depth if depth is not None else unknown)
+    own = name if name in libraries.policies() else ""
+    found = each(lambda v: _deep(values, v, use.node, frame, own), values.value(given[0], frame))
+    return found if len(given) == 1 else _of_profile(values, found, given[1], frame)
 
 
-def _deep(values: CppEvaluator, value: Value, node: Node, frame: Frame) -> Value:
-    """A quality whose depth is a value, or that is copied from another."""
-    if isinstance(value, (Quality, Nothing)):
+def _of_profile(values: CppEvaluator, found: Value, profile: Node, frame: Frame) -> Value:
+    """A quality with the policies of the profile that its constructor is given behind the depth."""
+    given = ways(values.value(profile, frame))
+    kinds = [v.policies if isinstance(v, Quality) else NOT_KNOWN for v in given]
+    policies = reduce(either, kinds) if kinds else NOT_KNOWN
+    return each(lambda v: replace(v, policies=policies) if isinstance(v, Quality) else v, found)
+
+
+def _named(name: str, depth: Resolved) -> Quality:
+    """What a class or a constant of a library stands for."""
+    reliability, durability = libraries.policies().get(name, (USUAL.reliability, USUAL.durability))
+    policies = replace(USUAL, reliability=reliability, durability=durability)
+    return Quality(depth, durability == "transient_local", policies)
+
+
+def _deep(values: CppEvaluator, value: Value, node: Node, frame: Frame, name: str = "") -> Value:
+    """A quality whose depth is a value, or that is copied from another.
+
+    `name` is the class that is made, if that has policies of its own.
+    """
+    if isinstance(value, Quality):
+        return _named(name, value.depth) if name else value
+    if isinstance(value, Nothing):
         return value
     unknown = values.unknown("a depth that is not known", node, frame)
     depth = resolved(value, unknown)
-    return Quality(depth if depth is not None else unknown)
+    found = _named(name, depth if depth is not None else unknown)
+    # What is not known may be another quality as well as a depth.
+    known = isinstance(value, (int, FromParameter))
+    return found if known else replace(found, policies=NOT_KNOWN)
 
 
 def named_by_ros2(text: str) -> Value | None:
     """What a name of a library is: a quality, or a type of parameters that have no value."""
     name = text.rpartition("::")[2]
     if name in libraries.profiles():
-        return Quality(libraries.profiles()[name])
+        return _named(name, libraries.profiles()[name])
     return Nothing() if _TYPE.search(text) else None
 
 
@@ -175,24 +204,67 @@ def changed(
         case "keep_last" if given:
             deep = [_deep(values, v, node, frame) for v in [values.value(given[0], frame)]]
             depth = next((q.depth for q in deep if isinstance(q, Quality)), value.depth)
-            return Quality(depth, value.latched)
+            return replace(value, depth=depth)
         case "keep_all":
-            return Quality(0, value.latched)
-        case "transient_local":
-            return Quality(value.depth, True)
-        case "durability_volatile":
-            return Quality(value.depth)
-        case "durability" if given:
-            text = text_of(given[0])
-            if _KEPT.search(text) or _LOST.search(text):
-                return Quality(value.depth, _KEPT.search(text) is not None)
-            why = "a durability that is not known"
-            return Quality(value.depth, values.unknown(why, given[0], frame))
+            return replace(value, depth=0)
         case "history":
             why = "a depth that goes by the history"
-            return Quality(values.unknown(why, node, frame), value.latched)
+            return replace(value, depth=values.unknown(why, node, frame))
+        case "durability" if given:
+            return _durable(values, value, given[0], frame)
+        case _:
+            return _with_policy(values, value, name, given, frame)
+
+
+def _durable(values: CppEvaluator, value: Quality, given: Node, frame: Frame) -> Quality:
+    text = text_of(given)
+    policies = replace(value.policies, durability=policy_of(text))
+    if _KEPT.search(text) or _LOST.search(text):
+        return Quality(value.depth, _KEPT.search(text) is not None, policies)
+    why = "a durability that is not known"
+    return Quality(value.depth, values.unknown(why, given, frame), policies)
+
+
+def _with_policy(
+    values: CppEvaluator, value: Quality, name: str, given: tuple[Node, ...], frame: Frame
+) -> Quality:
+    """A quality after a method that sets one of the policies that must fit the other end."""
+    policies = value.policies
+    match name:
+        case "transient_local":
+            return Quality(value.depth, True, replace(policies, durability=name))
+        case "durability_volatile":
+            return Quality(value.depth, False, replace(policies, durability="volatile"))
+        case "durability_best_available":
+            return replace(value, policies=replace(policies, durability="best_available"))
+        case "reliable" | "best_effort":
+            return replace(value, policies=replace(policies, reliability=name))
+        case "reliability_best_available":
+            return replace(value, policies=replace(policies, reliability="best_available"))
+        case "reliability" if given:
+            word = policy_of(text_of(given[0]))
+            return replace(value, policies=replace(policies, reliability=word))
+        case "liveliness" if given:
+            word = policy_of(text_of(given[0]))
+            return replace(value, policies=replace(policies, liveliness=word))
+        case "deadline" if given:
+            period = _period(values, given, frame)
+            return replace(value, policies=replace(policies, deadline=period))
+        case "liveliness_lease_duration" if given:
+            period = _period(values, given, frame)
+            return replace(value, policies=replace(policies, lease=period))
         case _:
             return value
+
+
+def _period(values: CppEvaluator, given: tuple[Node, ...], frame: Frame) -> Period:
+    """A span of time in seconds, which may be given as seconds and nanoseconds."""
+    if len(given) != 1:
+        return UNKNOWN
+    value = values.value(given[0], frame)
+    seconds = value.seconds if isinstance(value, Length) else None
+    known = isinstance(seconds, (int, float)) and not isinstance(seconds, bool)
+    return float(seconds) if known and isinstance(seconds, (int, float)) else UNKNOWN
 
 
 def adjusted(values: CppEvaluator, before: Value, definition: Definition, frame: Frame) -> Value:

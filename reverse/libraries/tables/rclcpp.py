@@ -123,13 +123,14 @@ _METHODS = {
         # Those that change what is read of a quality of service, and those that leave it alone.
         **dict.fromkeys(("keep_last", "keep_all", "history", "durability"), Routine(Kind.CHANGE)),
         **dict.fromkeys(("transient_local", "durability_volatile"), Routine(Kind.CHANGE)),
-        **_does(Effect.NONE, "reliable", "best_effort", "reliability", kind=Kind.QUALITY),
-        **_does(Effect.NONE, "deadline", "lifespan", "liveliness", kind=Kind.QUALITY),
-        **_does(Effect.NONE, "liveliness_lease_duration", kind=Kind.QUALITY),
+        **dict.fromkeys(("reliable", "best_effort", "reliability"), Routine(Kind.CHANGE)),
+        **dict.fromkeys(("deadline", "liveliness"), Routine(Kind.CHANGE)),
+        **dict.fromkeys(("liveliness_lease_duration",), Routine(Kind.CHANGE)),
+        **dict.fromkeys(("reliability_best_available",), Routine(Kind.CHANGE)),
+        **dict.fromkeys(("durability_best_available",), Routine(Kind.CHANGE)),
+        **_does(Effect.NONE, "lifespan", kind=Kind.QUALITY),
         **_does(Effect.NONE, "avoid_ros_namespace_conventions", kind=Kind.QUALITY),
         **_does(Effect.NONE, "get_rmw_qos_profile", kind=Kind.QUALITY),
-        **_does(Effect.NONE, "reliability_best_available", kind=Kind.QUALITY),
-        **_does(Effect.NONE, "durability_best_available", kind=Kind.QUALITY),
     },
     "rclcpp::Parameter": {
         **dict.fromkeys(("as_bool", "as_int", "as_double", "as_string"), Routine(Kind.VALUE)),
@@ -152,6 +153,17 @@ _PROFILES = {
     "rmw_qos_profile_system_default": 0,
     "rmw_qos_profile_best_available": 10,
 }
+# Reliability and durability of those that are not reliable and volatile.
+_POLICIES = {
+    "SensorDataQoS": ("best_effort", "volatile"),
+    "ClockQoS": ("best_effort", "volatile"),
+    "RosoutQoS": ("reliable", "transient_local"),
+    "SystemDefaultsQoS": ("system_default", "system_default"),
+    "BestAvailableQoS": ("best_available", "best_available"),
+    "rmw_qos_profile_sensor_data": ("best_effort", "volatile"),
+    "rmw_qos_profile_system_default": ("system_default", "system_default"),
+    "rmw_qos_profile_best_available": ("best_available", "best_available"),
+}
 
 LIBRARIES = (
     Library(
@@ -159,6 +171,10 @@ LIBRARIES = (
         Language.CPP,
         _FUNCTIONS,
         _METHODS,
+        actions={
+            "rclcpp_action::create_server": _asks(Kind.SERVICE, "", "name"),
+            "rclcpp_action::create_client": _asks(Kind.CLIENT, "", "name"),
+        },
         nodes=frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"}),
         managed=frozenset({"rclcpp_lifecycle::LifecycleNode"}),
         plain=frozenset({"ParameterValue"}),
@@ -174,6 +190,7 @@ LIBRARIES = (
         table=Table(
             _QUALITIES,
             _PROFILES,
+            _POLICIES,
             spans={"rclcpp::Duration": 1e-9, "from_seconds": 1.0, "from_nanoseconds": 1e-9},
         ),
     ),

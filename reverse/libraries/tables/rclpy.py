@@ -18,6 +18,8 @@ _KEYWORDS = (
     *(("frequency", "hz"), ("alternative_value", "default"), ("topic_name", "name")),
 )
 
+_ACTION_KEYWORDS = (("action_type", "type"), ("action_name", "name"))
+
 
 def _asks(kind: Kind, *arguments: str, access: Access | None = None, least: int = 9) -> Routine:
     return Routine(kind, arguments, _KEYWORDS, access, flat=True, least=least)
@@ -154,6 +156,24 @@ _PROFILES = {
     "QoSPresetProfiles.ACTION_STATUS_DEFAULT": 1,
     "QoSPresetProfiles.BEST_AVAILABLE": 10,
 }
+# Reliability and durability of those that are not reliable and volatile.
+_POLICIES = {
+    **dict.fromkeys(
+        ("qos_profile_sensor_data", "QoSPresetProfiles.SENSOR_DATA"), ("best_effort", "volatile")
+    ),
+    **dict.fromkeys(
+        ("qos_profile_action_status_default", "QoSPresetProfiles.ACTION_STATUS_DEFAULT"),
+        ("reliable", "transient_local"),
+    ),
+    **dict.fromkeys(
+        ("qos_profile_system_default", "QoSPresetProfiles.SYSTEM_DEFAULT"),
+        ("system_default", "system_default"),
+    ),
+    **dict.fromkeys(
+        ("qos_profile_best_available", "QoSPresetProfiles.BEST_AVAILABLE"),
+        ("best_available", "best_available"),
+    ),
+}
 
 LIBRARIES = (
     Library(
@@ -161,10 +181,18 @@ LIBRARIES = (
         Language.PYTHON,
         _FUNCTIONS,
         _METHODS,
+        actions={
+            "rclpy.action.ActionServer": Routine(
+                Kind.SERVICE, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
+            ),
+            "rclpy.action.ActionClient": Routine(
+                Kind.CLIENT, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
+            ),
+        },
         nodes=frozenset(_NODES),
         managed=frozenset(n for n in _NODES if n.startswith("rclpy.lifecycle.")),
         marks=("rclpy", "message_filters"),
-        table=Table(profiles=_PROFILES),
+        table=Table(profiles=_PROFILES, policies=_POLICIES),
         logs=("get_logger",),
         strict=True,
     ),

@@ -188,6 +188,10 @@ LIBRARIES = (
         Language.CPP,
         _FUNCTIONS,
         _METHODS,
+        actions={
+            "actionlib::SimpleActionServer": Routine(Kind.SERVICE, ("handle", "name")),
+            "actionlib::SimpleActionClient": Routine(Kind.CLIENT, ("handle", "name")),
+        },
         handles=frozenset({"ros::NodeHandle"}),
         copying=("ros", "tf", "tf2", "tf2_ros", "diagnostic_updater"),
         marks=(

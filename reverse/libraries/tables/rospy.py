@@ -105,5 +105,16 @@ LIBRARIES = (
         plain=frozenset({"rospy.AnyMsg", "rospy.msg.AnyMsg"}),
         flat=False,
         threads=True,
+        actions={
+            "actionlib.SimpleActionServer": Routine(
+                Kind.SERVICE, ("name", "type"), (("ActionSpec", "type"),)
+            ),
+            "actionlib.ActionServer": Routine(
+                Kind.SERVICE, ("name", "type"), (("ActionSpec", "type"),)
+            ),
+            "actionlib.SimpleActionClient": Routine(
+                Kind.CLIENT, ("name", "type"), (("ns", "name"), ("ActionSpec", "type"))
+            ),
+        },
     ),
 )
