@@ -82,16 +82,25 @@ def command(
     with progress(sys.stderr) as report:
         options = Options(limits=limits, allowed=frozenset({"deadlock"}), first=True)
         result = verify(problem, options, report)
-    _tell(_of_question(result), question, style, output)
+    result = _of_question(result)
+    _tell(result, question, style, output)
     return _STATUS[result.verdict]
 
 
 def _of_question(result: Result) -> Result:
-    """What is said of a question: not what else was covered, nor that a violation ended it."""
+    """What is said of a question: not what else was covered, nor that a violation ended it.
+
+    Where the model fails in another way before, the question has no answer.
+    """
     from rebsync.checker.result import Coverage
 
-    reason = result.reason if result.verdict != "violated" else None
-    return replace(result, reason=reason, coverage=Coverage((), (), ()))
+    result = replace(result, coverage=Coverage((), (), ()))
+    if result.verdict != "violated":
+        return result
+    if any(violation.kind == "property" for violation in result.violations):
+        return replace(result, reason=None)
+    reason = f"what the nodes do is not known from here on: {result.violations[0].message}"
+    return replace(result, verdict="undetermined", reason=reason)
 
 
 def _tell(result: Result, question: str, style: str, output: str) -> None:

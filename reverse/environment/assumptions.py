@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rebsync.reverse.findings import Finding, Grade
-from rebsync.reverse.graph import ParameterFact
+from rebsync.reverse.graph import ParameterFact, PublisherFact
 from rebsync.reverse.libraries.routines import Access
 from rebsync.reverse.nodes.node_joined import Joined
 from rebsync.reverse.nodes.node_values import Instance
@@ -27,6 +27,8 @@ def assumed(extracted: Extracted) -> Iterator[str]:
         if finding.grade is Grade.ASSUMED and finding.why not in closed_ends:
             yield f"{_place(finding)}: {finding.why}"
     yield from dict.fromkeys(_parameters(extracted.joined))
+    if inner := sorted(_topics_inside(extracted.joined)):
+        yield f"nobody outside publishes to {', '.join(inner)}"
 
 
 def _closed_ends(joined: Joined) -> set[str]:
@@ -37,6 +39,18 @@ def _closed_ends(joined: Joined) -> set[str]:
         if isinstance(topic := instance.topic(getattr(fact, "topic", "")), str)
     }
     return {f(topic) for topic in topics for f in (nobody_publishes, nobody_subscribes)}
+
+
+def _topics_inside(joined: Joined) -> set[str]:
+    """The topics by which started nodes send to each other."""
+    found = set()
+    for instance in joined.wiring.instances:
+        for number, _, _ in joined.wiring.edges[instance.name] if not instance.idle else ():
+            fact = instance.start.unit.facts[number]
+            topic = instance.topic(fact.topic) if isinstance(fact, PublisherFact) else None
+            if isinstance(topic, str):
+                found.add(topic)
+    return found
 
 
 def _place(finding: Finding) -> str:

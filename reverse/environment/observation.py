@@ -49,7 +49,7 @@ def observations(joined: Joined, types: MessageTypes) -> Iterator[tuple[str, Obs
     Of messages from outside that are all fields; of others those that the receiver reads.
     """
     from_outside = wholly_open(joined)
-    for instance in joined.wiring.instances:
+    for instance in (i for i in joined.wiring.instances if not i.idle):
         owner = joined.class_of(instance)
         for fact in instance.start.unit.facts:
             topic = instance.topic(fact.topic) if isinstance(fact, PublisherFact) else None
