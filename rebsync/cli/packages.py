@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rebsync.cli.paths import MODEL, PROPERTY
 from rebsync.cli.problem import refuse
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import read_source
@@ -26,8 +27,18 @@ def read_package(
     Mistakes of the properties are RebsyncErrors, as is code in which no node is found, or several
     packages. The model is written to the file `written`, if there is one.
     """
-    properties = read_source(property_file) if property_file is not None else None
+    chosen = property_file if property_file is not None else _property_in(path)
+    properties = read_source(chosen) if chosen is not None else None
     return _closed(path, _files(path), properties, choice, written)
+
+
+def _property_in(path: str) -> str | None:
+    """The property file of a folder, if there is one. RebsyncError: there are several."""
+    found = sorted(map(str, Path(path).glob(f"*{PROPERTY}")))
+    if len(found) > 1:
+        hint = f"name it: --property {found[0]}"
+        raise RebsyncError.of(path, "RS802", "several property files are here", hint)
+    return found[0] if found else None
 
 
 def read_question(
@@ -64,9 +75,10 @@ def _files(path: str) -> dict[str, Source]:
 
     found = list(units([path]))
     if len(found) != 1:
-        hint = "name one of them, or a launch file"
+        models = sorted(map(str, Path(path).glob(f"*{MODEL}")))
+        hint = "name one of them" if found else f"name the model: {models[0]}" if models else None
         message = "several packages are here" if found else "no code is here"
-        raise RebsyncError.of(path, "RS802", message, hint if found else None)
+        raise RebsyncError.of(path, "RS802", message, hint)
     return read(as_one(found[0])).files
 
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.environment.package import EnvironmentChoice
 
 FORMATS = ("text", "json", "svg", "html")
+_OF_CODE = frozenset({".cpp", ".cc", ".cxx", ".h", ".hpp", ".py"})
 MOST_INSTRUCTIONS = 10**10  # their delays together stay within 64 bits
 _STATUS = {
     "satisfied": Status.CLEAN,
@@ -168,6 +169,9 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
 
 def _read(model: str, given: dict[str, Any]) -> Problem:
     """The model in a file, or that of the code of a package."""
+    if Path(model).suffix in _OF_CODE and Path(model).is_file():
+        hint = f"name its folder: rebsync verify {Path(model).parent}"
+        raise RebsyncError.of(model, "RS802", "this is a file of code, not a model", hint)
     if not _is_package(model):
         for option in ("environment", "written"):
             if given[option]:
