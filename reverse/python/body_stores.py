@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -92,8 +91,7 @@ def _is_changed(reader: BodyStatementReader, *names: Node) -> bool:
     holders = {text_of(name) for name in names} - {reader.frame.scope.self_name, "self"}
     code = reader.reading.code
     scopes = (*code.scopes.values(), *code.modules.values())
-    stored = (holder for s in scopes for holder, _ in s.stores)
-    return any(re.match(rf"{re.escape(own)}(?!\w)", at) for at in stored for own in holders)
+    return any(holder.partition("[")[0] in holders for s in scopes for holder, _ in s.stores)
 
 
 def outside(reader: BodyStatementReader, value: Node, node: Node) -> None:
