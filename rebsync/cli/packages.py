@@ -112,7 +112,13 @@ def _problem(
 
         write_output(written, text)
     source = Source(written or f"{path} as a model", text)
-    analysis = analysed(source)
+    try:
+        analysis = analysed(source)
+    except RebsyncError as error:
+        found = error.findings[0].errors[0].message
+        hint = "--model FILE writes it" if written is None else None
+        message = f"what the code says is no whole model: {found}"
+        raise RebsyncError.of(path, "RS943", message, hint) from None
     places = code_places(source, parse_model(source).model, closed.model)
     code = {line: f"{_shown(place.source.path)}:{place.line}" for line, place in places}
     checked = properties_of(properties, analysis) if properties is not None else Properties()

@@ -8,6 +8,7 @@ from dataclasses import field
 from functools import cache
 from itertools import chain
 
+from rebsync.intervals import Interval, unsigned
 from rebsync.model import Type
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.scope import WIDE, Variable, of_width
@@ -25,6 +26,7 @@ _TYPES = {
 # In bits without the sign: narrow ones wrap sooner than the model's type, others hold more than its
 # `int`. A truth value is a byte in the code.
 _WIDTHS = {"bool": 8, "uint8": 8, "uint16": 16, "uint32": 32, "int64": 63, "uint64": 64}
+_UNSIGNED = {"uint8": 8, "uint16": 16, "uint32": 31, "uint64": 31}  # as far as an `int` holds them
 _DEEPEST = 8
 # The namespace of messages in ROS 2: `std_msgs::msg::String`.
 _SPACE = re.compile(r"::(?:msg|srv|action)::(?=\w+\Z)")
@@ -47,6 +49,7 @@ class MessageTypes:
     package: str
     widths: dict[str, dict[str, int]] = field(default_factory=dict)
     _constants: dict[str, int] = field(default_factory=dict)
+    _ranges: dict[tuple[str, str], Interval] = field(default_factory=dict)
     _fields: dict[str, Fields] = field(default_factory=dict)
     # The types by texts of C++ that were asked for.
     _named: dict[str, str | None] = field(default_factory=dict)
@@ -65,7 +68,7 @@ class MessageTypes:
                     if isinstance(constant.value, int):
                         for scope in (read.name, f"{package}::{read.name}"):
                             constants[f"{scope}::{constant.name}"] = int(constant.value)
-        return MessageTypes(own, package, {}, constants)
+        return MessageTypes(own, package, {}, constants, {})
 
     def constants(self) -> dict[str, int]:
         """The whole numbers that messages of the package give names, as the code has them."""
@@ -90,6 +93,11 @@ class MessageTypes:
     def variable(self, type_: str, path: str, name: str, of: Type) -> Variable:
         """A variable of the model for a field of a type."""
         return of_width(name, of, self.widths.get(type_, {}).get(path, 0))
+
+    def range_of(self, type_: str, path: str) -> Interval | None:
+        """What a whole number of a field can be, where that is less than its type of the model."""
+        self.fields(type_)
+        return self._ranges.get((type_, path))
 
     def holds_more(self, type_: str, path: str) -> bool:
         """Whether a field holds more than the model's `int` does."""
@@ -141,6 +149,8 @@ class MessageTypes:
             at, plain = f"{path}{name}", plain_type(inner)
             if plain in _WIDTHS:
                 self.widths.setdefault(whole, {})[at] = _WIDTHS[plain]
+            if plain in _UNSIGNED:
+                self._ranges[whole, at] = unsigned(_UNSIGNED[plain])
             if plain in _TYPES:
                 dimensions = () if length is None else (length,)
                 yield at, Type(_TYPES[plain], dimensions) if length != 0 else None

@@ -28,7 +28,8 @@ def assumed(extracted: Extracted) -> Iterator[str]:
             yield f"{_place(finding)}: {finding.why}"
     yield from dict.fromkeys(_parameters(extracted.joined))
     if inner := sorted(_topics_inside(extracted.joined)):
-        yield f"nobody outside publishes to {', '.join(inner)}"
+        yield f"nobody outside publishes to {', '.join(inner)}, and no message there is lost"
+    yield "no callback ends by an exception"
 
 
 def _closed_ends(joined: Joined) -> set[str]:

@@ -16,6 +16,7 @@ from rebsync.names import unique
 from rebsync.properties import Properties
 from rebsync.records import dataclass
 from rebsync.reserved import OPEN
+from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.representatives import representatives
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.open_ends import OpenEnd
@@ -37,13 +38,15 @@ class ClosedModel:
     gaps: tuple[str, ...] = ()
 
 
-def closed(model: m.Model, ends: Sequence[OpenEnd], properties: Properties) -> ClosedModel:
+def closed(
+    model: m.Model, ends: Sequence[OpenEnd], properties: Properties, types: MessageTypes
+) -> ClosedModel:
     """The model with an environment at its open ends; without `main` it stays as it is."""
     started = {r.name for r in model.main.rebecs} if model.main is not None else set()
     at = [e for e in ends if e.rebec in started]
     if not at:
         return ClosedModel(replace(model, classes=tuple(map(without_open, model.classes))))
-    environment = _Environment(model, properties, set(started))
+    environment = _Environment(model, properties, types, set(started))
     for together in _topics(at).values():
         environment.add(together)
     return ClosedModel(
@@ -76,6 +79,7 @@ class _Environment:
 
     model: m.Model
     properties: Properties
+    types: MessageTypes
     used: set[str]
     assumptions: list[str] = field(default_factory=list)
     gaps: list[str] = field(default_factory=list)
@@ -107,7 +111,8 @@ class _Environment:
             given = [(e, own[path]) for e, own in zip(ends, parameters, strict=True) if path in own]
             places = {(end.owner, parameter.name) for end, parameter in given}
             type_ = given[0][1].type
-            found = representatives(self.model, places, type_, self.properties)
+            range_ = self.types.range_of(ends[0].type or "", path)
+            found = representatives(self.model, places, type_, self.properties, range_)
             if not found.is_exact:
                 what = f"{ends[0].name or ends[0].server}.{path}"
                 tried = f"only {_some(found.values)} is sent" if found.values else "none is sent"

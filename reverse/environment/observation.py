@@ -9,10 +9,11 @@ They are set together with what sends or serves the message.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import field, replace
 from typing import TypeVar
 
 from rebsync import model as m
+from rebsync.names import unique
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.rewriting import rewritten
@@ -48,14 +49,14 @@ def observations(joined: Joined, types: MessageTypes) -> Iterator[tuple[str, Obs
 
     Of messages from outside that are all fields; of others those that the receiver reads.
     """
-    from_outside = wholly_open(joined)
+    from_outside, names = wholly_open(joined), Variables()
     for instance in (i for i in joined.wiring.instances if not i.idle):
         owner = joined.class_of(instance)
         for fact in instance.start.unit.facts:
             topic = instance.topic(fact.topic) if isinstance(fact, PublisherFact) else None
             if isinstance(fact, PublisherFact) and isinstance(topic, str):
                 for path, type_ in _fields(types, fact.type):
-                    name = _variable("out", topic, path)
+                    name = names.of(owner, "out", topic, path)
                     yield instance.name, Observation(owner, name, topic, path, type_)
         for server in joined.wiring.servers[instance.start.unit.name]:
             topics = {instance.topic(f.topic) for f in server.subscriptions}
@@ -64,9 +65,25 @@ def observations(joined: Joined, types: MessageTypes) -> Iterator[tuple[str, Obs
                 taken = (ANY, COUNT, *joined.taken(instance.start.unit.name, server))
                 for path, type_ in _fields(types, server.type):
                     if path in taken or (owner, server.name) in from_outside:
-                        name = _variable("in", topic, path)
+                        name = names.of(owner, "in", topic, path)
                         found = Observation(owner, name, topic, path, type_, server.name)
                         yield instance.name, found
+
+
+@dataclass(frozen=True, slots=True)
+class Variables:
+    """The names of observations, by class: no two topics have one name."""
+
+    given: dict[tuple[str, str, str, str], str] = field(default_factory=dict)
+    used: dict[str, set[str]] = field(default_factory=dict)
+
+    def of(self, owner: str, direction: str, topic: str, path: str) -> str:
+        """The variable of a class for a field of what it publishes or gets."""
+        key = owner, direction, topic, path
+        if key not in self.given:
+            wish, used = _variable(direction, topic, path), self.used.setdefault(owner, set())
+            self.given[key] = unique(wish, used)
+        return self.given[key]
 
 
 def _fields(types: MessageTypes, type_: object) -> Iterator[tuple[str, m.Type]]:

@@ -79,16 +79,22 @@ class _PublicationCount:
                 once = around.then(inside)
                 return Count(_MANY if once.through else 0, min(once.out, _MANY)).either(once)
             case m.Switch(subject, cases):
-                found = _NONE
-                for case in cases:  # a case may fall through to the next
-                    found = found.either(found.then(self._in_turn(case.statements)))
-                    found = found.either(_NONE)
-                return self._parts(subject).then(found)
+                return self._parts(subject).then(self._cases(cases))
             case m.Return(value):
                 given = self._parts(value) if value is not None else _NONE
                 return Count(None, given.through or 0)
             case _:
                 return self._parts(statement)
+
+    def _cases(self, cases: Iterable[m.Case]) -> Count:
+        """The count of a switch, where a case that does not end goes on with the next."""
+        found, before = _NONE, None
+        for case in cases:
+            own = self._in_turn(case.statements)
+            count = own if before is None else own.either(before.then(own))
+            found = found.either(count)
+            before = None if case.statements[-1:] and _ends(case.statements[-1]) else count
+        return found
 
     def _in_turn(self, statements: Iterable[m.Statement]) -> Count:
         count = _NONE
@@ -120,3 +126,10 @@ class _PublicationCount:
             ]
             self.methods[name] = max(map(self.most, bodies), default=0)
         return self.methods[name]
+
+
+def _ends(statement: m.Statement) -> bool:
+    """Whether a case goes no further than this, its last statement."""
+    if isinstance(statement, m.Block) and statement.statements:
+        return _ends(statement.statements[-1])
+    return isinstance(statement, m.Break | m.Return | m.Continue)

@@ -83,7 +83,8 @@ def closed_package(
         replace(e, fields=(*e.fields, *more.get((e.owner, e.server), ())))
         for e in open_ends(joined)
     )
-    around = _surrounded(replace(model, classes=classes), ends, properties, choice)
+    types = message_types(files)
+    around = _surrounded(replace(model, classes=classes), ends, properties, choice, types)
     unit = unit_of_time(files)
     assumptions = (*assumed(extracted), *around.assumptions, *_time(unit, around))
     gaps = (*around.gaps, *_overwritten(model, wanted, observed))
@@ -104,10 +105,14 @@ def asked_of(
 
 
 def _surrounded(
-    model: m.Model, ends: tuple[OpenEnd, ...], properties: Properties, choice: EnvironmentChoice
+    model: m.Model,
+    ends: tuple[OpenEnd, ...],
+    properties: Properties,
+    choice: EnvironmentChoice,
+    types: MessageTypes,
 ) -> ClosedModel:
     if choice == "free":
-        return closed(model, ends, properties)
+        return closed(model, ends, properties, types)
     names = dict.fromkeys(end.name or f"{end.rebec}.{end.server}" for end in ends)
     told = (f"nothing comes from outside: {', '.join(names)}",) if names else ()
     classes = tuple(without_open(c) for c in model.classes)

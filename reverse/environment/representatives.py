@@ -13,7 +13,7 @@ from itertools import pairwise
 from math import ceil, floor
 
 from rebsync import model as m
-from rebsync.intervals import INTEGERS
+from rebsync.intervals import INT32, INTEGERS, Interval
 from rebsync.properties import Properties, state_expressions
 from rebsync.records import dataclass
 from rebsync.static.constants import Value, constant, single
@@ -42,9 +42,16 @@ class Representatives:
 
 
 def representatives(
-    model: m.Model, places: Collection[tuple[str, str]], type_: m.Type, properties: Properties
+    model: m.Model,
+    places: Collection[tuple[str, str]],
+    type_: m.Type,
+    properties: Properties,
+    within: Interval | None = None,
 ) -> Representatives:
-    """Values for parameters of servers that get the same value, each by its class and name."""
+    """Values for parameters of servers that get the same value, each by its class and name.
+
+    Whole numbers are those of the type, or `within` an interval.
+    """
     if type_.dimensions or type_.name not in (*INTEGERS, *_REAL, "boolean"):
         return Representatives((), False)
     if type_.name == "boolean":
@@ -52,7 +59,8 @@ def representatives(
     flow = DataFlow(type_.name, _constants(model), set(places))
     flow.follow(model, properties)
     integer = type_.name in INTEGERS
-    values = _integers(flow.cuts, type_.name) if integer else _reals(flow.cuts, type_.name)
+    range_ = within or INTEGERS.get(type_.name, INT32)
+    values = _integers(flow.cuts, range_) if integer else _reals(flow.cuts, type_.name)
     return Representatives(tuple(values), flow.is_exact)
 
 
@@ -72,9 +80,8 @@ def _reals(cuts: Iterable[Value], type_: str) -> Iterator[Value]:
     yield from (points[-1], 0.0 if points[-1] < 0 else points[-1] + 1)
 
 
-def _integers(cuts: Iterable[Value], type_: str) -> Iterator[Value]:
+def _integers(cuts: Iterable[Value], range_: Interval) -> Iterator[Value]:
     """The same for whole numbers, between which a cut may lie."""
-    range_ = INTEGERS[type_]
     whole = {n for c in cuts for n in (floor(c), ceil(c))}
     points = sorted(n for n in whole if range_.low <= n <= range_.high)
     if not points:

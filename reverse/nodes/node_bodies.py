@@ -259,7 +259,8 @@ class Bodies:
             yield m.MessageServer(then, (), m.Block((*left(rest, send(name)), send(name))))
         else:
             ends = () if pause is None else (again,)
-            body = (*left((*first, *rest), again), *ends)
+            next_ = send(name) if loop.first else again  # what goes on skips a sleep behind it
+            body = (*left((*first, *rest), next_), *ends)
         for guard in reversed(loop.guard):
             condition = self._guard(reader, guard)
             body = (m.If(condition, m.Block(body)),)

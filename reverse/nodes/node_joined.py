@@ -60,18 +60,17 @@ class Joined:
         together = list(parts)
         instances = tuple(i for part in together for i in part.instances)
         served = {n: s for part in together for n, s in part.servers.items()}
-        apart = {n: s for part in together for n, s in part.settings.items()}
+        settings = {n: s for part in together for n, s in part.settings.items()}
+        observed = {t: paths for part in together for t, paths in part.observed.items()}
+        apart = {i.name: (settings.get(i.name), tuple(_seen(i, observed))) for i in instances}
         wiring = Wiring(instances, served, apart)
         kinds = {k: c for part in together for k, c in _kinds(part, wiring)}
-        observed = {t: paths for part in together for t, paths in part.observed.items()}
         return Joined(wiring, kinds, observed=observed)
 
     def observing(self, instance: Instance) -> Iterator[tuple[int, Target]]:
         """By the places of a rebec's publishers, what of their messages the observer gets."""
-        for number, fact in enumerate(instance.start.unit.facts):
-            topic = instance.topic(fact.topic) if isinstance(fact, PublisherFact) else None
-            if isinstance(topic, str) and topic in self.observed:
-                yield number, Target(OBSERVER, topic, self.observed[topic])
+        for number, topic in _seen(instance, self.observed):
+            yield number, Target(OBSERVER, topic, self.observed[topic])
 
     def class_of(self, instance: Instance) -> str:
         """The class of the model that a rebec is of."""
@@ -95,6 +94,14 @@ class Joined:
                 wish = f"{wish}_rebec"
             found.append((names.give(wish), class_, slot))
         return found
+
+
+def _seen(instance: Instance, observed: Observed) -> Iterator[tuple[int, str]]:
+    """The publishers of a rebec to topics that are observed, by their places, and these topics."""
+    for number, fact in enumerate(instance.start.unit.facts):
+        topic = instance.topic(fact.topic) if isinstance(fact, PublisherFact) else None
+        if isinstance(topic, str) and topic in observed:
+            yield number, topic
 
 
 def _kinds(part: Part, wiring: Wiring) -> Iterator[tuple[int, str]]:

@@ -37,12 +37,12 @@ from rebsync.reverse.python.body_scope import (
 )
 from rebsync.reverse.python.body_starts import constructor, declared
 from rebsync.reverse.python.body_statements import PyStatements
+from rebsync.reverse.python.body_units import runs_in_threads
 from rebsync.reverse.python.object_model import decorated_callback
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import LAMBDA, Scope
 from rebsync.reverse.python.py_tree import field, named
 
-_PARALLEL = (b"MultiThreadedExecutor", b"CallbackGroup")
 _ASLEEP = "other callbacks may run while this one sleeps: the model runs none"
 _BEAT = (
     "a timer that goes off while the node is busy keeps its beat;"
@@ -179,7 +179,8 @@ class PyClass:
             case (m.ExpressionStatement(m.Call(None, "delay", (time,))),):
                 statements, pause = statements[:-1], time
         again = m.ExpressionStatement(m.Call(m.Self(), loop.name, (), pause))
-        return ReadServer(loop.name, (*left(statements, again), again), node=loop.node)
+        at_once = m.ExpressionStatement(m.Call(m.Self(), loop.name))
+        return ReadServer(loop.name, (*left(statements, at_once), again), node=loop.node)
 
     # --- the class ------------------------------------------------------------------------------
 
@@ -233,9 +234,8 @@ class PyClass:
         In rospy all of them do, in rclpy those that callback groups let several threads run.
         """
         reading = self.reading
-        texts = [scope.node.text or b"" for scope in reading.code.modules.values()]
-        parallel = all(any(word in text for text in texts) for word in _PARALLEL)
-        if len(self.served) < 2 if reading.unit.library.threads else not parallel:
+        alone = reading.unit.library.threads and len(self.served) < 2
+        if alone or not runs_in_threads(reading.unit, reading.code):
             return
         for served in self.served:
             if served.node is not None and takes_time(m.Block(served.statements)):

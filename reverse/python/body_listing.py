@@ -43,12 +43,14 @@ _THREADS = (
 )
 
 
-def list_unit(unit: PyUnit, servers: Mapping[int, Server], loops: int, findings: Findings) -> None:
+def list_unit(
+    unit: PyUnit, servers: Mapping[int, Server], loops: int, threads: bool, findings: Findings
+) -> None:
     """What a unit asks of ROS that the model has not, or not so."""
     for number, fact in enumerate(unit.unit.facts):
         _fact(unit, fact, number in servers, findings)
     served = [f for n, f in enumerate(unit.unit.facts) if n in servers]
-    if unit.library.threads and len(served) + loops > 1 and served:
+    if threads and len(served) + loops > 1 and served:
         place = served[-1].site.place
         why = unit.library.name + _THREADS
         findings.assumed(place.source, place.span, why, within=unit.name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from rebsync.records import dataclass
 from rebsync.reverse.files.python_files import SETUP
@@ -32,9 +32,15 @@ class Started:
     package: str
     scripts: Mapping[str, str]
     others: frozenset[str]
+    others_start: bool = False
+
+    def starts(self, units: Iterable[PyUnit]) -> bool:
+        """Whether the launch file starts any of some units."""
+        launched = self.launch.nodes if self.launch is not None else ()
+        return any(self._runs(node, unit) for unit in units for node in launched)
 
     def instances(self, unit: PyUnit, units: Sequence[PyUnit], names: Names) -> Iterator[Instance]:
-        """The rebecs of a unit: one also where nothing starts it."""
+        """The rebecs of a unit: one also where nothing starts it, which is idle if others start."""
         launched = self.launch.nodes if self.launch is not None else ()
         nodes: list[LaunchedNode | None] = [n for n in launched if self._runs(n, unit)]
         alone = sum(u.module is unit.module for u in units) == 1 or not unit.lineage
@@ -50,7 +56,8 @@ class Started:
             below = space.strip("/") if isinstance(space, str) else ""
             wish = wish[:1].lower() + wish[1:]
             name = names.give(wish, f"{below}_{wish}" if below else wish)
-            yield Instance(start, name, own, node, self.launch)
+            idle = node is None and self.others_start
+            yield Instance(start, name, own, node, self.launch, idle)
 
     def _runs(self, node: LaunchedNode, unit: PyUnit) -> bool:
         """Whether a tag of a launch file starts the program that a unit is of."""

@@ -29,7 +29,13 @@ from rebsync.reverse.python.body_listing import list_shared, list_unit, list_wir
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import OTHER, Key, PyTarget, PyUnit
 from rebsync.reverse.python.body_started import NOTHING, Started, settings
-from rebsync.reverse.python.body_units import has_word, names_of, servers_of, units_of
+from rebsync.reverse.python.body_units import (
+    has_word,
+    names_of,
+    runs_in_threads,
+    servers_of,
+    units_of,
+)
 from rebsync.reverse.python.py_values import PyValues
 
 _MOST_ROUNDS = 60
@@ -74,7 +80,9 @@ class PySystem:
         names = self.beside.names
         classes = {u.name: names.give(u.name if u.lineage else class_word(u.name)) for u in units}
         asked = [f for f in self.graph.facts if isinstance(f, ParameterFact)]
-        instances = tuple(i for u in units for i in self.started.instances(u, units, names))
+        launched = any(i.launched is not None for i in self.beside.instances)
+        started = replace(self.started, others_start=launched or self.started.starts(units))
+        instances = tuple(i for u in units for i in started.instances(u, units, names))
         served = {u.name: servers_of(values.code, u, Names.beside(())) for u in units}
         servers = {n: tuple({s.name: s for s in of.values()}.values()) for n, of in served.items()}
         apart = {i.name: settings(i, asked) for i in instances}
@@ -87,11 +95,12 @@ class PySystem:
         for unit in wanted:
             found += self._classes(unit, round_, read)
             loops = max(len(each.loops) for each in _of(unit, read))
-            list_unit(unit, served[unit.name], loops, self.findings)
+            threads = runs_in_threads(unit, values.code)
+            list_unit(unit, served[unit.name], loops, threads, self.findings)
         readings = {u.name: _of(u, read)[0].reading for u in wanted}
         list_shared(wanted, readings, self.findings)
         list_wiring(joined.wiring, {u.name for u in wanted}, self.findings)
-        rebecs = tuple(round_.rebec(i) for i in instances)
+        rebecs = tuple(round_.rebec(i) for i in instances if not i.idle)
         return PyNodes(tuple(found), rebecs, tuple(units), served, round_.said())
 
     def _classes(

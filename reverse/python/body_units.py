@@ -31,6 +31,7 @@ from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import Code
 
 _GIVES = frozenset({"value", "augmented", "loop", "opaque"})
+_PARALLEL = (b"MultiThreadedExecutor", b"CallbackGroup")
 _CONNECTS = (PublisherFact, SubscriptionFact, TimerFact, ServiceFact)
 _PRINTS = re.compile(r"^\s*print\s+[\"'\w]", re.MULTILINE)
 _THREE = re.compile(r"#!.*python3|^from __future__ import .*division|\bf[\"']", re.MULTILINE)
@@ -193,6 +194,13 @@ def _server(fact: Fact, callback: Callback, scope: Scope, names: Names) -> Serve
             return replace(plain, service=fact)
         case _:
             return plain
+
+
+def runs_in_threads(unit: PyUnit, code: PyCode) -> bool:
+    """Whether callbacks run beside each other: always in rospy, in rclpy where groups are made."""
+    texts = [scope.node.text or b"" for scope in code.modules.values()]
+    several = all(any(word in text for text in texts) for word in _PARALLEL)
+    return unit.library.threads or several
 
 
 def names_of(code: PyCode, unit: PyUnit) -> set[str]:

@@ -148,6 +148,7 @@ def test_a_step_has_all_of_it() -> None:
         "sent": [asked],
         "changes": [{"rebec": "left", "variable": "moving", "before": False, "after": True}],
         "line": 31,
+        "code": None,
         "failure": None,
         "action": {"actor": 1, "slot": 0, "choices": [0]},
     }

@@ -19,6 +19,7 @@ from rebsync.checker.verify import verify
 from rebsync.grammars.parser import parse_model
 from rebsync.grammars.properties import parse_properties
 from rebsync.printing import print_model
+from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment import closing
 from rebsync.reverse.environment.closing import closed
 from rebsync.reverse.environment.representatives import Representatives, representatives
@@ -26,6 +27,7 @@ from rebsync.reverse.nodes.open_ends import OpenEnd
 from rebsync.source import Source
 from rebsync.static import analyse
 
+_TYPES = MessageTypes({}, "")
 _END = OpenEnd("A", "a", "got", "/topic", None, ("value",))
 _ALL = tuple(range(-5, 6))  # all regions between constants of -3 to 3
 
@@ -88,11 +90,11 @@ def test_representatives_show_what_all_values_do(body: list[str], asked: str, ot
     text = f"property {{ Assertion {{ P: !({texts[0]}); Q: {texts[1]} || a.b; }} }}"
     properties = Source("a.property", text)
     read = parse_properties(properties).properties
-    few = closed(parsed.model, [_END], read)
+    few = closed(parsed.model, [_END], read, _TYPES)
     assert not few.gaps
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(closing, "representatives", lambda *_: Representatives(_ALL, True))
-        every = closed(parsed.model, [_END], read)
+        every = closed(parsed.model, [_END], read, _TYPES)
     verdicts = [dict(_verified(c.model, properties).properties) for c in (few, every)]
     assert verdicts[0] == verdicts[1]
 
