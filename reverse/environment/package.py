@@ -65,10 +65,12 @@ def closed_package(
 ) -> ClosedPackage:
     """The model of a package with its environment, where properties can name its topics."""
     files, extracted = in_fitting_unit(files)
-    wanted = tuple(_wanted(extracted, message_types(files), properties))
+    types = message_types(files)
+    wanted = tuple(_wanted(extracted, types, properties))
     observed = observed_fields(wanted)
-    if observed:
+    if observed:  # rebecs of one class whose topics are observed apart become two classes
         extracted = extract(files, observed=observed)
+        wanted = tuple(_wanted(extracted, types, properties))
     joined = extracted.joined
     fields = _fields(joined)
     model = extracted.model
@@ -83,7 +85,6 @@ def closed_package(
         replace(e, fields=(*e.fields, *more.get((e.owner, e.server), ())))
         for e in open_ends(joined)
     )
-    types = message_types(files)
     around = _surrounded(replace(model, classes=classes), ends, properties, choice, types)
     unit = unit_of_time(files)
     assumptions = (*assumed(extracted), *around.assumptions, *_time(unit, around))
