@@ -28,6 +28,7 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.nodes.node_copies import list_changed_copies
 from rebsync.reverse.nodes.node_loops import (
     NodeLoop,
     behind,
@@ -120,6 +121,7 @@ class Setup:
     def _captures(self) -> None:
         """What lambdas use of the function around them lives as long as they do."""
         for server in self.servers:
+            list_changed_copies(self.state.unit, server, self.within, self.findings)
             if server.callback.lambda_ is None:
                 continue
             function = enclosing_function(server.body, self.state.unit.functions)
