@@ -15,6 +15,8 @@ from rebsync.reverse.report import different
 from rebsync.reverse.unknowns import Open
 
 _READ = (Access.GET, Access.DECLARE)
+# What says in a launch file that whoever starts it may choose.
+_ARGUMENTS = ("<arg", "DeclareLaunchArgument", "$(env", "$(optenv", "EnvironmentVariable")
 
 
 def assumed(extracted: Extracted) -> Iterator[str]:
@@ -29,6 +31,7 @@ def assumed(extracted: Extracted) -> Iterator[str]:
     yield from dict.fromkeys(_parameters(extracted.joined))
     if inner := sorted(_topics_inside(extracted.joined)):
         yield f"nobody outside publishes to {', '.join(inner)}, and no message there is lost"
+    yield from _launched(extracted.joined)
     yield "no callback ends by an exception"
 
 
@@ -52,6 +55,15 @@ def _topics_inside(joined: Joined) -> set[str]:
             if isinstance(topic, str):
                 found.add(topic)
     return found
+
+
+def _launched(joined: Joined) -> Iterator[str]:
+    """What decides what a launch file starts, where it can be started in several ways."""
+    launches = {id(i.launch): i.launch for i in joined.wiring.instances if i.launched is not None}
+    for launch in filter(None, launches.values()):
+        if any(word in source.text for source in launch.sources for word in _ARGUMENTS):
+            path = launch.sources[0].path
+            yield f"{path} is started with the defaults of its arguments, and no other environment"
 
 
 def _place(finding: Finding) -> str:
