@@ -63,7 +63,11 @@ class Started:
         """Whether a tag of a launch file starts the program that a unit is of."""
         if not isinstance(node.type, str):
             return False
-        if self.package and isinstance(node.package, str) and node.package != self.package:
+        if (
+            self.package
+            and node.package not in (self.package, "")
+            and isinstance(node.package, str)
+        ):
             return False
         path = unit.module.py.source.path
         if node.type in self.scripts:
