@@ -18,6 +18,7 @@ SECTIONS = (
     ("RS7xx: generation and export", codes.GENERATION),
     ("RS8xx: files, options, configuration", codes.FILES),
     ("RS90x and RS91x: properties", codes.PROPERTIES),
+    ("RS91x: questions", codes.QUESTIONS),
     ("RS92x: runs and state spaces", codes.RUNS),
     ("RS94x: extraction", codes.EXTRACTION),
     ("RS95x and RS96x: model and code in step", codes.STEP),

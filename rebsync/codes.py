@@ -2,8 +2,8 @@
 
 RS1xx syntax, RS2xx names, RS3xx types, RS4xx declarations and structure, RS5xx warnings about a
 model that is accepted, RS6xx warnings about robotic models (thesis, section 3.2), RS7xx what
-cannot be generated, RS8xx files, options and configuration, RS90x and RS91x properties, RS92x
-runs and state spaces, RS94x extraction, RS95x and RS96x model and code in step, RS97x
+cannot be generated, RS8xx files, options and configuration, RS90x and RS91x properties and
+questions, RS92x runs and state spaces, RS94x extraction, RS95x and RS96x model and code in step, RS97x
 differences between two models, RS98x recorded runs, RS99x the computation graph.
 """
 
@@ -186,6 +186,9 @@ PROPERTIES = {
     "RS909": "an index that the array does not have",
     "RS910": "a definition that is never used",
     "RS911": "a property file without its model",
+}
+
+QUESTIONS = {
     "RS912": "a question that is not understood",
     "RS913": "a topic, field or constant in a question that the package does not have",
     "RS914": "a topic in a question that several nodes have",
@@ -281,6 +284,7 @@ CODES: dict[str, str] = {
     **GENERATION,
     **FILES,
     **PROPERTIES,
+    **QUESTIONS,
     **RUNS,
     **EXTRACTION,
     **DIFFERENCES,
