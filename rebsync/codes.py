@@ -3,8 +3,8 @@
 RS1xx syntax, RS2xx names, RS3xx types, RS4xx declarations and structure, RS5xx warnings about a
 model that is accepted, RS6xx warnings about robotic models (thesis, section 3.2), RS7xx what
 cannot be generated, RS8xx files, options and configuration, RS90x and RS91x properties and
-questions, RS92x runs and state spaces, RS94x extraction, RS95x and RS96x model and code in step, RS97x
-differences between two models, RS98x recorded runs, RS99x the computation graph.
+questions, RS92x runs and state spaces, RS94x extraction, RS95x and RS96x model and code in step,
+RS97x differences between two models, RS98x recorded runs, RS99x the computation graph.
 """
 
 from __future__ import annotations
