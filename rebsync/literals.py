@@ -23,6 +23,17 @@ def literal_of(value: Value) -> m.Expression:
             raise ValueError("arrays have no literal")
 
 
+def exact_literal_of(value: bool | int | float) -> m.Expression:
+    """The same, of a float with all its 64 bits."""
+    match literal_of(value):
+        case m.FloatLiteral(text):
+            return m.FloatLiteral(f"{text}d")
+        case m.Unary("-", m.FloatLiteral(text)):
+            return m.Unary("-", m.FloatLiteral(f"{text}d"))
+        case found:
+            return found
+
+
 def initial_of(value: Value) -> m.Initializer:
     """The same for the initial value of a variable, which may be an array."""
     if isinstance(value, tuple):

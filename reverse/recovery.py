@@ -13,7 +13,7 @@ from rebsync.reverse.analysis.evaluation_order import out_of_order
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.build.built import unbuilt
 from rebsync.reverse.build.field_order import in_order
-from rebsync.reverse.build.manifests import name_in
+from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.monitors import is_monitor
 from rebsync.reverse.files.packages import CODE
@@ -43,7 +43,6 @@ from rebsync.source import NOWHERE, Source
 if TYPE_CHECKING:
     from rebsync.reverse.python.recovery import PythonCode, PythonPart
 
-_MANIFEST = "package.xml"
 _CODE = tuple(sorted(CODE))
 # Where none of these is, no message of std_msgs is heard.
 _HEARING = ("std_msgs", "ShapeShifter", "generic_subscription", "GenericSubscription")
@@ -151,7 +150,7 @@ class _Reading:
     ) -> _Reading:
         """The files, parsed, with the programs that they are built to and the system they start."""
         code = _in_cpp(files, findings)
-        package = _package(files)
+        package = package_name(files)
         asked = only if only is not None and is_launch(only) else None
         started = programs(code, files)
         system = system_of(files, package, asked, started)
@@ -290,11 +289,6 @@ def _main(generated: GeneratedSystem, nodes: Nodes, is_part: bool) -> m.Main | N
     if is_part or (main is None and not nodes.starts):
         return None
     return m.Main((*(main.rebecs if main is not None else ()), *nodes.rebecs))
-
-
-def _package(files: Mapping[str, Source]) -> str:
-    """The name of the package, empty where no manifest says it."""
-    return name_in(files[_MANIFEST]) or "" if _MANIFEST in files else ""
 
 
 def _classes_in(code: Code, path: str) -> set[str]:

@@ -10,17 +10,11 @@ import click
 
 from rebsync.cli.amounts import amount, duration
 from rebsync.cli.options import write_output
-from rebsync.cli.status import Status
+from rebsync.cli.status import STATUS_OF, Status
 
 if TYPE_CHECKING:
     from rebsync.checker.result import Result
     from rebsync.reverse.environment.package import EnvironmentChoice
-
-_STATUS = {
-    "satisfied": Status.CLEAN,
-    "violated": Status.VIOLATED,
-    "undetermined": Status.UNDETERMINED,
-}
 
 
 @click.command("ask")
@@ -84,7 +78,7 @@ def command(
         result = verify(problem, options, report)
     result = _of_question(result)
     _tell(result, question, style, output)
-    return _STATUS[result.verdict]
+    return STATUS_OF[result.verdict]
 
 
 def _of_question(result: Result) -> Result:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rebsync.cli.amounts import amount, duration
-from rebsync.cli.status import Status, status_of, worst
+from rebsync.cli.status import STATUS_OF, Status, status_of, worst
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
 from rebsync.roundtrip.package.discovery import find
@@ -24,11 +24,6 @@ if TYPE_CHECKING:
 
 FORMATS = ("text", "json", "sarif", "github", "junit")
 _FEW = 5000  # states of each side, within which --behaviour is to answer
-_PROVED = {
-    "satisfied": Status.CLEAN,
-    "violated": Status.VIOLATED,
-    "undetermined": Status.UNDETERMINED,
-}
 
 
 @click.command("check")
@@ -165,7 +160,7 @@ def _status(outcome: Outcome) -> Status:
         return Status.UNUSABLE
     found = [status_of(outcome.checked.findings)]
     if outcome.proof is not None:
-        found.append(_PROVED[outcome.proof.verdict])
+        found.append(STATUS_OF[outcome.proof.verdict])
     match verdict_of(outcome):
         case "in step":
             found.append(Status.CLEAN)

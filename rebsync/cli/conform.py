@@ -16,9 +16,11 @@ from rebsync.records import dataclass
 
 if TYPE_CHECKING:
     from rebsync.checker.problem import Problem
+    from rebsync.cli.calibration import Calibrated
     from rebsync.config import Config
     from rebsync.roundtrip.conform.conformance import Conformance
     from rebsync.roundtrip.conform.matching import Subject
+    from rebsync.roundtrip.conform.recording import Recording
     from rebsync.static.cells import CellOf
 
 FORMATS = ("text", "json", "sarif", "github", "junit")
@@ -119,23 +121,7 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
         applies = given["applies"] and found.verdict == "conforms"
         times = calibrated(subject, problem, recording, proposes, applies)
     if given["page"] is not None:
-        from rebsync.roundtrip.calibration.report import times_section
-        from rebsync.roundtrip.conform.movement import recorded_movement
-        from rebsync.roundtrip.conform.report.page import conformance_page, numbered
-
-        more = [times_section(times.calibration)] if times is not None else []
-        until = found.deviation.served if found.deviation is not None else None
-        moved = recorded_movement(
-            observable,
-            problem.analysis,
-            _cells(problem),
-            recording,
-            found.lateness.zero,
-            numbered(found),
-            until.stamp if until is not None else inf,
-        )
-        page = conformance_page(found, subject, recording.paths, more, moved)
-        write_output(given["page"], page)
+        write_output(given["page"], _page(found, subject, problem, recording, times))
     shown = times if proposes or given["times"] else None
     extra = list(shown.lines(subject.source.path, problem.source.text)) if shown else []
     if given["applies"] and found.verdict != "conforms":
@@ -144,6 +130,32 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     text = as_text(found, subject, recording.paths, given["style"], extra, data)
     write_output(given["output"], text)
     return worst([_status(found), shown.status if shown else Status.CLEAN])
+
+
+def _page(
+    found: Conformance,
+    subject: Subject,
+    problem: Problem,
+    recording: Recording,
+    times: Calibrated | None,
+) -> str:
+    """The page of an answer, with the times and the movement of the recorded run."""
+    from rebsync.roundtrip.calibration.report import times_section
+    from rebsync.roundtrip.conform.movement import recorded_movement
+    from rebsync.roundtrip.conform.report.page import conformance_page, numbered
+
+    more = [times_section(times.calibration)] if times is not None else []
+    until = found.deviation.served if found.deviation is not None else None
+    moved = recorded_movement(
+        subject.observable,
+        problem.analysis,
+        _cells(problem),
+        recording,
+        found.lateness.zero,
+        numbered(found),
+        until.stamp if until is not None else inf,
+    )
+    return conformance_page(found, subject, recording.paths, more, moved)
 
 
 @dataclass(frozen=True, slots=True)

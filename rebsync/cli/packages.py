@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,7 +14,7 @@ from rebsync.source import Source
 if TYPE_CHECKING:
     from rebsync.checker.problem import Problem
     from rebsync.properties import Properties
-    from rebsync.reverse.environment.package import ClosedPackage, EnvironmentChoice
+    from rebsync.reverse.environment.package import ClosedPackage, EnvironmentChoice, ReadPackage
     from rebsync.reverse.findings import Grade
 
 
@@ -27,9 +26,11 @@ def read_package(
     Mistakes of the properties are RebsyncErrors, as is code in which no node is found, or several
     packages. The model is written to the file `written`, if there is one.
     """
+    from rebsync.reverse.environment.package import in_fitting_unit
+
     chosen = property_file if property_file is not None else _property_in(path)
     properties = read_source(chosen) if chosen is not None else None
-    return _closed(path, _files(path), properties, choice, written)
+    return _closed(path, in_fitting_unit(_files(path)), properties, choice, written)
 
 
 def _property_in(path: str) -> str | None:
@@ -49,20 +50,20 @@ def read_question(
     from rebsync.reverse.environment.package import asked_of
 
     text = Source("the question", question)
-    files, asked = asked_of(_files(path), text, parse_question(text))
-    return _closed(path, files, Source("the question", asked), choice, written)
+    read, asked = asked_of(_files(path), text, parse_question(text))
+    return _closed(path, read, Source("the question", asked), choice, written)
 
 
 def _closed(
     path: str,
-    files: Mapping[str, Source],
+    read: ReadPackage,
     properties: Source | None,
     choice: EnvironmentChoice,
     written: str | None,
 ) -> Problem:
     from rebsync.reverse.environment.package import closed_package
 
-    closed = closed_package(files, _parsed(properties), choice)
+    closed = closed_package(read, _parsed(properties), choice)
     if closed.model.main is None or not closed.model.classes:
         hint = "--format json of `rebsync extract` tells what the code asks of ROS"
         raise RebsyncError.of(path, "RS943", "no node of a model was found here", hint)

@@ -20,6 +20,12 @@ class Status(IntEnum):
     BROKEN_PIPE = 141
 
 
+# What the verdict of a model checker is.
+STATUS_OF = {
+    "satisfied": Status.CLEAN,
+    "violated": Status.VIOLATED,
+    "undetermined": Status.UNDETERMINED,
+}
 _FIRST = (Status.UNUSABLE, Status.VIOLATED, Status.UNDETERMINED, Status.FINDINGS)
 
 

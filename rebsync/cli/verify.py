@@ -12,7 +12,7 @@ import click
 from rebsync.cli.amounts import amount, duration
 from rebsync.cli.options import write_output
 from rebsync.cli.problem import keep_what_is_read, read_problem
-from rebsync.cli.status import Status
+from rebsync.cli.status import STATUS_OF, Status
 from rebsync.diagnostics import RebsyncError
 
 if TYPE_CHECKING:
@@ -22,13 +22,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.environment.package import EnvironmentChoice
 
 FORMATS = ("text", "json", "svg", "html")
-_OF_CODE = frozenset({".cpp", ".cc", ".cxx", ".h", ".hpp", ".py"})
 MOST_INSTRUCTIONS = 10**10  # their delays together stay within 64 bits
-_STATUS = {
-    "satisfied": Status.CLEAN,
-    "violated": Status.VIOLATED,
-    "undetermined": Status.UNDETERMINED,
-}
 
 
 def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -164,12 +158,12 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
             return Status.CLEAN if whole else Status.UNDETERMINED
     result = _verified(problem, options)
     _write(result, problem, given, output)
-    return _STATUS[result.verdict]
+    return STATUS_OF[result.verdict]
 
 
 def _read(model: str, given: dict[str, Any]) -> Problem:
     """The model in a file, or that of the code of a package."""
-    if Path(model).suffix in _OF_CODE and Path(model).is_file():
+    if _is_code(model):
         hint = f"name its folder: rebsync verify {Path(model).parent}"
         raise RebsyncError.of(model, "RS802", "this is a file of code, not a model", hint)
     if not _is_package(model):
@@ -208,6 +202,12 @@ def _options(given: dict[str, Any], model: str) -> Options:
         reduce=given["reduce"],
         first=_first(given),
     )
+
+
+def _is_code(path: str) -> bool:
+    from rebsync.reverse.files.packages import CODE
+
+    return Path(path).suffix in CODE | {".py"} and Path(path).is_file()
 
 
 def _is_package(path: str) -> bool:

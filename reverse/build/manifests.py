@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
 
 from rebsync.package import Maintainer
@@ -17,6 +18,7 @@ _DEPENDS = frozenset(
     }
 )
 _FORMATS = (1, 2, 3)
+_MANIFEST = "package.xml"
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +76,11 @@ def read_manifest(source: Source) -> Manifest:
         source=source,
         span=root.span,
     )
+
+
+def package_name(files: Mapping[str, Source]) -> str:
+    """The name that the manifest among some files gives their package; empty where none does."""
+    return name_in(files[_MANIFEST]) or "" if _MANIFEST in files else ""
 
 
 @lru_cache(maxsize=4)  # several ask for that of a package while it is read

@@ -11,7 +11,7 @@ from dataclasses import field, replace
 from math import prod
 
 from rebsync import model as m
-from rebsync.literals import literal_of
+from rebsync.literals import exact_literal_of, literal_of
 from rebsync.names import unique
 from rebsync.properties import Properties
 from rebsync.records import dataclass
@@ -201,23 +201,12 @@ def _delays(owner: m.ReactiveClass) -> Iterator[int]:
 
 
 def _choice(of: _Field) -> m.Expression | None:
-    literals = tuple(_literal(value, of.type) for value in of.values)
+    literals = tuple(map(exact_literal_of if of.type.name == "double" else literal_of, of.values))
     return m.Choice(literals) if len(literals) > 1 else next(iter(literals), None)
 
 
 def _finite(of: _Field) -> str:
     return ", a finite number" if of.type.name in ("float", "double") else ""
-
-
-def _literal(value: Value, type_: m.Type) -> m.Expression:
-    literal = literal_of(value)
-    match literal:
-        case m.FloatLiteral(text) if type_.name == "double":
-            return m.FloatLiteral(f"{text}d")
-        case m.Unary("-", m.FloatLiteral(text)) if type_.name == "double":
-            return m.Unary("-", m.FloatLiteral(f"{text}d"))
-        case _:
-            return literal
 
 
 def _some(values: Sequence[Value]) -> str:

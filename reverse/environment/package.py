@@ -13,7 +13,7 @@ from rebsync.config import FILE_NAME
 from rebsync.properties import Formula, Properties, state_expressions
 from rebsync.questions import LeadsTo, Question
 from rebsync.records import dataclass
-from rebsync.reverse.build.manifests import name_in
+from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.asking import TopicVocabulary
 from rebsync.reverse.environment.assumptions import assumed
@@ -38,7 +38,6 @@ from rebsync.reverse.report import different
 from rebsync.source import Source
 
 _ROUNDS = 4
-_MANIFEST = "package.xml"
 
 EnvironmentChoice: TypeAlias = Literal["free", "none"]
 
@@ -58,13 +57,19 @@ class ClosedPackage:
     gaps: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class ReadPackage:
+    """The files of a package, with settings whose unit of time fits, and what they were read to."""
+
+    files: Mapping[str, Source]
+    extracted: Extracted
+
+
 def closed_package(
-    files: Mapping[str, Source],
-    properties: Properties,
-    choice: EnvironmentChoice,
+    read: ReadPackage, properties: Properties, choice: EnvironmentChoice
 ) -> ClosedPackage:
     """The model of a package with its environment, where properties can name its topics."""
-    files, extracted = in_fitting_unit(files)
+    files, extracted = read.files, read.extracted
     types = message_types(files)
     wanted = tuple(_wanted(extracted, types, properties))
     observed = observed_fields(wanted)
@@ -95,14 +100,14 @@ def closed_package(
 
 def asked_of(
     files: Mapping[str, Source], text: Source, question: Question
-) -> tuple[Mapping[str, Source], str]:
-    """A question as a property file, and the files with a unit of time that fits it as well."""
+) -> tuple[ReadPackage, str]:
+    """A package, read in a unit of time that fits a question, and the question as a property."""
     within = question.within if isinstance(question, LeadsTo) else None
-    files, extracted = in_fitting_unit(files, () if within is None else (within,))
-    types = message_types(files)
-    seen = tuple(observations(extracted.joined, types))
-    asked = TopicVocabulary(text, seen, types.constants(), unit_of_time(files))
-    return files, asked.property_text(question)
+    read = in_fitting_unit(files, () if within is None else (within,))
+    types = message_types(read.files)
+    seen = tuple(observations(read.extracted.joined, types))
+    asked = TopicVocabulary(text, seen, types.constants(), unit_of_time(read.files))
+    return read, asked.property_text(question)
 
 
 def _surrounded(
@@ -125,13 +130,10 @@ def _surrounded(
 
 def message_types(files: Mapping[str, Source]) -> MessageTypes:
     """The message types that a package knows."""
-    manifest = files.get(_MANIFEST)
-    return MessageTypes.of(files, (name_in(manifest) or "") if manifest is not None else "")
+    return MessageTypes.of(files, package_name(files))
 
 
-def in_fitting_unit(
-    files: Mapping[str, Source], times: Collection[Fraction] = ()
-) -> tuple[Mapping[str, Source], Extracted]:
+def in_fitting_unit(files: Mapping[str, Source], times: Collection[Fraction] = ()) -> ReadPackage:
     """The files, read in a unit of time that divides all their times, and some `times` in seconds.
 
     That is a second, or less where there are others, unless `rebsync.toml` says it.
@@ -139,7 +141,7 @@ def in_fitting_unit(
     extracted = extract(files)
     settings = files.get(FILE_NAME)
     if settings is not None and "time_unit" in settings.text:
-        return files, extracted
+        return ReadPackage(files, extracted)
     text, path = (settings.text, settings.path) if settings is not None else ("", FILE_NAME)
     unit = reduce(common_measure, times, Fraction(1))
     for _ in range(_ROUNDS):
@@ -148,7 +150,7 @@ def in_fitting_unit(
             break
         files = {**files, FILE_NAME: Source(path, f"time_unit = {float(unit)!r}\n{text}")}
         extracted = extract(files)
-    return files, extracted
+    return ReadPackage(files, extracted)
 
 
 def _time(unit: Fraction, around: ClosedModel) -> Iterator[str]:

@@ -10,6 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.intervals import unsigned
+from rebsync.literals import exact_literal_of
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight, whole_number
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import NotWhole, Unread
@@ -24,7 +25,6 @@ from rebsync.reverse.python.body_scope import (
     Frame,
     Nobody,
     Value,
-    literal,
     unknown,
 )
 from rebsync.reverse.python.py_callbacks import body_of
@@ -107,7 +107,7 @@ def _builtin(
             value = reader.read(only)
             if value.kind == TRUTH or not is_calm(value.expression):
                 return None
-            zero = literal(0 if value.kind == WHOLE else 0.0)
+            zero = exact_literal_of(0 if value.kind == WHOLE else 0.0)
             if value.kind == WHOLE:
                 reader.need(value, node, "abs")
             less = binary("<", value.expression, zero)
@@ -153,7 +153,7 @@ def _random(
             first, last = (whole_number(b) for b in bounds)
             if first is None or last is None or not first <= last < first + _MOST:
                 return None
-            options = tuple(literal(n) for n in range(first, last + 1))
+            options = tuple(exact_literal_of(n) for n in range(first, last + 1))
             return Value(m.Choice(options, span) if len(options) > 1 else options[0], WHOLE)
         case "choice", [listed] if listed.type in ("list", "tuple"):
             values = [reader.read(n) for n in named(listed)]

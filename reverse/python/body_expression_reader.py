@@ -8,6 +8,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.intervals import INT32, Interval
+from rebsync.literals import exact_literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.needs import Need
 from rebsync.reverse.bodies.building import bare, cast
@@ -21,7 +22,6 @@ from rebsync.reverse.python.body_scope import (
     Nobody,
     Own,
     Value,
-    literal,
     unknown,
 )
 from rebsync.reverse.python.py_tree import field, text_of
@@ -61,7 +61,7 @@ class BodyExpressionReader(ABC):
             self.need(value, node, what)
             inner = bare(value.expression)
             if isinstance(inner, m.IntLiteral):
-                return literal(float(inner.value))
+                return exact_literal_of(float(inner.value))
             return cast(DOUBLE, value.expression)
         return cast(DOUBLE, value.expression) if value.single else value.expression
 

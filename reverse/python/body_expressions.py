@@ -11,6 +11,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.intervals import INT32, Interval, unsigned
+from rebsync.literals import exact_literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, negated, tight
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
@@ -27,7 +28,6 @@ from rebsync.reverse.python.body_scope import (
     Pending,
     Value,
     Var,
-    literal,
     unknown,
 )
 from rebsync.reverse.python.py_tree import field, is_asked, named, number_of, text_of
@@ -95,7 +95,7 @@ class PyExpressions(BodyExpressionReader):
         """What Python takes for true."""
         if value.kind == TRUTH:
             return bare(value.expression)
-        zero = literal(0 if value.kind == WHOLE else 0.0)
+        zero = exact_literal_of(0 if value.kind == WHOLE else 0.0)
         if value.kind == WHOLE:
             self.need(value, node)
         return binary("!=", value.expression, zero, self._span(node))
@@ -135,7 +135,7 @@ class PyExpressions(BodyExpressionReader):
             raise unknown(self.frame, node, "a number beyond its int")
         if number is None or abs(number) > _HUGE:
             raise Unread(self._span(node), "this number is none of the model")
-        return Value(literal(number), REAL if isinstance(number, float) else WHOLE)
+        return Value(exact_literal_of(number), REAL if isinstance(number, float) else WHOLE)
 
     def _unary(self, node: Node) -> Value:
         inner = field(node, "argument")

@@ -9,6 +9,7 @@ from fractions import Fraction
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.literals import exact_literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.needs import Need
 from rebsync.reverse.build.message_types import MessageTypes
@@ -34,7 +35,6 @@ from rebsync.reverse.python.body_scope import (
     Value,
     Var,
     field_kind,
-    literal,
     unknown,
 )
 from rebsync.reverse.python.interfaces import interface_of
@@ -172,11 +172,11 @@ class Reading:
         """The value of what is always the same number."""
         match ways:
             case (bool() as truth,):
-                return Value(literal(truth), TRUTH)
+                return Value(exact_literal_of(truth), TRUTH)
             case (int() as number,) if -(1 << 31) <= number < 1 << 31:
-                return Value(literal(number), WHOLE)
+                return Value(exact_literal_of(number), WHOLE)
             case (float() as number,) if abs(number) < 1e300:
-                return Value(literal(number), REAL)
+                return Value(exact_literal_of(number), REAL)
             case _:
                 return None
 
@@ -326,4 +326,4 @@ def field_key(message: Message, path: str) -> Key:
 
 def zero(kind: str) -> Value:
     """What a field holds in a new message."""
-    return Value(literal({TRUTH: False, WHOLE: 0}.get(kind, 0.0)), kind)
+    return Value(exact_literal_of({TRUTH: False, WHOLE: 0}.get(kind, 0.0)), kind)

@@ -10,7 +10,6 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.intervals import INT32, INTEGERS, Interval, unsigned
-from rebsync.literals import literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.scope import Target
@@ -156,18 +155,6 @@ class Frame:
 
     def span(self, node: Node) -> Span:
         return self.scope.py.span(node)
-
-
-def literal(value: bool | int | float) -> m.Expression:
-    """The literal of a number or truth value; of a float with all its bits."""
-    found = literal_of(value)
-    match found:
-        case m.FloatLiteral(text):
-            return m.FloatLiteral(f"{text}d")
-        case m.Unary("-", m.FloatLiteral(text)):
-            return m.Unary("-", m.FloatLiteral(f"{text}d"))
-        case _:
-            return found
 
 
 def unknown(frame: Frame, node: Node, what: str) -> Unknown:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.literals import exact_literal_of
 from rebsync.reverse.python.body_methods import kept_names
 from rebsync.reverse.python.body_node_loops import EndlessLoop
 from rebsync.reverse.python.body_reading import Reading
@@ -18,7 +19,6 @@ from rebsync.reverse.python.body_scope import (
     Frame,
     Nobody,
     Value,
-    literal,
 )
 from rebsync.reverse.python.body_statements import PyStatements
 from rebsync.reverse.python.body_units import scope_around
@@ -108,7 +108,7 @@ def declared(reading: Reading) -> Iterator[m.Statement]:
             reading.wide.add(name)
         stored = value.expression
         if found == REAL and isinstance(stored, m.IntLiteral):
-            stored = literal(float(stored.value))
+            stored = exact_literal_of(float(stored.value))
         yield m.ExpressionStatement(m.Assign("=", m.Name(name), stored))
 
 

@@ -15,7 +15,7 @@ from pathlib import PurePath
 
 from rebsync.model import Type
 from rebsync.records import dataclass
-from rebsync.reverse.build.manifests import name_in
+from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.files.reading import Chosen
 from rebsync.reverse.graph import Graph, PublisherFact, SubscriptionFact
@@ -69,7 +69,7 @@ def closed(given: Chosen, topics: Sequence[str]) -> Closed:
     if SETTINGS not in files:
         files[SETTINGS] = Source(SETTINGS, f"time_unit = {_UNIT}\n")
     graph = extract(files).graph
-    types = MessageTypes.of(files, _package(files))
+    types = MessageTypes.of(files, package_name(files))
     links = {f"on{n}": link for n, link in enumerate(_links(topics, graph, types))}
     files[FILE] = Source(FILE, environment(links, _is_ros_2(files)))
     extracted = extract(files, environment=NODE)
@@ -170,9 +170,4 @@ def own_types(given: Chosen) -> OwnTypes:
     """The message types that a package declares."""
     found = ((PurePath(path), source) for path, source in given.files.items())
     texts = {path.stem: s.text for path, s in found if path.suffix == ".msg"}
-    return OwnTypes(_package(given.files), texts)
-
-
-def _package(files: Mapping[str, Source]) -> str:
-    manifest = files.get("package.xml")
-    return (name_in(manifest) if manifest is not None else None) or ""
+    return OwnTypes(package_name(given.files), texts)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from rebsync.printing import print_model
 from rebsync.properties import Properties
-from rebsync.reverse.environment.package import closed_package
+from rebsync.reverse.environment.package import closed_package, in_fitting_unit
 from rebsync.reverse.files.reading import chosen
 
 if sys.version_info >= (3, 11):
@@ -23,7 +23,8 @@ CASES = sorted(p for p in Path(__file__).parent.iterdir() if (p / "package").is_
 
 def closed_model(case: Path) -> tuple[str, str]:
     """The closed model of a case as text, and what is assumed, a line each."""
-    closed = closed_package(chosen(str(case / "package")).files, Properties(), "free")
+    read = in_fitting_unit(chosen(str(case / "package")).files)
+    closed = closed_package(read, Properties(), "free")
     told = [f"assumed: {each}" for each in closed.assumptions]
     told += [f"gap: {each}" for each in closed.gaps]
     root = f"{case / 'package'}/"
