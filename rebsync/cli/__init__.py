@@ -20,6 +20,7 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.long_numbers import allow_long_numbers
 from rebsync.terminal import one_line, say, without_commands
 
+_ending: list[int] = []  # the signals so far that were to end this process
 _AGAIN = 2.0  # seconds after which a signal that did not end the process is repeated
 
 
@@ -63,14 +64,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = _report(
             RebsyncError.of(".", "RS111", "something here nests deeper than rebsync reads")
         )
-    except RuntimeError as error:  # what a signal raises within __set_name__, before Python 3.12
-        match error.__cause__:
-            case SystemExit(code=int(code)):
-                status = code
-            case KeyboardInterrupt():
-                status = _say("interrupted", Status.INTERRUPTED)
-            case _:
-                raise
+    except Exception:  # ctypes and `__set_name__` turn what a signal raises into another
+        if not _ending:
+            raise
+        status = _ended_by(_ending[-1])
     except SystemExit as error:  # click's own answer to a broken pipe
         status = Status.BROKEN_PIPE if error.code == 1 else error.code
     if arguments is None and hasattr(signal, "setitimer"):
@@ -94,14 +91,29 @@ def _tell_of_cache() -> None:
 
 def _end_in_order() -> None:
     """Signals that end a process become exceptions, so that no half-written file stays."""
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _interrupt)
     for name in ("SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, _exit_by)
 
 
+def _interrupt(number: int, _: object) -> NoReturn:
+    """What Python does at an interrupt, remembered."""
+    _ending.append(number)
+    raise KeyboardInterrupt
+
+
+def _ended_by(number: int) -> int:
+    if number == signal.SIGINT:
+        return _say("interrupted", Status.INTERRUPTED)
+    return 128 + number
+
+
 def _exit_by(number: int, _: object) -> NoReturn:
     """Ends the process; and again if that is lost, as in a finaliser, where Python ignores it."""
+    _ending.append(number)
     if hasattr(signal, "setitimer"):
         signal.signal(signal.SIGALRM, lambda *_: _exit_by(number, None))
         signal.setitimer(signal.ITIMER_REAL, _AGAIN)

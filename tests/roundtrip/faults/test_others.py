@@ -85,26 +85,46 @@ def test_a_signal_loses_nothing(number: signal.Signals, made: Path, tmp_path: Pa
     assert status in statuses(number)
 
 
-# Before Python 3.12 what is raised in there comes out as a RuntimeError.
-_WHILE_A_CLASS_IS_MADE = """
-import os, signal, sys, time
-from rebsync import cli
-
+# What a signal raises in there comes out as another exception: RuntimeError before Python 3.12, and
+# ctypes.ArgumentError.
+_WHERE_IT_BECOMES_ANOTHER = {
+    "while a class is made": """
 class Field:
     def __set_name__(self, owner, name):
-        os.kill(os.getpid(), signal.{name})
-        time.sleep(60)  # a busy system may deliver it later
+        kill()
 
-cli.rebsync.main = lambda *_, **__: type("Made", (), {{"field": Field()}})
+command = lambda *_, **__: type("Made", (), {"field": Field()})
+""",
+    "while an argument is converted": """
+class Argument:
+    @classmethod
+    def from_param(cls, value):
+        kill()
+
+foreign = ctypes.CDLL(None).abs
+foreign.argtypes = [Argument]
+command = lambda *_, **__: foreign(1)
+""",
+}
+_ENDED = """
+import ctypes, os, signal, sys, time
+from rebsync import cli
+
+def kill():
+    os.kill(os.getpid(), signal.{name})
+    time.sleep(60)  # a busy system may deliver it later
+
+{code}
+cli.rebsync.main = command
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGTERM, signal.SIG_DFL)  # what has started the tests may not heed it
 sys.exit(cli.main())
 """
 
 
+@pytest.mark.parametrize("code", _WHERE_IT_BECOMES_ANOTHER.values(), ids=_WHERE_IT_BECOMES_ANOTHER)
 @pytest.mark.parametrize("number", ENDING, ids=lambda number: number.name)
-def test_a_signal_while_a_class_is_made(number: signal.Signals) -> None:
-    code = _WHILE_A_CLASS_IS_MADE.format(name=number.name)
-    command = [sys.executable, "-c", code]
+def test_a_signal_that_becomes_another_exception(number: signal.Signals, code: str) -> None:
+    command = [sys.executable, "-c", _ENDED.format(name=number.name, code=code)]
     done = subprocess.run(command, env=environment(), capture_output=True, text=True)
     assert (done.returncode, "Traceback" in done.stderr) == (128 + number, False), done.stderr
