@@ -17,6 +17,7 @@ from rebsync.model import (
     Model,
     ReactiveClass,
 )
+from rebsync.reserved import KEEP_LAST
 from rebsync.source import NOWHERE
 from rebsync.static import Analysis
 
@@ -51,11 +52,22 @@ def _package(config: Config, stem: str) -> list[Diagnostic]:
 
 
 def _misplaced(model: Model) -> list[Diagnostic]:
-    """`@Sensor` and `@Port` where they have no meaning: it is open what the node is to do."""
+    """`@Sensor`, `@Port` and `@KeepLast` where it is open what the node is to do."""
     instances = model.main.rebecs if model.main else ()
     annotated = [("a class", annotation) for c in model.classes for annotation in c.annotations]
     annotated += [("an instance", a) for rebec in instances for a in rebec.annotations]
+    classes = (c for c in model.classes if isinstance(c, ReactiveClass))
+    servers = (x for c in classes for x in c.members if isinstance(x, MessageServer))
+    kept = [a for server in servers for a in server.annotations if a.name == KEEP_LAST]
     return [
+        Diagnostic(
+            "RS427",
+            annotation.span,
+            f"@{KEEP_LAST} cannot be generated: mailboxes lose nothing",
+            "it is for models that stand for code with the queues of ROS",
+        )
+        for annotation in kept
+    ] + [
         Diagnostic(
             "RS427",
             annotation.span,

@@ -41,6 +41,8 @@ RUNTIME_FIELDS = ("timing", "sender")
 OFFERS = frozenset({"Action", "Service"})
 # That of a message server that gets messages from outside of the model, which is then open.
 OPEN = "Open"
+# That of one of whose messages from other rebecs no more wait than so many: the oldest are lost.
+KEEP_LAST = "KeepLast"
 # What the response of a service has beside the fields of the reply.
 RESPONSE_FIELD = "answered"
 STATE_FIELDS = ("server", "arguments", "arrival", "start", "now")

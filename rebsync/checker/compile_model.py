@@ -109,10 +109,10 @@ def _blank(rebec: RebecInfo) -> str:
     return ", ".join(ranges) or "0"
 
 
-def _server(program: Program, number: int) -> tuple[int, int, int]:
+def _server(program: Program, number: int) -> tuple[int, int, int, int]:
     server = program.servers[number]
     arguments = sum(p.size for p in program.bodies[server.body].parameters)
-    return server.body, server.priority, arguments
+    return server.body, server.priority, arguments, server.depth
 
 
 def _observed(program: Program) -> list[int]:

@@ -6,51 +6,82 @@ that nobody in the model sends: the model is an open system, and only closed one
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from rebsync import model as m
-from rebsync.checker.problem import Problem
-from rebsync.checker.result import Result, Verdict
+from rebsync.checker.passing import passed_lines
+from rebsync.checker.problem import CodePlace, Problem
+from rebsync.checker.result import Result, Verdict, Violation
+from rebsync.checker.telling import Teller
 from rebsync.checker.trace import TraceStep
 from rebsync.reserved import OPEN
+from rebsync.source import Source
 from rebsync.statements import UNREADABLE
 
 _SHOWN = 5  # places that a reason names
 _LOOSE = "a run may be none of the code, of which the model does more in these places"
 
 
-def limited(problem: Problem, result: Result) -> Result:
+def limited(problem: Problem, result: Result, teller: Teller) -> Result:
     """The result of a search, as far as it holds whatever the model lacks.
 
     No property is known to hold of a model with `@Unreadable` or `@Open`, or with gaps. A run to a
-    violation is one of the system unless code was not read, as nothing need come from outside.
+    violation is one of the system unless it passes code that was not read: what does not run has
+    no part in it, and nothing need come from outside.
     """
-    result = _told_of_code(problem, result)
     unread, opened = problem.unread or _unreadable(problem), _open(problem)
+    ways = (
+        _ways(teller, result) if unread or problem.loose else [frozenset()] * len(result.violations)
+    )
+    result = _told_of_code(problem, result, ways)
     if not unread and not opened and not problem.gaps:
         return result
-    verdicts: tuple[tuple[str, Verdict], ...] = tuple(
-        (name, "undetermined" if found == "satisfied" else found)
-        for name, found in result.properties
-    )
+    certain = {
+        v.name
+        for v, way in zip(result.violations, ways, strict=True)
+        if not unread or (_is_shown_by_run(problem, v) and not _passed(unread, way))
+    }
+    verdicts = tuple((name, _verdict(name, found, certain)) for name, found in result.properties)
     reasons = [result.reason or "", *problem.gaps]
     reasons += [_unread_reason(unread)] if unread else []
     reasons += [_open_reason(opened)] if opened else []
-    is_violated = result.verdict == "violated" and not unread
-    verdict: Verdict = "violated" if is_violated else "undetermined"
+    is_violated = any(v.name in certain for v in result.violations)
     return replace(
-        result, verdict=verdict, reason="; ".join(filter(None, reasons)), properties=verdicts
+        result,
+        verdict="violated" if is_violated else "undetermined",
+        reason="; ".join(filter(None, reasons)),
+        properties=verdicts,
     )
 
 
-def _told_of_code(problem: Problem, result: Result) -> Result:
+def _ways(teller: Teller, result: Result) -> list[frozenset[int]]:
+    """The lines of the model that the run to each violation passes."""
+    return [frozenset[int]().union(*passed_lines(teller, v.trace)) for v in result.violations]
+
+
+def _is_shown_by_run(problem: Problem, violation: Violation) -> bool:
+    """Whether a run is all there is to a violation, so that other runs have no part in it."""
+    branching = {each.name for each in problem.properties.tctl}
+    return violation.kind != "zeno" and violation.name not in branching
+
+
+def _passed(places: Sequence[CodePlace], way: frozenset[int]) -> bool:
+    return any(p.lines is None or p.lines & way for p in places)
+
+
+def _verdict(name: str, found: Verdict, certain: Collection[str]) -> Verdict:
+    return "violated" if found == "violated" and name in certain else "undetermined"
+
+
+def _told_of_code(problem: Problem, result: Result, ways: Sequence[frozenset[int]]) -> Result:
     """The result with what is assumed, and with the places in the code of what its runs do."""
     if not problem.assumptions and not problem.code:
         return result
     caveats = [*result.caveats, *(f"assumed: {each}" for each in problem.assumptions)]
-    if problem.loose and result.violations:
-        caveats.append(f"{_LOOSE}: {_some(problem.loose)}")
+    passed = [p for p in problem.loose if any(_passed([p], way) for way in ways)]
+    if passed:
+        caveats.append(f"{_LOOSE}: {_some(passed)}")
     violations = tuple(
         replace(v, trace=replace(v.trace, steps=tuple(_in_code(s, problem) for s in v.trace.steps)))
         for v in result.violations
@@ -62,14 +93,15 @@ def _in_code(step: TraceStep, problem: Problem) -> TraceStep:
     return replace(step, code=problem.code.get(step.line, ""))
 
 
-def _unreadable(problem: Problem) -> tuple[str, ...]:
-    """The statements that stand for code that was not read, by their lines."""
-    found = {
-        problem.source.position(node.span.start).line
-        for node in m.walk(problem.analysis.model)
-        if isinstance(node, m.Annotation) and node.name == UNREADABLE
-    }
-    return tuple(f"line {line}" for line in sorted(found))
+def unreadable_lines(source: Source, model: m.Model) -> list[int]:
+    """The lines of a model with statements that stand for code that was not read."""
+    notes = (n for n in m.walk(model) if isinstance(n, m.Annotation) and n.name == UNREADABLE)
+    return sorted({source.position(note.span.start).line for note in notes})
+
+
+def _unreadable(problem: Problem) -> tuple[CodePlace, ...]:
+    lines = unreadable_lines(problem.source, problem.analysis.model)
+    return tuple(CodePlace(f"line {line}", frozenset({line})) for line in lines)
 
 
 def _open(problem: Problem) -> list[str]:
@@ -88,15 +120,19 @@ def _open(problem: Problem) -> list[str]:
     ]
 
 
-def _unread_reason(places: Sequence[str]) -> str:
+def _unread_reason(places: Sequence[CodePlace]) -> str:
     count = len(places)
     what = "a place was" if count == 1 else f"{count} places were"
     return f"{what} not read and may do anything: {_some(places)}"
 
 
 def _open_reason(servers: list[str]) -> str:
-    return f"nobody in the model sends what comes from outside to {_some(servers)}"
+    return f"nobody in the model sends what comes from outside to {_shown(servers)}"
 
 
-def _some(places: Sequence[str]) -> str:
+def _some(places: Sequence[CodePlace]) -> str:
+    return _shown([place.text for place in places])
+
+
+def _shown(places: Sequence[str]) -> str:
     return ", ".join(places[:_SHOWN]) + (", ..." if len(places) > _SHOWN else "")

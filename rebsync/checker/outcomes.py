@@ -113,6 +113,10 @@ class Actor:
             else:
                 yield from self._run(local, slot)
 
+    def act_again(self, local: Local, slot: int, choices: tuple[int, ...]) -> None:
+        """Runs the body again that was run with some choices, for what it covers."""
+        self._once(local, slot, list(choices))
+
     def construct(self, bag: tuple[Message, ...]) -> Iterator[Outcome]:
         """What the constructor can do; `bag` has what earlier constructors have sent."""
         variables = [
@@ -224,7 +228,16 @@ class Actor:
 
     def receive(self, local: Local, message: Message) -> Local | None:
         """The local state with one more message; None when there is no place for it."""
+        local = self._displaced(local, message.server)
         if local.places == self.rebec.capacity:
             return None
         self.largest = max(self.largest, local.places + 1)
         return local._replace(bag=self.added(local.bag, message))
+
+    def _displaced(self, local: Local, server: int) -> Local:
+        """The local state without the message that is lost when another comes for a server."""
+        depth = self.program.servers[server].depth if server >= 0 else 0
+        waiting = [n for n, each in enumerate(local.bag) if each.server == server] if depth else []
+        if not depth or len(waiting) < depth:
+            return local
+        return local._replace(bag=(*local.bag[: waiting[0]], *local.bag[waiting[0] + 1 :]))

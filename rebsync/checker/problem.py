@@ -18,6 +18,17 @@ Fairness: TypeAlias = Literal["none", "weak", "progress"]
 
 
 @dataclass(frozen=True, slots=True)
+class CodePlace:
+    """A place of the code that a model does not say exactly, in words.
+
+    A run passes it in no other `lines` of the model than these; None: in any.
+    """
+
+    text: str
+    lines: frozenset[int] | None
+
+
+@dataclass(frozen=True, slots=True)
 class Problem:
     """A model without errors, and the properties that it is to have, with their texts.
 
@@ -33,8 +44,8 @@ class Problem:
     property_source: Source | None = None
     assumptions: tuple[str, ...] = ()
     gaps: tuple[str, ...] = ()
-    unread: tuple[str, ...] = ()
-    loose: tuple[str, ...] = ()
+    unread: tuple[CodePlace, ...] = ()
+    loose: tuple[CodePlace, ...] = ()
     code: Mapping[int, str] = field(default_factory=dict)
 
 

@@ -67,13 +67,17 @@ class Body:
 
 @dataclass(frozen=True, slots=True)
 class Server:
-    """A message server as one concrete class runs it."""
+    """A message server as one concrete class runs it.
+
+    Of its messages from other rebecs the last `depth` wait, the others are lost; 0: all wait.
+    """
 
     name: str
     class_name: str
     body: int
     priority: int
     span: Span
+    depth: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from rebsync.checker.exploration import Covered
 from rebsync.checker.program import Program
@@ -14,7 +14,10 @@ def silent_lines(program: Program, covered: Covered, source: Source) -> tuple[in
 
     What follows something that failed counts as run when a branch of it would have been.
     """
-    reached = _reached(program, covered)
+    bodies = {program.servers[number].body for number in covered.servers}
+    bodies |= {rebec.constructor for rebec in program.rebecs if rebec.constructor >= 0}
+    entries = [program.bodies[number].entry for number in bodies]
+    reached = reached_from(program, entries, covered.branches)
     code, ran = set(), set()
     for number, body in enumerate(program.bodies):
         if number in program.predicates:
@@ -28,21 +31,21 @@ def silent_lines(program: Program, covered: Covered, source: Source) -> tuple[in
     return tuple(sorted(code - ran))
 
 
-def _reached(program: Program, covered: Covered) -> set[int]:
-    """The instructions that are reached when branches go only where they went."""
-    bodies = {program.servers[number].body for number in covered.servers}
-    bodies |= {rebec.constructor for rebec in program.rebecs if rebec.constructor >= 0}
-    waiting = [program.bodies[number].entry for number in bodies]
+def reached_from(
+    program: Program, starts: Iterable[int], branches: Collection[tuple[int, bool]]
+) -> set[int]:
+    """The instructions that are reached from some when branches go only where they went."""
+    waiting = list(starts)
     reached: set[int] = set()
     while waiting:
         pc = waiting.pop()
         if pc not in reached:
             reached.add(pc)
-            waiting += _followers(program, covered, pc)
+            waiting += _followers(program, branches, pc)
     return reached
 
 
-def _followers(program: Program, covered: Covered, pc: int) -> Iterator[int]:
+def _followers(program: Program, branches: Collection[tuple[int, bool]], pc: int) -> Iterator[int]:
     """Where a body may go on after an instruction."""
     instruction = program.code[pc]
     match instruction.op:
@@ -52,7 +55,7 @@ def _followers(program: Program, covered: Covered, pc: int) -> Iterator[int]:
             yield instruction.a
         case "JUMPF" | "JUMPT":
             for jumps, there in ((True, instruction.a), (False, pc + 1)):
-                if instruction.b or (pc, jumps) in covered.branches:
+                if instruction.b or (pc, jumps) in branches:
                     yield there
         case "CALL":
             yield program.bodies[instruction.a].entry

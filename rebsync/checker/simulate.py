@@ -62,7 +62,7 @@ def replay(teller: Teller, actions: Sequence[Action], loop: int | None) -> Trace
     told: list[TraceStep] = []
     states: list[State] = []
     for number, action in enumerate(actions):
-        step = _next(teller.view, state, action)
+        step = next_step(teller.view, state, action)
         if step is None:
             raise NotARun(number)
         told.append(teller.step(number, time, state, step))
@@ -78,7 +78,8 @@ def replay(teller: Teller, actions: Sequence[Action], loop: int | None) -> Trace
     return Trace(teller.source.path, teller.view.semantics, tuple(told), loop)
 
 
-def _next(view: Views, state: State, action: Action) -> Step | None:
+def next_step(view: Views, state: State, action: Action) -> Step | None:
+    """The step that an action makes in a state, or at the start; None if there is none."""
     try:
         if state:
             return view.next_state(state, action)

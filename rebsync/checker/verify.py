@@ -79,7 +79,7 @@ def _searched(
     watch = _watch(exploration, options, report, started)
     answer = _Answer(problem, options, program, formulas, search, exploration, teller, watch)
     answer.collect()
-    return limited(problem, answer.result(time.perf_counter() - started))
+    return limited(problem, answer.result(time.perf_counter() - started), teller)
 
 
 def _bounded(options: Options, started: float, faults: Faults) -> Options:

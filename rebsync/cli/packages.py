@@ -12,10 +12,14 @@ from rebsync.files import read_source
 from rebsync.source import Source
 
 if TYPE_CHECKING:
-    from rebsync.checker.problem import Problem
+    from collections.abc import Mapping
+
+    from rebsync.checker.problem import CodePlace, Problem
+    from rebsync.model import Model
     from rebsync.properties import Properties
     from rebsync.reverse.environment.package import ClosedPackage, EnvironmentChoice, ReadPackage
-    from rebsync.reverse.findings import Grade
+    from rebsync.reverse.findings import Finding, Grade
+    from rebsync.roundtrip.diff.difference import Place
 
 
 def read_package(
@@ -99,6 +103,7 @@ def _parsed(source: Source | None) -> Properties:
 def _problem(
     path: str, closed: ClosedPackage, properties: Source | None, written: str | None
 ) -> Problem:
+    from rebsync.checker.incomplete import unreadable_lines
     from rebsync.checker.problem import Problem
     from rebsync.cli.problem import analysed, properties_of
     from rebsync.grammars.parser import parse_model
@@ -120,19 +125,51 @@ def _problem(
         hint = "--model FILE writes it" if written is None else None
         message = f"what the code says is no whole model: {found}"
         raise RebsyncError.of(path, "RS943", message, hint) from None
-    places = code_places(source, parse_model(source).model, closed.model)
-    code = {line: f"{_shown(place.source.path)}:{place.line}" for line, place in places}
+    parsed = parse_model(source).model
+    places = dict(code_places(source, parsed, closed.model))
+    code = {line: f"{_shown(place.source.path)}:{place.line}" for line, place in places.items()}
+    markers = {n: places[n] for n in unreadable_lines(source, analysis.model) if n in places}
     checked = properties_of(properties, analysis) if properties is not None else Properties()
-    listed = _listed(closed, Grade.UNREADABLE), _listed(closed, Grade.APPROXIMATED)
+    unread = _listed(closed, Grade.UNREADABLE, markers)
+    steps = _steps(source, parsed, places)
+    listed = unread, _listed(closed, Grade.APPROXIMATED, steps)
     told = closed.assumptions, closed.gaps, *listed, code
     return Problem(source, analysis, checked, properties, *told)
 
 
-def _listed(closed: ClosedPackage, grade: Grade) -> tuple[str, ...]:
-    """The findings of a grade, each with its place."""
-    found = (f for f in closed.findings if f.grade is grade)
-    lines = ((f, f.source.position(f.span.start).line) for f in found)
-    return tuple(f"{_shown(f.source.path)}:{line} ({f.why})" for f, line in lines)
+def _listed(
+    closed: ClosedPackage, grade: Grade, places: Mapping[int, Place]
+) -> tuple[CodePlace, ...]:
+    """The findings of a grade, with those lines of the model that are the closest around each."""
+    from rebsync.checker.problem import CodePlace
+
+    found = []
+    for finding in (f for f in closed.findings if f.grade is grade):
+        line = finding.source.position(finding.span.start).line
+        text = f"{_shown(finding.source.path)}:{line} ({finding.why})"
+        found.append(CodePlace(text, _closest(finding, places) or None))
+    return tuple(found)
+
+
+def _steps(source: Source, model: Model, places: Mapping[int, Place]) -> dict[int, Place]:
+    """Of the places by the lines of a model those of single statements."""
+    from rebsync import model as m
+
+    found = (n for n in m.walk(model) if isinstance(n, m.Statement) and not isinstance(n, m.Block))
+    lines = {source.position(statement.span.start).line for statement in found}
+    return {line: place for line, place in places.items() if line in lines}
+
+
+def _closest(finding: Finding, places: Mapping[int, Place]) -> frozenset[int]:
+    """The lines of a model whose place in the code is the narrowest that a finding lies in."""
+    around = {
+        line: place.span
+        for line, place in places.items()
+        if place.source.path == finding.source.path
+        and place.span.start <= finding.span.start < place.span.end
+    }
+    least = min((span.end - span.start for span in around.values()), default=0)
+    return frozenset(n for n, span in around.items() if span.end - span.start == least)
 
 
 def _shown(path: str) -> str:

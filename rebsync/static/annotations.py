@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync.model import Annotation, Empty, Name, Statement
-from rebsync.reserved import OFFERS, OPEN
+from rebsync.reserved import KEEP_LAST, OFFERS, OPEN
 from rebsync.static.constants import constant
 from rebsync.static.expressions import type_of
 from rebsync.static.facts import Facts, Move
@@ -20,11 +20,12 @@ _PLACES = {
     "Service": "a message server",
     "Action": "a message server",
     OPEN: "a message server",
+    KEEP_LAST: "a message server",
     "Move": "an empty statement: @Move(X+1, Y);",
 }
 _LEGAL = {
     "a class": frozenset(("Robot", "Controller")),
-    "a message server": frozenset(("Sensor", "Port", OPEN)) | OFFERS | _PRIORITIES,
+    "a message server": frozenset(("Sensor", "Port", OPEN, KEEP_LAST)) | OFFERS | _PRIORITIES,
     "an instance": _PRIORITIES,
 }
 _EXCLUSIVE = frozenset(("Robot", "Controller", "Sensor", "Port"))
@@ -62,6 +63,8 @@ def _check_place(
         return
     if name in OFFERS:
         _check_offer(facts, annotation)
+    elif name == KEEP_LAST:
+        _check_depth(facts, annotation)
     elif annotation.arguments is not None:
         facts.error("RS427", span, f"@{name} takes no arguments")
     for other, first in seen.items():
@@ -82,6 +85,15 @@ def _check_offer(facts: Facts, annotation: Annotation) -> None:
     more = ", and of the feedback" if most > 1 else ""
     message = f"@{name} takes the name of the reply{more}"
     facts.error("RS427", annotation.span, message, hint)
+
+
+def _check_depth(facts: Facts, annotation: Annotation) -> None:
+    """`@KeepLast(5)`: how many messages wait at most."""
+    given = annotation.arguments or ()
+    depth = constant(given[0]) if len(given) == 1 else None
+    if isinstance(depth, bool) or not isinstance(depth, int) or depth < 1:
+        hint = f"write how many messages wait at most, such as @{KEEP_LAST}(10)"
+        facts.error("RS427", annotation.span, f"@{KEEP_LAST} takes a number above 0", hint)
 
 
 def _check_priority(facts: Facts, annotation: Annotation, of: str) -> None:

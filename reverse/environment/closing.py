@@ -6,7 +6,7 @@ time, from time 0 on; the fields of a message are any of the values that the mod
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from math import prod
 
@@ -15,13 +15,15 @@ from rebsync.literals import exact_literal_of, literal_of
 from rebsync.names import unique
 from rebsync.properties import Properties
 from rebsync.records import dataclass
-from rebsync.reserved import OPEN
+from rebsync.reserved import KEEP_LAST, OPEN
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.representatives import representatives
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.open_ends import OpenEnd
 from rebsync.static.constants import Value
 
+_NONE: Mapping[str, int] = {}
+_DEEPEST = 3  # messages of a topic that are taken to wait where the code does not say less
 _MOST = 4096  # messages of one topic that may come at the same time
 _EITHER = m.Choice((m.BoolLiteral(False), m.BoolLiteral(True)))
 
@@ -102,6 +104,10 @@ class _Environment:
         body = m.If(_EITHER, m.Block((*chosen, *sends)))
         self.servers.append(m.MessageServer(name, (), m.Block((body, again))))
         self._tell(ends[0], fields)
+        for end in ends:
+            if _is_slow(self.model, end.owner) and _kept(end) != end.depth:
+                what = f"of {end.name or end.server} no more than {_DEEPEST} wait for {end.rebec}"
+                self.assumptions.append(what)
 
     def _fields(
         self, ends: Sequence[OpenEnd], parameters: Sequence[dict[str, m.Parameter]]
@@ -142,7 +148,7 @@ class _Environment:
         members: tuple[m.ClassMember, ...] = (m.KnownRebecs(declared), constructor, *self.servers)
         environment = m.ReactiveClass(class_, len(self.servers) + 1, members)
         more = _more_messages(ends)
-        classes = tuple(without_open(c, more.get(c.name, 0)) for c in self.model.classes)
+        classes = tuple(without_open(c, more.get(c.name, {})) for c in self.model.classes)
         started = m.Rebec(m.Type(class_), rebec, tuple(map(m.Name, known)), ())
         main = replace(self.model.main, rebecs=(*self.model.main.rebecs, started))
         return replace(self.model, classes=(*classes, environment), main=main)
@@ -166,38 +172,56 @@ def _sent(end: OpenEnd, variables: Iterable[str]) -> m.Statement:
     return m.ExpressionStatement(call)
 
 
-def _more_messages(ends: Iterable[OpenEnd]) -> dict[str, int]:
-    """By class how many messages from outside may wait at the same time, while none is served."""
-    of_rebecs: dict[tuple[str, str], int] = {}
+def _kept(end: OpenEnd) -> int:
+    """How many messages of an end wait at most."""
+    return min(end.depth or _DEEPEST, _DEEPEST)
+
+
+def _more_messages(ends: Iterable[OpenEnd]) -> dict[str, dict[str, int]]:
+    """By class and server how many messages from outside may wait at the same time."""
+    found: dict[str, dict[str, int]] = {}
     for end in ends:
-        of_rebecs[end.owner, end.rebec] = of_rebecs.get((end.owner, end.rebec), 0) + 1
-    found: dict[str, int] = {}
-    for (owner, _), count in of_rebecs.items():
-        found[owner] = max(found.get(owner, 0), count)
+        servers = found.setdefault(end.owner, {})
+        servers[end.server] = max(servers.get(end.server, 0), _kept(end))
     return found
 
 
 def without_open(
-    owner: m.ReactiveClass | m.Interface, more: int = 0
+    owner: m.ReactiveClass | m.Interface, waiting: Mapping[str, int] = _NONE
 ) -> m.ReactiveClass | m.Interface:
-    """A class without `@Open`; with room for `more` messages in each unit that it is busy."""
+    """A class without `@Open`, with room for messages from outside.
+
+    Where it is busy for some time no more than those `waiting` are there, by servers: the queues of
+    ROS lose the oldest. Else each is served before the next comes.
+    """
     if not isinstance(owner, m.ReactiveClass):
         return owner
+    lossy = waiting if _delays(owner) else _NONE
     members = tuple(
-        replace(x, annotations=tuple(a for a in x.annotations if a.name != OPEN))
+        replace(x, annotations=tuple(_closed_annotations(x, lossy.get(x.name, 0))))
         if isinstance(x, m.MessageServer)
         else x
         for x in owner.members
     )
-    room = more * (1 + sum(_delays(owner)))
+    room = sum(lossy.values()) if lossy else len(waiting)
     return replace(owner, members=members, queue_length=owner.queue_length + room)
 
 
-def _delays(owner: m.ReactiveClass) -> Iterator[int]:
-    for node in m.walk(owner):
-        match node:
-            case m.Call(None, "delay", (m.IntLiteral(units),)):
-                yield units
+def _closed_annotations(server: m.MessageServer, depth: int) -> Iterator[m.Annotation]:
+    if depth:
+        yield m.Annotation(KEEP_LAST, (m.IntLiteral(depth),))
+    yield from (a for a in server.annotations if a.name != OPEN)
+
+
+def _is_slow(model: m.Model, owner: str) -> bool:
+    return any(c.name == owner and _delays(c) for c in model.classes)
+
+
+def _delays(owner: m.ReactiveClass | m.Interface) -> bool:
+    """Whether a body takes time."""
+    return any(
+        isinstance(n, m.Call) and n.target is None and n.name == "delay" for n in m.walk(owner)
+    )
 
 
 def _choice(of: _Field) -> m.Expression | None:

@@ -19,7 +19,8 @@ class OpenEnd:
     """A server of a rebec to which something outside sends: who publishes to a topic, or a client.
 
     `name` is that of the topic or service, None where it is not known; `fields` are the paths of
-    the message's fields that the server's parameters get, in their order.
+    the message's fields that the server's parameters get, in their order. `depth` is how many
+    messages wait at most, None where that is not known, or without an end.
     """
 
     owner: str
@@ -29,13 +30,23 @@ class OpenEnd:
     type: str | None
     fields: tuple[str, ...]
     is_service: bool = False
+    depth: int | None = None
 
 
 def open_ends(joined: Joined) -> tuple[OpenEnd, ...]:
     """The open ends of a system that is wired: subscriptions that no rebec feeds, and services."""
     wiring = joined.wiring
-    fed = [_end(joined, i, s, i.topic(f.topic), False) for i, s, f in unfed(wiring)]
+    fed = [
+        replace(_end(joined, i, s, i.topic(f.topic), False), depth=_depth(i.value(f.depth)))
+        for i, s, f in unfed(wiring)
+    ]
     return tuple(dict.fromkeys((*fed, *_services(joined))))
+
+
+def _depth(found: object) -> int | None:
+    if not isinstance(found, int) or isinstance(found, bool) or found <= 0:
+        return None  # roscpp takes 0 for no end
+    return found
 
 
 def wholly_open(joined: Joined) -> set[tuple[str, str]]:

@@ -42,7 +42,6 @@ _NOTHING = frozenset(
 # What runs behind a `try` even if something in it leaves the function or a loop; or does not.
 _BEHIND = frozenset({"finally_clause", "else_clause"})
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
-LACKING = m.Empty((m.Annotation(UNREADABLE),))
 
 
 @dataclass(eq=False, slots=True)
@@ -79,7 +78,7 @@ class PyStatements(BodyStatementReader):
             return list(self.expression(node))
         except Unread as unread:
             self.reading.findings.unreadable(self.frame.py.source, unread, self.within)
-        return [LACKING]
+        return [self._lacking(node)]
 
     def _listed(self, node: Node) -> list[m.Statement]:
         if node.type in _NOTHING:
@@ -102,7 +101,10 @@ class PyStatements(BodyStatementReader):
         except RecursionError:
             deep = Unread(self.frame.span(node), "this leads deeper than it can be read")
             findings.unreadable(self.frame.py.source, deep, self.within)
-        return [LACKING]
+        return [self._lacking(node)]
+
+    def _lacking(self, node: Node) -> m.Statement:
+        return m.Empty((m.Annotation(UNREADABLE),), self.frame.span(node))
 
     def _lose(self, node: Node) -> None:
         """Of what a statement sets that is not read nothing is known."""

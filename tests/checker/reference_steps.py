@@ -6,7 +6,7 @@ Times are absolute; two states are one when they are equal after subtracting the
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
@@ -104,6 +104,7 @@ class _Present(World):
     drafts: list[_Draft]
     script: list[int]
     taken: int
+    depths: Mapping[tuple[int, Key], int]  # how many messages of a server wait at most
     options: list[int] = field(default_factory=list)
     elapsed: int = 0
 
@@ -129,6 +130,10 @@ class _Present(World):
         self, node: m.Call, receiver: int, key: Key, arguments: Value, times: tuple[int, int | None]
     ) -> None:
         draft, now = self.drafts[receiver], self.time + self.elapsed
+        waiting = [mail for mail in draft.bag if mail.key == key]
+        depth = self.depths.get((receiver, key))
+        if depth is not None and receiver != self.actor and len(waiting) >= depth:
+            draft.bag.remove(min(waiting, key=lambda mail: mail.arrival))
         if len(draft.bag) + draft.serving >= draft.capacity:
             raise Fails("overflow", node, receiver)
         assert isinstance(arguments, tuple)
@@ -260,6 +265,16 @@ class Explorer:
         servers = self.rebecs[index].info.servers
         return next(s.declaration for s in servers if key_of(s) == mail.key)
 
+    def _depths(self) -> dict[tuple[int, Key], int]:
+        return {
+            (index, key_of(server)): note.arguments[0].value
+            for index, rebec in enumerate(self.rebecs)
+            for server in rebec.info.servers
+            for note in server.declaration.annotations
+            if note.name == "KeepLast" and note.arguments
+            if isinstance(note.arguments[0], m.IntLiteral)
+        }
+
     def _candidates(self, state: State, index: int) -> list[Mail]:
         """The messages of which an idle rebec takes one."""
         bag = state.actors[index].bag
@@ -302,7 +317,8 @@ class Explorer:
             drafts = self._drafts(state, index, bag, mail)
             standing = state.actors[index].stand
             since = state.time if standing is None else standing.taken
-            present = _Present(self.view, state.time, index, mail, drafts, script, since)
+            depths = self._depths()
+            present = _Present(self.view, state.time, index, mail, drafts, script, since, depths)
             yield self._run(state, index, present)
             taken = list(zip(present.script, present.options, strict=True))
             while taken and taken[-1][0] + 1 == taken[-1][1]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from rebsync import properties as p
@@ -26,6 +26,7 @@ from rebsync.checker.program import (
 )
 from rebsync.checker.values import stored
 from rebsync.model import Annotation, Constructor, Method, Paren, ReactiveClass, Rebec
+from rebsync.reserved import KEEP_LAST
 from rebsync.source import Span
 from rebsync.static import Analysis
 from rebsync.static.symbols import ClassInfo, RebecSymbol, ServerSymbol
@@ -104,16 +105,28 @@ def _servers(world: World) -> Iterator[tuple[Server, ServerSymbol]]:
             declared = symbol.declaration
             body = world.body_of(info, declared)
             rank = _priority(declared.annotations, world.analysis)
-            yield Server(symbol.name, name, body, rank, declared.name_span), symbol
+            depth = _depth(declared.annotations, world.analysis)
+            yield Server(symbol.name, name, body, rank, declared.name_span, depth), symbol
 
 
 def _priority(annotations: tuple[Annotation, ...], analysis: Analysis) -> int:
+    return _number(annotations, ("priority", "globalPriority"), analysis, UNRANKED)
+
+
+def _depth(annotations: tuple[Annotation, ...], analysis: Analysis) -> int:
+    return _number(annotations, (KEEP_LAST,), analysis, 0)
+
+
+def _number(
+    annotations: tuple[Annotation, ...], names: Collection[str], analysis: Analysis, default: int
+) -> int:
+    """The argument of the first annotation of some name."""
     for annotation in annotations:
-        if annotation.name in ("priority", "globalPriority") and annotation.arguments:
+        if annotation.name in names and annotation.arguments:
             value = analysis.value_of(annotation.arguments[0])
             if isinstance(value, int):
                 return value
-    return UNRANKED
+    return default
 
 
 def _body(number: int, info: ClassInfo, declared: Declared, world: World) -> None:

@@ -324,12 +324,34 @@ static void insert_message(struct engine *e, struct local *l, const cell *messag
     memcpy(l->bag + at * stride, message, stride * sizeof(cell));
 }
 
+/* Takes out what is lost when another message comes for a server: its oldest, if it has no more
+ * than so many. */
+static void displace(struct engine *e, struct local *l, cell server)
+{
+    size_t depth = server < 0 ? 0 : (size_t)e->model->server[server].depth, stride = e->model->stride;
+    size_t waiting = 0, oldest = l->messages;
+    for (size_t i = l->messages; depth && i-- > 0;)
+        if (l->bag[i * stride + SERVER] == server) {
+            oldest = i;
+            waiting++;
+        }
+    if (!depth || waiting < depth)
+        return;
+    memmove(l->bag + oldest * stride, l->bag + (oldest + 1) * stride,
+            (l->messages - oldest - 1) * stride * sizeof(cell));
+    l->messages--;
+}
+
 static uint32_t compute_received(struct engine *e, uint32_t rebec, uint32_t id, uint32_t message)
 {
     struct actor *a = e->actors + rebec;
+    const cell *new = (cell *)e->messages.data + (size_t)message * e->model->stride;
     uint32_t places = component(e, rebec, id)->places + 1;
     unpack_local(e, rebec, id, &e->scratch);
-    insert_message(e, &e->scratch, (cell *)e->messages.data + (size_t)message * e->model->stride);
+    size_t before = e->scratch.messages;
+    displace(e, &e->scratch, new[SERVER]);
+    places -= (uint32_t)(before - e->scratch.messages);
+    insert_message(e, &e->scratch, new);
     a->largest = places > a->largest ? places : a->largest;
     enlarge_memo(e, &a->received, a->components.count);
     return number_of(e, rebec, &e->scratch);

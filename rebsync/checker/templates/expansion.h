@@ -69,16 +69,27 @@ static void complete(struct engine *e, int32_t actor)
     reach(e, actor, time, deadlock);
 }
 
+/* Whether a message may take the place of another. */
+static int displaces(struct engine *e, uint32_t message)
+{
+    cell server = ((cell *)e->messages.data)[(size_t)message * e->model->stride + SERVER];
+    return server >= 0 && e->model->server[server].depth > 0;
+}
+
 /* Delivers what an outcome sends, into e->next; the send that overflows, or NULL. */
 static const struct send *deliver(struct engine *e, const struct outcome *o)
 {
     for (uint32_t i = 0; i < o->send_count; i++) {
         const struct send *s = (struct send *)e->sends.data + o->sends + i;
-        uint32_t receiver = s->receiver;
-        if (component(e, receiver, e->next[receiver])->places ==
-            (uint32_t)e->model->rebec[receiver].capacity)
+        uint32_t receiver = s->receiver, before = e->next[receiver];
+        uint32_t capacity = (uint32_t)e->model->rebec[receiver].capacity;
+        int full = component(e, receiver, before)->places == capacity;
+        if (full && !displaces(e, s->message))
             return s;
-        e->next[receiver] = received(e, receiver, e->next[receiver], s->message);
+        uint32_t after = received(e, receiver, before, s->message);
+        if (full && component(e, receiver, after)->places > capacity)
+            return s;
+        e->next[receiver] = after;
     }
     return NULL;
 }

@@ -68,6 +68,7 @@ struct rebec {
 
 struct server {
     int32_t body, priority, arguments;
+    int32_t depth; /* of its messages from other rebecs so many wait at most; 0: all */
 };
 
 struct body {
