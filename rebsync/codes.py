@@ -248,6 +248,7 @@ RUNS = {
     "RS925": "a state space that is too large to draw",
     "RS926": "something of Timed Rebeca in a model that is checked as core Rebeca",
     "RS927": "an array, or the state of a rebec, that is too large to check",
+    "RS928": "a constant that the model does not have, or not with one value",
     "RS931": "no C compiler for the compiled engine, or one that fails",
 }
 

@@ -26,20 +26,24 @@ def read_problem(model: str, property_file: str | None, *, untimed: bool = False
 
     Mistakes of either are RebsyncErrors; warnings are what `lint` is for.
     """
-    from rebsync.checker.problem import Problem
-    from rebsync.properties import Properties
-
     if Path(model).suffix == PROPERTY:
         raise click.UsageError(
             f'"{model}" holds properties: name the model, and these with --property'
         )
     source = read_source(model)
-    analysis = analysed(source, untimed=untimed)
     path = _beside(model) if property_file is None else property_file
-    if path is None:
-        return Problem(source, analysis, Properties())
-    properties = read_source(path)
-    return Problem(source, analysis, properties_of(properties, analysis), properties)
+    return problem_of(source, read_source(path) if path is not None else None, untimed=untimed)
+
+
+def problem_of(model: Source, properties: Source | None, *, untimed: bool = False) -> Problem:
+    """What the texts of a model and of its properties say. RebsyncError: they have mistakes."""
+    from rebsync.checker.problem import Problem
+    from rebsync.properties import Properties
+
+    analysis = analysed(model, untimed=untimed)
+    if properties is None:
+        return Problem(model, analysis, Properties())
+    return Problem(model, analysis, properties_of(properties, analysis), properties)
 
 
 def with_text(problem: Problem, text: str) -> Problem:

@@ -121,6 +121,13 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     "--replay", metavar="FILE", help="Run a recorded run again: JSON of an earlier result."
 )
 @click.option("--violation", metavar="NAME", help="Which run to replay or to draw.")
+@click.option(
+    "--for-all",
+    "swept",
+    multiple=True,
+    metavar="env.NAME=VALUES",
+    help="Verify once for each of 5..20 or 1,2,5 as value of a constant.",
+)
 @click.option("--states", metavar="FILE", help="Draw the state space: .dot, .svg or .json.")
 @click.option(
     "--export",
@@ -140,6 +147,8 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
 
     given = ctx.params
     check_name(given["states"], output)
+    if given["swept"]:
+        return _swept(model, given, output)
     if given["replay"] is not None and (given["states"] or given["export"]):
         raise click.UsageError("--replay makes one run: leave --states and --export out")
     problem = _read(model, given)
@@ -159,6 +168,24 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     result = _verified(problem, options)
     _write(result, problem, given, output)
     return STATUS_OF[result.verdict]
+
+
+def _swept(model: str, given: dict[str, Any], output: str) -> Status:
+    """Verifies once for each combination of values of constants."""
+    from rebsync.cli.sweep import parameter, sweep, write_sweep
+
+    parameters = [parameter(text) for text in given["swept"]]
+    if _is_package(model) or _is_code(model):
+        raise click.UsageError("--for-all is for models: leave it out for packages")
+    if given["style"] not in ("text", "json"):
+        raise click.UsageError("--for-all prints a table: --format text or json")
+    if any(given[name] for name in ("replay", "states", "export", "violation")):
+        raise click.UsageError("--for-all prints a table only, without runs and states")
+    problem = _read(model, given)
+    keep_what_is_read(problem, output)
+    options = _options({**given, "everything": not given["stop_at"]}, model)
+    rows = sweep(problem, parameters, options, untimed=given["language"] == "core")
+    return write_sweep(problem.source.path, parameters, rows, given["style"], output)
 
 
 def _read(model: str, given: dict[str, Any]) -> Problem:

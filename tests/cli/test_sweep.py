@@ -1,0 +1,121 @@
+"""`rebsync verify --for-all` as a user runs it: one verdict for each value of constants."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+import pytest
+from jsonschema import Draft202012Validator  # type: ignore[import-untyped]
+
+from rebsync.cli.problem import analysed
+from rebsync.cli.sweep import Swept, parameter, with_values
+from rebsync.source import Source
+from tests.cli.run import ROOT, rebsync
+
+SCHEMA = json.loads((ROOT / "docs" / "sweep.schema.json").read_text())
+MODEL = """\
+env int limit = 3;
+env int step = 1; env boolean quick = true;
+
+reactiveclass Walker(2) {
+  statevars { int place; }
+  Walker() { self.go(); }
+  msgsrv go() {
+    place = (place + step) % 6;
+    self.go() after(quick ? 1 : 2);
+  }
+}
+
+main { Walker walker():(); }
+"""
+PROPERTY = "property { Assertion { Low: walker.place <= limit; } }\n"
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> str:
+    (tmp_path / "walker.rebeca").write_text(MODEL)
+    (tmp_path / "walker.property").write_text(PROPERTY)
+    return "walker.rebeca"
+
+
+def _swept(model: str, cwd: Path, *ranges: str, status: int) -> list[dict[str, Any]]:
+    options = [option for each in ranges for option in ("--for-all", each)]
+    done = rebsync("verify", model, *options, "--format", "json", cwd=cwd)
+    assert (done.status, done.err) == (status, "")
+    found = json.loads(done.out)
+    Draft202012Validator(SCHEMA).validate(found)
+    results: list[dict[str, Any]] = found["results"]
+    return results
+
+
+def test_each_value_has_the_verdict_of_a_model_with_it(model: str, tmp_path: Path) -> None:
+    results = _swept(model, tmp_path, "env.limit=2..6", "step=1,2,5", status=3)
+    reached = {"1": 5, "2": 4, "5": 5}
+    assert [tuple(r["values"].values()) for r in results] == [
+        (limit, step) for limit in range(2, 7) for step in (1, 2, 5)
+    ]
+    for result in results:
+        values = result["values"]
+        holds = reached[str(values["step"])] <= values["limit"]
+        assert result["verdict"] == ("satisfied" if holds else "violated")
+        assert result["properties"] == {"Low": result["verdict"]}
+        assert [v["name"] for v in result["violations"]] == ([] if holds else ["Low"])
+        assert result["states"] == {1: 6, 2: 3, 5: 6}[values["step"]]
+
+
+def test_the_table_says_for_which_values_it_holds(model: str, tmp_path: Path) -> None:
+    done = rebsync("verify", model, "--for-all", "env.limit=3..7", cwd=tmp_path)
+    assert done.status == 3
+    lines = done.out.splitlines()
+    assert lines[3].split() == ["3", "violated", "6", "Low"]
+    assert lines[-2:] == [
+        "satisfied for 3 of 5: limit = 5..7",
+        "violated for 2 of 5: limit = 3, 4",
+    ]
+
+
+def test_a_bound_holds_for_each_search(model: str, tmp_path: Path) -> None:
+    options = ("--for-all", "quick=true,false", "--max-states", "2")
+    done = rebsync("verify", model, *options, cwd=tmp_path)
+    assert done.status == 4
+    assert "undetermined for 2 of 2: quick = true, false" in done.out
+    assert done.out.count("the bound of 2 states was reached") == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("limti=1..2", 'RS928 the model has no constant "limti"'),
+        ("limit=1,99999999999", "RS305"),
+        ("limit=0..99 --for-all step=0..999", "more than 10,000 searches"),
+        ("limit=1 --for-all env.limit=2", "names a constant twice"),
+    ],
+)
+def test_what_cannot_be_swept_is_a_mistake(
+    model: str, tmp_path: Path, text: str, said: str
+) -> None:
+    done = rebsync("verify", model, "--for-all", *text.split(), cwd=tmp_path)
+    assert done.status == 2
+    assert said in done.err
+
+
+def test_a_parameter_is_a_range_or_a_list() -> None:
+    assert parameter("env.a=-1..1") == Swept("a", ("-1", "0", "1"))
+    assert parameter(" b = 2, 0.5,2 ") == Swept("b", ("2", "0.5"))
+
+
+@pytest.mark.parametrize("text", ["a", "a=2..1", "a=1..", "a=0..10000", "a=b", "a b=1"])
+def test_what_is_neither_is_refused(text: str) -> None:
+    with pytest.raises(click.UsageError):
+        parameter(text)
+
+
+def test_values_change_nothing_else_of_the_text() -> None:
+    source = Source("walker.rebeca", MODEL)
+    env = analysed(source).env
+    declared = [env["limit"].declaration, env["quick"].declaration]
+    text = with_values(MODEL, declared, ("10", "false"))
+    assert text == MODEL.replace("limit = 3", "limit = 10").replace("= true", "= false")
