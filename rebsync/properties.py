@@ -106,6 +106,14 @@ class Property:
 
 
 @dataclass(frozen=True, slots=True)
+class Measure:
+    """A whole number or truth value that is to be measured, and its `text` as written."""
+
+    text: str
+    value: Formula
+
+
+@dataclass(frozen=True, slots=True)
 class Properties:
     """All that a property file says."""
 

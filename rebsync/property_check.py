@@ -42,6 +42,19 @@ def check_properties(
     return tuple(sorted(check.found, key=lambda d: (d.span.start, d.code)))
 
 
+def check_measure(
+    formula: p.Formula, properties: p.Properties, analysis: Analysis
+) -> tuple[Diagnostic, ...]:
+    """What is wrong with an expression to be measured, which may use the definitions of properties
+    without mistakes."""
+    check = _Check(properties, analysis, False)
+    try:
+        check.measure(formula)
+    except RecursionError:
+        check.report("RS111", properties.span, "a formula nests deeper than rebsync reads")
+    return tuple(check.found)
+
+
 @dataclass
 class _Check:
     """One file being checked; `types` are those of the defines known so far."""
@@ -56,12 +69,14 @@ class _Check:
     used: set[str] = field(default_factory=set)
     open: list[str] = field(default_factory=list)
 
-    def run(self) -> None:
+    def __post_init__(self) -> None:
         main = self.analysis.model.main
         self.rebecs = {rebec.name: rebec for rebec in (main.rebecs if main else ())}
+        self.defines = {define.name: define for define in reversed(self.properties.defines)}
+
+    def run(self) -> None:
         self._unique(self.properties.defines)
         self._unique(self.properties.all)
-        self.defines = {define.name: define for define in reversed(self.properties.defines)}
         for define in self.properties.defines:
             self._define(define)
         for each in self.properties.all:
@@ -69,6 +84,14 @@ class _Check:
         for define in self.properties.defines:
             if define.name not in self.used:
                 self._unused(define)
+
+    def measure(self, formula: p.Formula) -> None:
+        type_ = self._formula(formula)
+        if type_ is None or is_integer(type_) or is_boolean(type_):
+            return
+        hint = "cast it: (int) (...)" if is_numeric(type_) else None
+        message = f"only whole numbers and truth values are measured, not a {type_}"
+        self.report("RS903", formula.span, message, hint)
 
     # --- definitions
 

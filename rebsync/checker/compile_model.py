@@ -69,7 +69,7 @@ def _context(program: Program) -> dict[str, object]:
         "live": _list(live),
         "rebecs": [_rebec(r) for r in program.rebecs],
         "servers": [_list(_server(program, s)) for s in range(len(program.servers))] or ["0"],
-        "predicates": _list(program.predicates),
+        "predicates": _list(program.observers),
         "observed": _list(_observed(program)),
         "figures": _list(_figures(program)),
     }
@@ -85,6 +85,7 @@ def _figures(program: Program) -> tuple[int, ...]:
         message_cells(program),
         int(program.global_ranks),
         int(program.reads_clock),
+        len(program.measures),
     )
 
 
@@ -116,10 +117,10 @@ def _server(program: Program, number: int) -> tuple[int, int, int, int]:
 
 
 def _observed(program: Program) -> list[int]:
-    """For each rebec whether a predicate reads its variables."""
+    """For each rebec whether a predicate or measure reads its variables."""
     read: set[int] = set()
-    for predicate in program.predicates:
-        body = program.bodies[predicate]
+    for observer in program.observers:
+        body = program.bodies[observer]
         code = program.code[body.entry : body.end]
         read.update(i.a for i in code if i.op in ("STATE", "STATEAT"))
     return [int(i in read) for i in range(len(program.rebecs))]

@@ -24,6 +24,7 @@ from rebsync.checker.exploration import (
     Covered,
     Event,
     Exploration,
+    Extremes,
     Limits,
     Progress,
     Report,
@@ -129,6 +130,7 @@ class CompiledSearch:
             reason,
             self._notes(figures.states),
             self._cut,
+            self._measured(),
         )
 
     def _search(self, limits: Limits, report: Report | None, started: float) -> str | None:
@@ -241,6 +243,14 @@ class CompiledSearch:
                 text = self.program.texts[failing.a] if said else ""
                 cause = Failure(kind, found.pc, found.rebec, text)
         return Event(cause, found.state, found.ordinal)
+
+    def _measured(self) -> tuple[Extremes, ...]:
+        found = self._library.rebsync_measured(self._engine)
+        fields = [name for name, _ in native.Measured._fields_]
+        return tuple(
+            Extremes(*(getattr(found[i], name) for name in fields))
+            for i in range(len(self.program.measures))
+        )
 
     def _covered(self) -> Covered:
         numbers = branches(self.program)

@@ -122,12 +122,27 @@ class Covered:
 
 
 @dataclass(frozen=True, slots=True)
+class Extremes:
+    """The least and greatest value of a measure, each with the first state that has it.
+
+    States are -1 when no state has a value; `undefined` is the first that has none, or -1.
+    """
+
+    least: int
+    least_state: int
+    greatest: int
+    greatest_state: int
+    undefined: int
+
+
+@dataclass(frozen=True, slots=True)
 class Exploration:
     """The outcome of a search.
 
     `events` are in the order in which breadth-first search met them, one for each different
     cause (failures: kind and pc and rebec; predicates: number). `reason` says why the search is
-    not complete, or is None; `cut` is the body that it has given up. `depth` is the last level
+    not complete, or is None; `cut` is the body that it has given up. `measured` are the measures of
+    the program. `depth` is the last level
     that was entered.
     """
 
@@ -144,6 +159,7 @@ class Exploration:
     reason: str | None = None
     notes: tuple[str, ...] = field(default=())
     cut: Cut | None = None
+    measured: tuple[Extremes, ...] = ()
 
 
 class Search(Protocol):

@@ -75,6 +75,15 @@ class Event(ctypes.Structure):
     )
 
 
+class Measured(ctypes.Structure):
+    """The extremes of a measure, in the order of `Extremes`."""
+
+    _fields_ = tuple(
+        (name, ctypes.c_int64)
+        for name in ("least", "least_state", "greatest", "greatest_state", "undefined")
+    )
+
+
 class Arrays(ctypes.Structure):
     """Where the arrays of a graph are."""
 
@@ -121,6 +130,8 @@ def declare(library: ctypes.CDLL) -> None:
     library.rebsync_figures.argtypes = [pointer, pointer]
     library.rebsync_events.restype = result
     library.rebsync_events.argtypes = [pointer]
+    library.rebsync_measured.restype = ctypes.POINTER(Measured)
+    library.rebsync_measured.argtypes = [pointer]
     library.rebsync_covered.restype = None
     library.rebsync_covered.argtypes = [pointer, pointer, pointer, pointer]
     library.rebsync_before.restype = signed

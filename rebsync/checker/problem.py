@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 
 from rebsync.checker.exploration import Limits
 from rebsync.checker.steps import Semantics
-from rebsync.properties import Properties
+from rebsync.properties import Measure, Properties
 from rebsync.records import dataclass
 from rebsync.source import Source
 from rebsync.static import Analysis
@@ -47,6 +47,7 @@ class Problem:
     unread: tuple[CodePlace, ...] = ()
     loose: tuple[CodePlace, ...] = ()
     code: Mapping[int, str] = field(default_factory=dict)
+    measures: tuple[Measure, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

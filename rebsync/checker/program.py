@@ -104,7 +104,8 @@ class RebecInfo:
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """All of a model; `predicates` are bodies that compute one boolean from the whole state.
+    """All of a model; `predicates` are bodies that compute one boolean from the whole state,
+    `measures` bodies that compute a whole number.
 
     All bags together have `places` places.
     """
@@ -120,6 +121,12 @@ class Program:
     has_delay: bool
     reads_clock: bool
     places: int
+    measures: tuple[int, ...] = ()
+
+    @property
+    def observers(self) -> tuple[int, ...]:
+        """The bodies that read the whole state, and change nothing."""
+        return (*self.predicates, *self.measures)
 
     def body_at(self, pc: int) -> Body:
         """The body that an instruction belongs to."""

@@ -20,7 +20,7 @@ def silent_lines(program: Program, covered: Covered, source: Source) -> tuple[in
     reached = reached_from(program, entries, covered.branches)
     code, ran = set(), set()
     for number, body in enumerate(program.bodies):
-        if number in program.predicates:
+        if number in program.observers:
             continue
         for pc in range(body.entry, body.end):
             if program.spans[pc] != NOWHERE:

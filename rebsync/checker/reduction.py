@@ -61,7 +61,7 @@ def _steps_of(program: Program, class_name: str) -> Iterator[Instruction]:
 
 
 def _read_by_predicates(program: Program) -> Iterator[int]:
-    for number in program.predicates:
+    for number in program.observers:
         body = program.bodies[number]
         for instruction in program.code[body.entry : body.end]:
             if instruction.op in ("STATE", "STATEAT"):

@@ -31,6 +31,27 @@ class Violation:
 
 
 @dataclass(frozen=True, slots=True)
+class Extreme:
+    """A least or greatest value, with a shortest run to a state that has it."""
+
+    value: int
+    trace: Trace
+
+
+@dataclass(frozen=True, slots=True)
+class MeasureRange:
+    """The least and greatest value of an expression in the states that were seen.
+
+    They are None when no state has a value; `undefined` is a run to a state that has none.
+    """
+
+    expression: str
+    least: Extreme | None
+    greatest: Extreme | None
+    undefined: Trace | None
+
+
+@dataclass(frozen=True, slots=True)
 class Coverage:
     """What never ran: servers as `Class.server`, branches as (line, what never happened).
 
@@ -66,3 +87,4 @@ class Result:
     search_seconds: float
     build_seconds: float
     peak_memory_bytes: int
+    measures: tuple[MeasureRange, ...] = ()

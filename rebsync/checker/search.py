@@ -6,6 +6,7 @@ import time
 from array import array
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from typing import TypeAlias
 
@@ -14,6 +15,7 @@ from rebsync.checker.exploration import (
     Covered,
     Event,
     Exploration,
+    Extremes,
     Limits,
     Progress,
     Report,
@@ -61,6 +63,7 @@ class Interpreted:
         self._expanded = 0
         self._transitions = 0
         self._events: dict[object, Event] = {}  # by cause
+        self._measured = [Extremes(0, -1, 0, -1, -1)] * len(program.measures)
         self._until_reached = False
         self._spent = 0.0
         self._look_at_bounds: Look = unwatched
@@ -102,6 +105,7 @@ class Interpreted:
             used_memory(),
             reason,
             cut=cut,
+            measured=tuple(self._measured),
         )
 
     def _covered(self) -> Covered:
@@ -214,18 +218,37 @@ class Interpreted:
         if self.view.is_deadlock(state):
             self._event("deadlock", Event("deadlock", number))
 
+        for index, body in enumerate(self.program.measures):
+            self._measured[index] = self._extended(self._measured[index], body, state, number)
+
+    def _extended(self, known: Extremes, body: int, state: State, number: int) -> Extremes:
+        """The extremes of a measure with one more state."""
+        try:
+            value = self.value(state, body)
+        except Failed:
+            return known if known.undefined >= 0 else replace(known, undefined=number)
+        if known.least_state < 0 or value < known.least:
+            known = replace(known, least=value, least_state=number)
+        if known.greatest_state < 0 or value > known.greatest:
+            known = replace(known, greatest=value, greatest_state=number)
+        return known
+
     def _event(self, cause: object, event: Event) -> None:
         self._events.setdefault(cause, event)
 
     def holds(self, state: State, predicate: int) -> bool:
         """Whether a predicate is true in a state; raises Failed if it has no value."""
+        return bool(self.value(state, self.program.predicates[predicate]))
+
+    def value(self, state: State, body: int) -> int:
+        """What a predicate or measure computes from a state; raises Failed if it has no value."""
         message = Message(0, -1, 0, NO_DEADLINE, ())
         machine = Machine(
             self.program, self.program.rebecs[0], -1, [], message, 0, [], False, 0, states=state
         )
         machine.look = self._look_at_bounds
-        machine.start(self.program.predicates[predicate], ())
-        return bool(machine.stack[-1])
+        machine.start(body, ())
+        return machine.stack[-1]
 
     # --- afterwards
 

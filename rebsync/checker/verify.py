@@ -14,8 +14,10 @@ from rebsync.checker.exploration import Event, Exploration, Faults, Progress, Re
 from rebsync.checker.formulas import Atom, NamedFormula
 from rebsync.checker.graph import Graph
 from rebsync.checker.incomplete import limited
+from rebsync.checker.invariants import asserted, invariants_of, predicates_of
 from rebsync.checker.look import Stopped
 from rebsync.checker.lowering import lower
+from rebsync.checker.measures import measure_ranges, unmeasured
 from rebsync.checker.memory import peak_memory, used_memory
 from rebsync.checker.naming import coverage_of, event_name
 from rebsync.checker.problem import Options, Problem
@@ -37,7 +39,6 @@ FLOATING_CAVEAT = (
 )
 CYCLE_CAVEAT = "time can stand still for ever in a cycle of steps, which can also be left"
 
-_MAY_FAIL = ("DIV", "MOD", "OFFSET")  # instructions after which a predicate may have no value
 _EDGE = 20  # bytes for each edge of a graph
 
 
@@ -46,7 +47,9 @@ def verify(problem: Problem, options: Options, report: Report | None = None) -> 
     started = time.perf_counter()
     look = Watch(options.limits, report, started, Progress(0, 0, 0, 0, 0.0, 0, "lowering"))
     try:
-        program, formulas = lower(problem.analysis, problem.properties, look)
+        program, formulas = lower(
+            problem.analysis, problem.properties, look, measures=problem.measures
+        )
         return _searched(problem, options, report, started, program, formulas)
     except Stopped as stopped:  # before there was anything to search
         return _nothing_found(problem, options, str(stopped), time.perf_counter() - started)
@@ -62,12 +65,12 @@ def _searched(
 ) -> Result:
     """What a search finds. Raises Stopped when a bound is reached before it has begun."""
     assertions = formulas[: len(problem.properties.assertions)]
-    invariants = _invariants(program, assertions, formulas)
+    invariants = invariants_of(program, assertions, formulas)
     semantics = options.semantics or semantics_for(program, problem)
     first: frozenset[int] = frozenset()
-    if options.reduce and len(assertions) == len(formulas):
+    if options.reduce and len(assertions) == len(formulas) and not problem.measures:
         first = self_driven(program)
-    faults = Faults(frozenset(_predicates(assertions)), "deadlock" not in options.allowed)
+    faults = Faults(frozenset(asserted(assertions)), "deadlock" not in options.allowed)
     options = _bounded(options, started, faults)
     search, exploration = explore(program, semantics, invariants, first, options, report)
     if exploration.cut:
@@ -95,25 +98,8 @@ def _nothing_found(problem: Problem, options: Options, reason: str, seconds: flo
     memory, semantics = peak_memory(), options.semantics or "tts"
     return Result(
         "undetermined", reason, (), known, (), Coverage((), (), ()), 0, 0, 0, semantics,
-        "interpreted", seconds, 0.0, 0.0, memory,
+        "interpreted", seconds, 0.0, 0.0, memory, unmeasured(problem.measures),
     )  # fmt: skip
-
-
-def _invariants(
-    program: Program, assertions: tuple[NamedFormula, ...], formulas: tuple[NamedFormula, ...]
-) -> tuple[int, ...]:
-    """What a search looks at: the predicates of assertions, and all that may have no value."""
-    everywhere = [*_predicates(assertions)]
-    for formula in formulas[len(assertions) :]:
-        for number in predicates_of(formula):
-            body = program.bodies[program.predicates[number]]
-            if any(i.op in _MAY_FAIL for i in program.code[body.entry : body.end]):
-                everywhere.append(number)
-    return tuple(dict.fromkeys(everywhere))
-
-
-def _predicates(assertions: tuple[NamedFormula, ...]) -> dict[int, None]:
-    return {f.formula.predicate: None for f in assertions if isinstance(f.formula, Atom)}
 
 
 def _watch(found: Exploration, options: Options, report: Report | None, started: float) -> Watch:
@@ -389,11 +375,8 @@ class _Answer:
             found.seconds,
             found.build_seconds,
             max(peak_memory(), found.memory),
+            measure_ranges(self.problem.measures, found.measured, self._run_to),
         )
 
-
-def predicates_of(formula: NamedFormula) -> tuple[int, ...]:
-    """The numbers of the predicates in a formula."""
-    from rebsync.checker.formulas import atoms
-
-    return tuple(atoms(formula.formula))
+    def _run_to(self, state: int) -> Trace:
+        return self._trace(Event("", state))

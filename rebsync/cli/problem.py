@@ -17,7 +17,7 @@ from rebsync.source import Source
 
 if TYPE_CHECKING:
     from rebsync.checker.problem import Problem
-    from rebsync.properties import Properties
+    from rebsync.properties import Measure, Properties
     from rebsync.static import Analysis
 
 
@@ -44,6 +44,27 @@ def problem_of(model: Source, properties: Source | None, *, untimed: bool = Fals
     if properties is None:
         return Problem(model, analysis, Properties())
     return Problem(model, analysis, properties_of(properties, analysis), properties)
+
+
+def measured(problem: Problem, texts: tuple[str, ...]) -> Problem:
+    """The problem with expressions to be measured. RebsyncError: they have mistakes."""
+    return replace(problem, measures=tuple(_measure(text, problem) for text in texts))
+
+
+def _measure(text: str, problem: Problem) -> Measure:
+    from rebsync.grammars.properties import parse_properties
+    from rebsync.properties import Measure
+    from rebsync.property_check import check_measure
+
+    source = Source("--measure", f"property {{ define {{ measure =\n{text}\n; }} }}")
+    parsed = parse_properties(source)
+    refuse(source, parsed.diagnostics)
+    found = parsed.properties
+    if len(found.defines) != 1 or found.all:
+        raise click.UsageError(f'--measure takes one expression, not "{text}"')
+    value = found.defines[0].value
+    refuse(source, check_measure(value, problem.properties, problem.analysis))
+    return Measure(" ".join(text.split()), value)
 
 
 def with_text(problem: Problem, text: str) -> Problem:

@@ -41,7 +41,10 @@ class Swept:
 
 @dataclass(frozen=True, slots=True)
 class SweptResult:
-    """What was found for some values; `violations` are their kinds and names."""
+    """What was found for some values.
+
+    `violations` are their kinds and names, `measures` the least and greatest values.
+    """
 
     values: tuple[str, ...]
     verdict: Verdict
@@ -49,6 +52,7 @@ class SweptResult:
     caveats: tuple[str, ...]
     properties: tuple[tuple[str, Verdict], ...]
     violations: tuple[tuple[str, str], ...]
+    measures: tuple[tuple[str, int | None, int | None], ...]
     states: int
     seconds: float
 
@@ -86,7 +90,8 @@ def sweep(
     if prod(len(p.values) for p in parameters) > _MOST:
         raise click.UsageError(f"--for-all asks for more than {_MOST:,} searches")
     declared = [_declared(problem, parameter.name) for parameter in parameters]
-    task = partial(_verified, problem.source, problem.property_source, declared, options, untimed)
+    texts = problem.source, problem.property_source, tuple(m.text for m in problem.measures)
+    task = partial(_verified, *texts, declared, options, untimed)
     every = product(*(parameter.values for parameter in parameters))
     return in_processes(every, task, lambda _: problem.source.path)
 
@@ -107,6 +112,7 @@ def _declared(problem: Problem, name: str) -> Declarator:
 def _verified(
     model: Source,
     properties: Source | None,
+    measures: tuple[str, ...],
     declared: Sequence[Declarator],
     options: Options,
     untimed: bool,
@@ -115,14 +121,15 @@ def _verified(
     """The result for some values, in a process that Ctrl-C ends cleanly, too."""
     global _interrupted
     from rebsync.checker.verify import verify
-    from rebsync.cli.problem import problem_of
+    from rebsync.cli.problem import measured, problem_of
 
     if _interrupted:
         return _unfinished(values)
     signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         source = Source(model.path, with_values(model.text, declared, values))
-        result = verify(problem_of(source, properties, untimed=untimed), options)
+        problem = measured(problem_of(source, properties, untimed=untimed), measures)
+        result = verify(problem, options)
     except KeyboardInterrupt:
         _interrupted = True
         return _unfinished(values)
@@ -142,7 +149,7 @@ def with_values(text: str, declared: Sequence[Declarator], values: Sequence[str]
 
 
 def _unfinished(values: tuple[str, ...]) -> SweptResult:
-    return SweptResult(values, "undetermined", "it was interrupted", (), (), (), 0, 0.0)
+    return SweptResult(values, "undetermined", "it was interrupted", (), (), (), (), 0, 0.0)
 
 
 def _row(values: tuple[str, ...], result: Result) -> SweptResult:
@@ -153,6 +160,10 @@ def _row(values: tuple[str, ...], result: Result) -> SweptResult:
         result.caveats,
         result.properties,
         tuple((violation.kind, violation.name) for violation in result.violations),
+        tuple(
+            (m.expression, m.least and m.least.value, m.greatest and m.greatest.value)
+            for m in result.measures
+        ),
         result.states,
         result.seconds,
     )
@@ -208,10 +219,11 @@ def sweep_lines(
 
 
 def _why(row: SweptResult) -> str:
-    """What is violated, and why something is undetermined."""
+    """What was measured, what is violated, and why something is undetermined."""
     why = ", ".join(dict.fromkeys(name for _, name in row.violations))
     reason = row.reason if row.reason and row.verdict != "satisfied" else ""
-    return "; ".join(filter(None, (why, reason)))
+    ranges = ", ".join(f"{text}: {least} to {most}" for text, least, most in row.measures)
+    return "; ".join(filter(None, (ranges, why, reason)))
 
 
 def _which(parameters: Sequence[Swept], rows: Sequence[SweptResult], verdict: str) -> str:
@@ -247,6 +259,10 @@ def sweep_json(model: str, parameters: Sequence[Swept], rows: Iterable[SweptResu
                     "caveats": list(row.caveats),
                     "properties": dict(row.properties),
                     "violations": [{"kind": kind, "name": name} for kind, name in row.violations],
+                    "measures": {
+                        text: {"least": least, "greatest": greatest}
+                        for text, least, greatest in row.measures
+                    },
                     "states": row.states,
                     "seconds": row.seconds,
                 }

@@ -11,7 +11,7 @@ import click
 
 from rebsync.cli.amounts import amount, duration
 from rebsync.cli.options import write_output
-from rebsync.cli.problem import keep_what_is_read, read_problem
+from rebsync.cli.problem import keep_what_is_read, measured, read_problem
 from rebsync.cli.status import STATUS_OF, Status
 from rebsync.diagnostics import RebsyncError
 
@@ -122,6 +122,13 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
 )
 @click.option("--violation", metavar="NAME", help="Which run to replay or to draw.")
 @click.option(
+    "--measure",
+    "measures",
+    multiple=True,
+    metavar="EXPR",
+    help="Tell the least and greatest value of an expression.",
+)
+@click.option(
     "--for-all",
     "swept",
     multiple=True,
@@ -153,6 +160,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
         raise click.UsageError("--replay makes one run: leave --states and --export out")
     problem = _read(model, given)
     keep_what_is_read(problem, output, given["states"], replayed=given["replay"])
+    problem = measured(problem, given["measures"])
     if given["replay"] is not None:
         from rebsync.cli.runs import replay_file
 
@@ -181,7 +189,7 @@ def _swept(model: str, given: dict[str, Any], output: str) -> Status:
         raise click.UsageError("--for-all prints a table: --format text or json")
     if any(given[name] for name in ("replay", "states", "export", "violation")):
         raise click.UsageError("--for-all prints a table only, without runs and states")
-    problem = _read(model, given)
+    problem = measured(_read(model, given), given["measures"])
     keep_what_is_read(problem, output)
     options = _options({**given, "everything": not given["stop_at"]}, model)
     rows = sweep(problem, parameters, options, untimed=given["language"] == "core")
@@ -249,10 +257,11 @@ def _allowed(model: str) -> tuple[str, ...]:
 
 
 def _first(given: dict[str, Any]) -> bool:
-    """Whether the search ends at the first violation: by itself where a person waits for it."""
+    """Whether the search ends at the first violation: by itself where a person waits for it, and
+    no values are measured."""
     if given["stop_at"] and given["everything"]:
         raise click.UsageError("--stop-at first and --all exclude each other")
-    if given["stop_at"] or given["everything"]:
+    if given["stop_at"] or given["everything"] or given["measures"]:
         return bool(given["stop_at"])
     waits = sys.stdout.isatty() and sys.stderr.isatty()
     return waits and given["style"] == "text" and given["output"] == "-"

@@ -43,6 +43,7 @@ def model(tmp_path: Path) -> str:
 
 def _swept(model: str, cwd: Path, *ranges: str, status: int) -> list[dict[str, Any]]:
     options = [option for each in ranges for option in ("--for-all", each)]
+    options += ["--measure", "walker.place * 2"]
     done = rebsync("verify", model, *options, "--format", "json", cwd=cwd)
     assert (done.status, done.err) == (status, "")
     found = json.loads(done.out)
@@ -63,6 +64,8 @@ def test_each_value_has_the_verdict_of_a_model_with_it(model: str, tmp_path: Pat
         assert result["verdict"] == ("satisfied" if holds else "violated")
         assert result["properties"] == {"Low": result["verdict"]}
         assert [v["name"] for v in result["violations"]] == ([] if holds else ["Low"])
+        most = 2 * reached[str(values["step"])]
+        assert result["measures"] == {"walker.place * 2": {"least": 0, "greatest": most}}
         assert result["states"] == {1: 6, 2: 3, 5: 6}[values["step"]]
 
 

@@ -40,13 +40,14 @@ def lower(
     properties: p.Properties = _NO_PROPERTIES,
     look: Look = unwatched,
     moves: bool = False,
+    measures: tuple[p.Measure, ...] = (),
 ) -> tuple[Program, tuple[f.NamedFormula, ...]]:
     """The program of a model without errors, and the entries of its properties in file order.
 
     The predicates of the program are the largest parts of the formulas without temporal
-    operators; an assertion is one predicate. `look` is called now and then, and may raise.
-    With `moves` the program also tells what `@Move` says, which only the interpreter runs: its
-    steps are those of the program without.
+    operators; an assertion is one predicate; the `measures` are bodies of their own. `look` is
+    called now and then, and may raise. With `moves` the program also tells what `@Move` says, which
+    only the interpreter runs: its steps are those of the program without.
     """
     main = analysis.model.main
     assert main is not None and not analysis.errors
@@ -60,7 +61,7 @@ def lower(
         _body(*world.waiting.popleft(), world)
     numbers = {(s.class_name, id(symbol)): n for n, (s, symbol) in enumerate(servers)}
     rebecs = tuple(_dispatching(r, world, numbers) for r in drafts)
-    formulas, predicates = _properties(world, rebecs, properties)
+    formulas, predicates, measured = _properties(world, rebecs, properties, measures)
     ops = {i.op for i in world.code}
     program = Program(
         tuple(world.code),
@@ -74,6 +75,7 @@ def lower(
         "DELAY" in ops,
         not ops.isdisjoint(("NOW", "ARRIVAL", "DEADLINE")),
         sum(rebec.capacity for rebec in rebecs),
+        measured,
     )
     return program, formulas
 
@@ -206,23 +208,30 @@ def _dispatching(rebec: RebecInfo, world: World, numbers: dict[tuple[str, int], 
 
 
 def _properties(
-    world: World, rebecs: tuple[RebecInfo, ...], properties: p.Properties
-) -> tuple[tuple[f.NamedFormula, ...], tuple[int, ...]]:
+    world: World,
+    rebecs: tuple[RebecInfo, ...],
+    properties: p.Properties,
+    measures: tuple[p.Measure, ...],
+) -> tuple[tuple[f.NamedFormula, ...], tuple[int, ...], tuple[int, ...]]:
+    """The formulas, and the bodies of their predicates and of the measures."""
     numbers: list[int] = []
     by_name = {r.name: (i, r) for i, r in enumerate(rebecs)}
     known = Defines({d.name: d.value for d in properties.defines})
 
-    def predicate(formula: p.Formula) -> int:
+    def observer(formula: p.Formula, name: str) -> int:
         e = Emitter(world, None, BOOLEAN, {}, {}, span=formula.span)
         entry = e.here
         Predicates(e, by_name, known).whole(formula)
         e.emit("RET", 1)
-        numbers.append(len(world.bodies))
-        world.bodies.append(Body(f"predicate {len(numbers)}", entry, e.here, (), e.frame))
+        world.bodies.append(Body(name, entry, e.here, (), e.frame))
+        return len(world.bodies) - 1
+
+    def predicate(formula: p.Formula) -> int:
+        numbers.append(observer(formula, f"predicate {len(numbers) + 1}"))
         return len(numbers) - 1
 
     formulas = tuple(
         f.NamedFormula(each.name, temporal(each.formula, predicate, world.analysis))
         for each in properties.all
     )
-    return formulas, tuple(numbers)
+    return formulas, tuple(numbers), tuple(observer(m.value, m.text) for m in measures)

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from typing import Any, TypeAlias
 
 from rebsync.checker.movement.ways import Moving, nowhere
-from rebsync.checker.result import Coverage, Result, Violation
+from rebsync.checker.result import Coverage, Extreme, MeasureRange, Result, Violation
 from rebsync.checker.show import words
 from rebsync.checker.show.movement_data import movement_json
 from rebsync.checker.trace import ShownMessage, ShownRebec, Trace, TraceStep
@@ -32,6 +32,7 @@ def result_json(result: Result, moving: Moving = nowhere) -> str:
             "properties": dict(result.properties),
             "violations": [_violation(violation, moving) for violation in result.violations],
             "coverage": _coverage(result.coverage),
+            "measures": [_measure(measure, moving) for measure in result.measures],
             "states": result.states,
             "transitions": result.transitions,
             "depth": result.depth,
@@ -88,6 +89,18 @@ def _violation(violation: Violation, moving: Moving) -> Json:
         "formula": violation.formula or None,
         "true": [list(names) for names in violation.true],
         **_trace(violation.trace, moving),
+    }
+
+
+def _measure(measure: MeasureRange, moving: Moving) -> Json:
+    def extreme(found: Extreme | None) -> Json | None:
+        return found and {"value": found.value, **_trace(found.trace, moving)}
+
+    return {
+        "expression": measure.expression,
+        "least": extreme(measure.least),
+        "greatest": extreme(measure.greatest),
+        "undefined": measure.undefined and _trace(measure.undefined, moving),
     }
 
 

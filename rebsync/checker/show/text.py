@@ -40,6 +40,7 @@ def result_lines(result: Result, model: str) -> list[Line]:
         *_remarks(result),
         *_properties(result),
         *(shown for violation in result.violations for shown in _violation(violation)),
+        *_measures(result),
         *_coverage(result, model),
         *_figures(result),
     ]
@@ -155,7 +156,27 @@ def _loop_start(trace: Trace) -> str:
     return "| from here on the run repeats for ever:"
 
 
-# --- coverage and figures ----------------------------------------------------------------------
+# --- measures, coverage and figures ------------------------------------------------------------
+
+
+def _measures(result: Result) -> Iterator[Line]:
+    """The least and greatest values, and where the shortest runs to them end."""
+    if result.measures:
+        searched = "" if result.reason is None else " in what was searched"
+        yield line()
+        yield line(Piece(f"measures{searched}", "bold"))
+    for measure in result.measures:
+        yield line(f"  {measure.expression}", hang=4)
+        for name, extreme in (("least", measure.least), ("greatest", measure.greatest)):
+            value = "none" if extreme is None else f"{extreme.value:<10}  {_after(extreme.trace)}"
+            yield line(f"    {name:<9}{value}", hang=6)
+        if measure.undefined is not None:
+            yield line(Piece(f"    no value  {_after(measure.undefined)}", _WRONG), hang=6)
+
+
+def _after(trace: Trace) -> str:
+    last = trace.steps[-1]
+    return f"after step {last.number}, time {last.until}"
 
 
 def _coverage(result: Result, model: str) -> Iterator[Line]:

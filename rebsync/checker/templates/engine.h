@@ -95,6 +95,11 @@ struct event {
     int64_t state, ordinal;
 };
 
+/* The extremes of a measure, each with the first state that has it; states are -1 for none. */
+struct measured {
+    int64_t least, least_state, greatest, greatest_state, undefined;
+};
+
 enum { PREDICATE = 8, DEADLOCK = 9 };
 
 /* States on their way into the visited set; `event` is a failed step instead, or -1. */
@@ -179,6 +184,7 @@ struct engine {
     int32_t *invariants, *alone; /* predicates; rebecs that act alone when they can */
     uint32_t invariant_count, alone_count;
     unsigned char *covered, *served, *uncounted;
+    struct measured *measured;
     struct observed *observed;
     const cell **views;
     jmp_buf escape;

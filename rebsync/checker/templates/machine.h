@@ -76,11 +76,11 @@ struct body {
 };
 
 struct model {
-    int32_t rebecs, servers, bodies, predicates, branches, stride, global_ranks, reads_clock;
+    int32_t rebecs, servers, bodies, predicates, branches, stride, global_ranks, reads_clock, measures;
     const struct rebec *rebec;
     const struct server *server;
     const struct body *body;
-    const int32_t *predicate; /* bodies */
+    const int32_t *predicate; /* bodies, those of measures behind them */
     const unsigned char *observed; /* for each rebec: whether predicates read it */
     const int32_t *body_of;   /* by instruction */
     const int32_t *live;      /* by instruction: the cells in scope of a call or delay */

@@ -94,7 +94,7 @@ void rebsync_free(struct engine *e)
         e->machine.choices, e->machine.options, e->machine.sends, e->text.data, e->messages.data,
         e->outcomes.data, e->sends.data, e->events.data, e->message_table, e->states.data,
         e->parents.data, e->ordinals.data, e->times.data, e->table, e->prints, e->invariants,
-        e->alone, e->faults, e->watch.cells.data, e->watch.frames.data};
+        e->alone, e->faults, e->measured, e->watch.cells.data, e->watch.frames.data};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
     free(e);
@@ -105,6 +105,12 @@ static int32_t *copied(struct engine *e, const int32_t *numbers, size_t count)
     int32_t *copy = zeroed(e, count, sizeof *copy);
     memcpy(copy, numbers, count * sizeof *copy);
     return copy;
+}
+
+static void measure_nothing(struct engine *e)
+{
+    for (int32_t i = 0; i < e->model->measures; i++)
+        e->measured[i] = (struct measured){0, -1, 0, -1, -1};
 }
 
 struct engine *rebsync_new(const struct model *model, int semantics, int compact,
@@ -128,6 +134,8 @@ struct engine *rebsync_new(const struct model *model, int semantics, int compact
     make_observed(e);
     e->invariants = copied(e, invariants, (size_t)invariant_count);
     e->invariant_count = (uint32_t)invariant_count;
+    e->measured = zeroed(e, (size_t)model->measures, sizeof *e->measured);
+    measure_nothing(e);
     e->alone = copied(e, alone, (size_t)alone_count);
     e->alone_count = (uint32_t)alone_count;
     return e;
@@ -161,6 +169,7 @@ static void undo(struct engine *e)
     e->count = e->pending = e->dropped = 0;
     e->parents.count = e->ordinals.count = e->times.count = e->events.count = 0;
     e->slots = 0;
+    measure_nothing(e);
 }
 
 /* Gives up the states that have been expanded: only fingerprints of them are needed. */
@@ -302,6 +311,11 @@ void rebsync_figures(struct engine *e, struct figures *f)
 const struct event *rebsync_events(struct engine *e)
 {
     return (struct event *)e->events.data;
+}
+
+const struct measured *rebsync_measured(struct engine *e)
+{
+    return e->measured;
 }
 
 /* Copies which servers and branches ran, and the largest bags. */

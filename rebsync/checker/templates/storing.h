@@ -54,8 +54,9 @@ static void observe_all(struct engine *e, const uint32_t *ids)
             e->views[r] = observe(e, r, ids[r]);
 }
 
-/* Runs a predicate on the state observed last: 1, 0, or -1 when it has no value. */
-static int holds(struct engine *e, int32_t predicate)
+/* Runs a predicate or measure on the state observed last; whether it has a value, which is then on
+ * the stack. */
+static int evaluate(struct engine *e, int32_t predicate)
 {
     struct machine *m = &e->machine;
     m->covered = e->uncounted;
@@ -69,12 +70,37 @@ static int holds(struct engine *e, int32_t predicate)
     m->covered = e->covered;
     if (m->exhausted)
         give_up(e);
-    return status == DONE ? m->stack[0] != 0 : -1;
+    return status == DONE;
+}
+
+/* A predicate on the state observed last: 1, 0, or -1 when it has no value. */
+static int holds(struct engine *e, int32_t predicate)
+{
+    return evaluate(e, predicate) ? e->machine.stack[0] != 0 : -1;
+}
+
+/* The extremes of a measure with the state observed last. */
+static void measure(struct engine *e, int32_t number, int64_t state)
+{
+    struct measured *m = e->measured + number;
+    if (!evaluate(e, e->model->predicates + number)) {
+        m->undefined = m->undefined < 0 ? state : m->undefined;
+        return;
+    }
+    int64_t value = e->machine.stack[0];
+    if (m->least_state < 0 || value < m->least) {
+        m->least = value;
+        m->least_state = state;
+    }
+    if (m->greatest_state < 0 || value > m->greatest) {
+        m->greatest = value;
+        m->greatest_state = state;
+    }
 }
 
 static void judge(struct engine *e, uint64_t state, const uint64_t *words, int deadlock)
 {
-    if (e->invariant_count) {
+    if (e->invariant_count || e->model->measures) {
         unpack(e, words, e->unpacked);
         observe_all(e, e->unpacked);
     }
@@ -89,6 +115,8 @@ static void judge(struct engine *e, uint64_t state, const uint64_t *words, int d
         if (truth < 1)
             note(e, event);
     }
+    for (int32_t i = 0; i < e->model->measures; i++)
+        measure(e, i, (int64_t)state);
     if (deadlock)
         note(e, (struct event){DEADLOCK, 0, 0, (int64_t)state, -1});
 }

@@ -19,6 +19,8 @@ from rebsync.checker.verify import verify
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import read_source
 from rebsync.grammars.parser import parse_model
+from rebsync.model import Binary, IntLiteral, Member, Name
+from rebsync.properties import Measure
 from rebsync.source import Source
 from rebsync.static import analyse
 from tests.checker.show.runs import crossing, lasso, long_run, result, violation
@@ -40,6 +42,7 @@ CONTRACT = {
     "properties",
     "violations",
     "coverage",
+    "measures",
     "states",
     "transitions",
     "semantics",
@@ -70,6 +73,20 @@ def changed(data: Data, place: str, value: object) -> Data:
     else:
         inner[last] = value
     return data
+
+
+def test_measures_are_as_the_schema_says() -> None:
+    source = read_source(str(ROOT / "examples" / "experiment1" / "experiment1.rebeca"))
+    robot = Member(Name("robot1"), "current_segment")
+    measures = Measure("segment", robot), Measure("never", Binary("/", robot, IntLiteral(0)))
+    problem = Problem(source, analyse(parse_model(source).model), measures=measures)
+    found = json.loads(result_json(verify(problem, Options(engine="interpreted"))))
+    VALIDATOR.validate(found)
+    segment, never = found["measures"]
+    assert (segment["least"]["value"], segment["greatest"]["value"]) == (0, 10)
+    assert segment["undefined"] is None
+    assert (never["least"], never["greatest"]) == (None, None)
+    assert never["undefined"]["trace"][-1]["number"] == 0
 
 
 def test_the_schema_is_one() -> None:
