@@ -11,6 +11,7 @@ import time
 from array import array
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import fields
 from functools import partial
 from typing import Any
 
@@ -246,9 +247,8 @@ class CompiledSearch:
 
     def _measured(self) -> tuple[Extremes, ...]:
         found = self._library.rebsync_measured(self._engine)
-        fields = [name for name, _ in native.Measured._fields_]
         return tuple(
-            Extremes(*(getattr(found[i], name) for name in fields))
+            Extremes(*(getattr(found[i], field.name) for field in fields(Extremes)))
             for i in range(len(self.program.measures))
         )
 

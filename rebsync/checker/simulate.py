@@ -26,18 +26,29 @@ def by_chance(seed: int) -> Chooser:
 def run(
     teller: Teller, choose: Chooser, *, until: int | None = None, steps: int | None = None
 ) -> Iterator[TraceStep]:
-    """The steps of one run, until it ends, time passes `until`, or `steps` were made."""
+    """The steps of one run as they are shown."""
+    for made in walk(teller.view, choose, until=until, steps=steps):
+        yield teller.step(*made)
+
+
+def walk(
+    view: Views, choose: Chooser, *, until: int | None = None, steps: int | None = None
+) -> Iterator[tuple[int, int, State, Step]]:
+    """One run, until it ends, time passes `until`, or `steps` were made.
+
+    Of each step its number, the time and the state before it, and the step.
+    """
     state: State = ()
     time = number = 0
     while steps is None or number <= steps:
-        possible = teller.view.steps(state) if number else teller.view.initial_states()
+        possible = view.steps(state) if number else view.initial_states()
         if until is not None:
             possible = tuple(s for s in possible if time + s.time <= until)
         picked = choose(time, state, possible) if len(possible) > 0 else None
         if picked is None:
             return
         step = possible[picked]
-        yield teller.step(number, time, state, step)
+        yield number, time, state, step
         if isinstance(step.result, Failure):
             return
         state, time, number = step.result, time + step.time, number + 1

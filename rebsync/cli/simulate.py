@@ -6,17 +6,18 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from itertools import count
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from rebsync.cli.problem import keep_what_is_read, read_problem
+from rebsync.cli.problem import keep_what_is_read, measured, read_problem
 from rebsync.cli.runs import STYLES, write_run
 from rebsync.cli.status import Status
 from rebsync.cli.verify import view_named, view_options
 from rebsync.terminal import say
 
 if TYPE_CHECKING:
+    from rebsync.checker.problem import Problem
     from rebsync.checker.simulate import Chooser
     from rebsync.checker.state import State
     from rebsync.checker.steps import Step
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from rebsync.checker.trace import TraceStep
 
 _STEPS = 100
+_FEWEST = 30  # runs, from which on means are about normally distributed
 
 
 @click.command("simulate")
@@ -33,6 +35,19 @@ _STEPS = 100
 @click.option("--until", type=click.IntRange(0), metavar="T", help="End at the time T.")
 @click.option(
     "--steps", type=click.IntRange(0), metavar="N", help=f"End after N steps (default: {_STEPS})."
+)
+@click.option(
+    "--runs",
+    type=click.IntRange(_FEWEST, 10_000_000),
+    metavar="N",
+    help=f"Make N runs, at least {_FEWEST}, and tell how they end.",
+)
+@click.option(
+    "--measure",
+    "measures",
+    multiple=True,
+    metavar="EXPR",
+    help="With --runs: tell how the values of an expression are distributed.",
 )
 @click.option("--interactive", is_flag=True, help="Choose each step yourself.")
 @click.option(
@@ -49,7 +64,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     """Make one run of a model, by chance or by hand.
 
     Without --seed every run is another one; the seed is told on standard error. Exit status: 3 if
-    the run ends in a step that fails, 4 if in a body that does not end, else 0.
+    the run (or one of them) ends in a step that fails, 4 if in a body that does not end, else 0.
     """
     from rebsync.checker.endless import EndlessBody, endless_reason
     from rebsync.checker.lowering import lower
@@ -64,6 +79,8 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
         raise click.UsageError("--interactive and --seed exclude each other")
     problem = read_problem(model, given["property_file"], untimed=given["language"] == "core")
     keep_what_is_read(problem, output)
+    if given["runs"] or given["measures"]:
+        return _many(measured(problem, given["measures"]), given, output)
     program, _formulas = lower(problem.analysis, problem.properties)
     semantics = view_named(given) or semantics_for(program, problem)
     teller = Teller(view_of(program, semantics), problem.source)
@@ -85,6 +102,26 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
         say(f"the run ends here: {reason}", err=True)
         return Status.UNDETERMINED
     return Status.VIOLATED if told and told[-1].failure else Status.CLEAN
+
+
+def _many(problem: Problem, given: dict[str, Any], output: str) -> Status:
+    """Many runs by chance: what is told of them is a distribution."""
+    from rebsync.checker.lowering import lower
+    from rebsync.checker.sampling import samples
+    from rebsync.checker.verify import semantics_for
+    from rebsync.cli.estimates import write_estimates
+
+    if not given["runs"] or given["interactive"]:
+        raise click.UsageError("--measure is of many runs by chance: --runs N")
+    if given["style"] not in ("text", "json"):
+        raise click.UsageError("--runs prints a distribution: --format text or json")
+    program, _ = lower(problem.analysis, problem.properties, measures=problem.measures)
+    semantics = view_named(given) or semantics_for(program, problem)
+    seed, until, steps = _seed(given["seed"]), given["until"], given["steps"]
+    if steps is None and until is None:
+        steps = _STEPS
+    made = tuple(samples(program, semantics, seed, given["runs"], until=until, steps=steps))
+    return write_estimates(problem, semantics, seed, made, given["style"], output)
 
 
 def _seed(given: int | None) -> int:

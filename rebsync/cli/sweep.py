@@ -21,7 +21,7 @@ from rebsync.statements import Declarator
 
 if TYPE_CHECKING:
     from rebsync.checker.problem import Options, Problem
-    from rebsync.checker.result import Result, Verdict
+    from rebsync.checker.result import Extreme, Result, Verdict
 
 _MOST = 10_000  # searches
 _PARAMETER = re.compile(r"\s*(?:env\.)?([A-Za-z_]\w*)\s*=(.*)", re.DOTALL)
@@ -160,13 +160,14 @@ def _row(values: tuple[str, ...], result: Result) -> SweptResult:
         result.caveats,
         result.properties,
         tuple((violation.kind, violation.name) for violation in result.violations),
-        tuple(
-            (m.expression, m.least and m.least.value, m.greatest and m.greatest.value)
-            for m in result.measures
-        ),
+        tuple((m.expression, _value(m.least), _value(m.greatest)) for m in result.measures),
         result.states,
         result.seconds,
     )
+
+
+def _value(extreme: Extreme | None) -> int | None:
+    return None if extreme is None else extreme.value
 
 
 # --- the table -----------------------------------------------------------------------------------

@@ -71,9 +71,11 @@ def _numbers(system: System) -> list[tuple[int, int, Measure]]:
 
 def _quotients(system: System) -> list[Measure]:
     """Quotients that have no value in some states."""
-    numbers = [measure for _, _, measure in _numbers(system)]
+    numbers = [(m.text, m.value) for _, _, m in _numbers(system)]
     return [
-        Measure(f"{a.text} / {b.text}", Binary("/", a.value, b.value)) for a, b in pairwise(numbers)
+        Measure(f"{a} / {b}", Binary("/", dividend, divisor))
+        for (a, dividend), (b, divisor) in pairwise(numbers)
+        if isinstance(dividend, Member) and isinstance(divisor, Member)
     ]
 
 

@@ -136,3 +136,34 @@ def test_answers_that_are_none(tmp_path: Path) -> None:
     )
     assert done.status == 0
     assert done.err.count("q to end") == 6
+
+
+def test_many_runs_are_a_distribution(tmp_path: Path) -> None:
+    (tmp_path / "walker.rebeca").write_text(UNSAFE)
+    runs = ("--runs", "40", "--seed", "5")
+    options = ("simulate", "walker.rebeca", *runs, "--measure", "walker.place")
+    done = rebsync(*options, "--format", "json", cwd=tmp_path)
+    assert (done.status, done.err) == (3, "")
+    found = json.loads(done.out)
+    assert found["ends"] == {
+        "assertion": {"runs": 40, "probability": [pytest.approx(0.91, abs=0.01), 1]}
+    }
+    greatest = found["measures"][0]["greatest"]
+    assert [each["from"] for each in greatest["counts"]] == [1, 2]
+    assert greatest["interval"][0] < 1.75 < greatest["interval"][1]
+    told = rebsync(*options, cwd=tmp_path).out
+    assert "40  fail: assertion (probability 0.91" in told
+    assert "greatest of a run: mean 1." in told
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--measure", "walker.place"),
+        ("--runs", "30", "--interactive"),
+        ("--runs", "30", "--format", "svg"),
+    ],
+)
+def test_a_distribution_is_of_many_runs(tmp_path: Path, options: tuple[str, ...]) -> None:
+    (tmp_path / "walker.rebeca").write_text(UNSAFE)
+    assert rebsync("simulate", "walker.rebeca", *options, cwd=tmp_path).status == 2

@@ -94,7 +94,7 @@ def _violation(violation: Violation, moving: Moving) -> Json:
 
 def _measure(measure: MeasureRange, moving: Moving) -> Json:
     def extreme(found: Extreme | None) -> Json | None:
-        return found and {"value": found.value, **_trace(found.trace, moving)}
+        return None if found is None else {"value": found.value, **_trace(found.trace, moving)}
 
     return {
         "expression": measure.expression,

@@ -51,6 +51,14 @@ def result_page(
 ) -> str:
     """The page of a verification of the model `source`; `moving` gives the movement of runs."""
     runs = [_shown(each, source, property_source, moving) for each in result.violations]
+    for measure in result.measures:
+        for name, extreme in (("least", measure.least), ("greatest", measure.greatest)):
+            if extreme is not None:
+                heading = f"{name} {measure.expression} = {extreme.value}"
+                runs.append(Shown(heading, extreme.trace, moving(extreme.trace)))
+        if measure.undefined is not None:
+            heading = f"{measure.expression} has no value"
+            runs.append(Shown(heading, measure.undefined, moving(measure.undefined)))
     return _page(source, _summary(result), runs, result.coverage, property_source)
 
 
