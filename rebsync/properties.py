@@ -114,6 +114,15 @@ class Measure:
 
 
 @dataclass(frozen=True, slots=True)
+class TimeBetween:
+    """The time from when `start` becomes true to when `end` holds; `text` names both."""
+
+    text: str
+    start: Formula
+    end: Formula
+
+
+@dataclass(frozen=True, slots=True)
 class Properties:
     """All that a property file says."""
 

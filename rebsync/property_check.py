@@ -43,13 +43,18 @@ def check_properties(
 
 
 def check_measure(
-    formula: p.Formula, properties: p.Properties, analysis: Analysis
+    formula: p.Formula, properties: p.Properties, analysis: Analysis, *, is_event: bool = False
 ) -> tuple[Diagnostic, ...]:
-    """What is wrong with an expression to be measured, which may use the definitions of properties
-    without mistakes."""
+    """What is wrong with an expression to be measured, or an event, which must be true or false.
+
+    It may use the definitions of the properties, which have no mistakes.
+    """
     check = _Check(properties, analysis, False)
     try:
-        check.measure(formula)
+        if is_event:
+            check.event(formula)
+        else:
+            check.measure(formula)
     except RecursionError:
         check.report("RS111", properties.span, "a formula nests deeper than rebsync reads")
     return tuple(check.found)
@@ -92,6 +97,9 @@ class _Check:
         hint = "cast it: (int) (...)" if is_numeric(type_) else None
         message = f"only whole numbers and truth values are measured, not a {type_}"
         self.report("RS903", formula.span, message, hint)
+
+    def event(self, formula: p.Formula) -> None:
+        self._truth(formula, "an event")
 
     # --- definitions
 

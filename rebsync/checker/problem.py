@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 
 from rebsync.checker.exploration import Limits
 from rebsync.checker.steps import Semantics
-from rebsync.properties import Measure, Properties
+from rebsync.properties import Measure, Properties, TimeBetween
 from rebsync.records import dataclass
 from rebsync.source import Source
 from rebsync.static import Analysis
@@ -48,6 +48,12 @@ class Problem:
     loose: tuple[CodePlace, ...] = ()
     code: Mapping[int, str] = field(default_factory=dict)
     measures: tuple[Measure, ...] = ()
+    between: tuple[TimeBetween, ...] = ()
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether more is asked than what holds."""
+        return bool(self.measures or self.between)
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,9 +32,13 @@ class Violation:
 
 @dataclass(frozen=True, slots=True)
 class Extreme:
-    """A least or greatest value, with a shortest run to a state that has it."""
+    """A least or greatest value, with a run: a shortest one to a state that has it.
 
-    value: int
+    Of a time between two events it is a run with both; the value is None when the second need
+    never come.
+    """
+
+    value: int | None
     trace: Trace
 
 

@@ -17,13 +17,13 @@ from rebsync.checker.incomplete import limited
 from rebsync.checker.invariants import asserted, invariants_of, predicates_of
 from rebsync.checker.look import Stopped
 from rebsync.checker.lowering import lower
-from rebsync.checker.measures import measure_ranges, unmeasured
+from rebsync.checker.measures import measure_ranges, times_between, unmeasured
 from rebsync.checker.memory import peak_memory, used_memory
 from rebsync.checker.naming import coverage_of, event_name
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
 from rebsync.checker.reduction import self_driven
-from rebsync.checker.result import Coverage, Result, Verdict, Violation
+from rebsync.checker.result import Coverage, MeasureRange, Result, Verdict, Violation
 from rebsync.checker.standstill import ENDLESS, LEAVES, cycle_from, may_stand_still
 from rebsync.checker.steps import Failure, Semantics, ViolationKind
 from rebsync.checker.telling import Teller
@@ -48,7 +48,11 @@ def verify(problem: Problem, options: Options, report: Report | None = None) -> 
     look = Watch(options.limits, report, started, Progress(0, 0, 0, 0, 0.0, 0, "lowering"))
     try:
         program, formulas = lower(
-            problem.analysis, problem.properties, look, measures=problem.measures
+            problem.analysis,
+            problem.properties,
+            look,
+            measures=problem.measures,
+            between=problem.between,
         )
         return _searched(problem, options, report, started, program, formulas)
     except Stopped as stopped:  # before there was anything to search
@@ -68,7 +72,7 @@ def _searched(
     invariants = invariants_of(program, assertions, formulas)
     semantics = options.semantics or semantics_for(program, problem)
     first: frozenset[int] = frozenset()
-    if options.reduce and len(assertions) == len(formulas) and not problem.measures:
+    if options.reduce and len(assertions) == len(formulas) and not problem.is_measured:
         first = self_driven(program)
     faults = Faults(frozenset(asserted(assertions)), "deadlock" not in options.allowed)
     options = _bounded(options, started, faults)
@@ -118,7 +122,10 @@ def semantics_for(program: Program, problem: Problem) -> Semantics:
 
     properties = problem.properties
     exact = (
-        program.has_delay or properties.tctl or any(counts_steps(p.formula) for p in properties.ltl)
+        program.has_delay
+        or properties.tctl
+        or problem.between
+        or any(counts_steps(p.formula) for p in properties.ltl)
     )
     return "tts" if exact else "ftts"
 
@@ -139,6 +146,7 @@ class _Answer:
     undecided: str | None = None
     violations: list[Violation] = field(default_factory=list)
     caveats: list[str] = field(default_factory=list)
+    between: tuple[MeasureRange, ...] = ()
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     _graph: Graph | None = None
     _assertions: dict[int, list[Property]] | None = None
@@ -194,6 +202,10 @@ class _Answer:
         if exploration.semantics != "core" and self.complete and may_stand_still(self.program):
             with self._within_bounds():
                 self._standstill()
+        if self.problem.between and self.complete:
+            with self._within_bounds():
+                known = self.graph(), self.watch, self.search.path, self.teller.trace
+                self.between = times_between(self.problem.between, self.program, *known)
 
     def _add(self, kind: ViolationKind, name: str, message: str, line: int, trace: Trace) -> None:
         if any((v.kind, v.name) == (kind, name) for v in self.violations):
@@ -375,7 +387,7 @@ class _Answer:
             found.seconds,
             found.build_seconds,
             max(peak_memory(), found.memory),
-            measure_ranges(self.problem.measures, found.measured, self._run_to),
+            (*measure_ranges(self.problem.measures, found.measured, self._run_to), *self.between),
         )
 
     def _run_to(self, state: int) -> Trace:

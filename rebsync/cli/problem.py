@@ -17,7 +17,7 @@ from rebsync.source import Source
 
 if TYPE_CHECKING:
     from rebsync.checker.problem import Problem
-    from rebsync.properties import Measure, Properties
+    from rebsync.properties import Formula, Properties
     from rebsync.static import Analysis
 
 
@@ -46,25 +46,46 @@ def problem_of(model: Source, properties: Source | None, *, untimed: bool = Fals
     return Problem(model, analysis, properties_of(properties, analysis), properties)
 
 
-def measured(problem: Problem, texts: tuple[str, ...]) -> Problem:
-    """The problem with expressions to be measured. RebsyncError: they have mistakes."""
-    return replace(problem, measures=tuple(_measure(text, problem) for text in texts))
+def measured(
+    problem: Problem, texts: tuple[str, ...], events: tuple[tuple[str, str], ...] = ()
+) -> Problem:
+    """The problem with expressions, and times between two events, to be measured.
+
+    RebsyncError: they have mistakes.
+    """
+    from rebsync.properties import Measure, TimeBetween
+
+    measures = (Measure(_one_line(text), _expression(text, problem)) for text in texts)
+    between = (
+        TimeBetween(
+            f"time from {_one_line(start)} to {_one_line(end)}",
+            _expression(start, problem, is_event=True),
+            _expression(end, problem, is_event=True),
+        )
+        for start, end in events
+    )
+    return replace(problem, measures=tuple(measures), between=tuple(between))
 
 
-def _measure(text: str, problem: Problem) -> Measure:
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
+
+
+def _expression(text: str, problem: Problem, *, is_event: bool = False) -> Formula:
     from rebsync.grammars.properties import parse_properties
-    from rebsync.properties import Measure
     from rebsync.property_check import check_measure
 
-    source = Source("--measure", f"property {{ define {{ measure =\n{text}\n; }} }}")
+    option = "--time-between" if is_event else "--measure"
+    source = Source(option, f"property {{ define {{ measure =\n{text}\n; }} }}")
     parsed = parse_properties(source)
     refuse(source, parsed.diagnostics)
     found = parsed.properties
     if len(found.defines) != 1 or found.all:
-        raise click.UsageError(f'--measure takes one expression, not "{text}"')
+        raise click.UsageError(f'{option} takes one expression, not "{text}"')
     value = found.defines[0].value
-    refuse(source, check_measure(value, problem.properties, problem.analysis))
-    return Measure(" ".join(text.split()), value)
+    checked = problem.properties, problem.analysis
+    refuse(source, check_measure(value, *checked, is_event=is_event))
+    return value
 
 
 def with_text(problem: Problem, text: str) -> Problem:

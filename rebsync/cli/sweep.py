@@ -8,10 +8,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from itertools import product
 from math import prod
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import click
 
+from rebsync.checker.show import words
 from rebsync.cli.options import write_output
 from rebsync.cli.status import STATUS_OF, Status, worst
 from rebsync.diagnostics import RebsyncError, did_you_mean
@@ -27,6 +28,8 @@ _MOST = 10_000  # searches
 _PARAMETER = re.compile(r"\s*(?:env\.)?([A-Za-z_]\w*)\s*=(.*)", re.DOTALL)
 _RANGE = re.compile(r"\s*(-?\d{1,18})\s*\.\.\s*(-?\d{1,18})\s*")
 _VALUE = re.compile(r"-?\d{1,18}(\.\d{1,18})?|true|false")
+
+Asked: TypeAlias = tuple[tuple[str, ...], tuple[tuple[str, str], ...]]
 
 _interrupted = False
 
@@ -52,7 +55,7 @@ class SweptResult:
     caveats: tuple[str, ...]
     properties: tuple[tuple[str, Verdict], ...]
     violations: tuple[tuple[str, str], ...]
-    measures: tuple[tuple[str, int | None, int | None], ...]
+    measures: tuple[tuple[str, int | str | None, int | str | None], ...]
     states: int
     seconds: float
 
@@ -76,11 +79,17 @@ def parameter(text: str) -> Swept:
 
 
 def sweep(
-    problem: Problem, parameters: Sequence[Swept], options: Options, *, untimed: bool
+    problem: Problem,
+    asked: Asked,
+    parameters: Sequence[Swept],
+    options: Options,
+    *,
+    untimed: bool,
 ) -> Iterator[SweptResult]:
     """The results for all combinations of values, the last parameter changing first.
 
-    The searches are made on all processors, each within the bounds of the options.
+    `asked` are the texts of expressions to be measured, and of pairs of events. The searches are
+    made on all processors, each within the bounds of the options.
     RebsyncError: a constant does not exist, or may not have a value.
     """
     from rebsync.reverse.files.parallel import in_processes
@@ -90,8 +99,9 @@ def sweep(
     if prod(len(p.values) for p in parameters) > _MOST:
         raise click.UsageError(f"--for-all asks for more than {_MOST:,} searches")
     declared = [_declared(problem, parameter.name) for parameter in parameters]
-    texts = problem.source, problem.property_source, tuple(m.text for m in problem.measures)
-    task = partial(_verified, *texts, declared, options, untimed)
+    task = partial(
+        _verified, problem.source, problem.property_source, asked, declared, options, untimed
+    )
     every = product(*(parameter.values for parameter in parameters))
     return in_processes(every, task, lambda _: problem.source.path)
 
@@ -112,7 +122,7 @@ def _declared(problem: Problem, name: str) -> Declarator:
 def _verified(
     model: Source,
     properties: Source | None,
-    measures: tuple[str, ...],
+    asked: Asked,
     declared: Sequence[Declarator],
     options: Options,
     untimed: bool,
@@ -128,7 +138,7 @@ def _verified(
     signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         source = Source(model.path, with_values(model.text, declared, values))
-        problem = measured(problem_of(source, properties, untimed=untimed), measures)
+        problem = measured(problem_of(source, properties, untimed=untimed), *asked)
         result = verify(problem, options)
     except KeyboardInterrupt:
         _interrupted = True
@@ -166,8 +176,10 @@ def _row(values: tuple[str, ...], result: Result) -> SweptResult:
     )
 
 
-def _value(extreme: Extreme | None) -> int | None:
-    return None if extreme is None else extreme.value
+def _value(extreme: Extreme | None) -> int | str | None:
+    if extreme is None:
+        return None
+    return words.NEVER if extreme.value is None else extreme.value
 
 
 # --- the table -----------------------------------------------------------------------------------

@@ -129,6 +129,14 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     help="Tell the least and greatest value of an expression.",
 )
 @click.option(
+    "--time-between",
+    "between",
+    nargs=2,
+    multiple=True,
+    metavar="P Q",
+    help="Tell the least and greatest time from when P becomes true until Q holds.",
+)
+@click.option(
     "--for-all",
     "swept",
     multiple=True,
@@ -160,7 +168,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
         raise click.UsageError("--replay makes one run: leave --states and --export out")
     problem = _read(model, given)
     keep_what_is_read(problem, output, given["states"], replayed=given["replay"])
-    problem = measured(problem, given["measures"])
+    problem = measured(problem, given["measures"], given["between"])
     if given["replay"] is not None:
         from rebsync.cli.runs import replay_file
 
@@ -189,10 +197,11 @@ def _swept(model: str, given: dict[str, Any], output: str) -> Status:
         raise click.UsageError("--for-all prints a table: --format text or json")
     if any(given[name] for name in ("replay", "states", "export", "violation")):
         raise click.UsageError("--for-all prints a table only, without runs and states")
-    problem = measured(_read(model, given), given["measures"])
+    asked = given["measures"], given["between"]
+    problem = measured(_read(model, given), *asked)
     keep_what_is_read(problem, output)
     options = _options({**given, "everything": not given["stop_at"]}, model)
-    rows = sweep(problem, parameters, options, untimed=given["language"] == "core")
+    rows = sweep(problem, asked, parameters, options, untimed=given["language"] == "core")
     return write_sweep(problem.source.path, parameters, rows, given["style"], output)
 
 
@@ -221,6 +230,8 @@ def _options(given: dict[str, Any], model: str) -> Options:
 
     if given["language"] == "core" and given["fairness"] == "progress":
         raise click.UsageError("--language core has no time: leave --fairness progress out")
+    if given["between"] and view_named(given) not in (None, "tts"):
+        raise click.UsageError("--time-between needs the exact view: --semantics tts")
     return Options(
         semantics=view_named(given),
         engine=given["engine"],
@@ -261,7 +272,7 @@ def _first(given: dict[str, Any]) -> bool:
     no values are measured."""
     if given["stop_at"] and given["everything"]:
         raise click.UsageError("--stop-at first and --all exclude each other")
-    if given["stop_at"] or given["everything"] or given["measures"]:
+    if given["stop_at"] or given["everything"] or given["measures"] or given["between"]:
         return bool(given["stop_at"])
     waits = sys.stdout.isatty() and sys.stderr.isatty()
     return waits and given["style"] == "text" and given["output"] == "-"

@@ -41,13 +41,15 @@ def lower(
     look: Look = unwatched,
     moves: bool = False,
     measures: tuple[p.Measure, ...] = (),
+    between: tuple[p.TimeBetween, ...] = (),
 ) -> tuple[Program, tuple[f.NamedFormula, ...]]:
     """The program of a model without errors, and the entries of its properties in file order.
 
     The predicates of the program are the largest parts of the formulas without temporal
-    operators; an assertion is one predicate; the `measures` are bodies of their own. `look` is
-    called now and then, and may raise. With `moves` the program also tells what `@Move` says, which
-    only the interpreter runs: its steps are those of the program without.
+    operators; an assertion is one predicate; the `measures` are bodies of their own; the two
+    events of each in `between` are the last predicates. `look` is called now and then, and may
+    raise. With `moves` the program also tells what `@Move` says, which only the interpreter runs:
+    its steps are those of the program without.
     """
     main = analysis.model.main
     assert main is not None and not analysis.errors
@@ -61,7 +63,7 @@ def lower(
         _body(*world.waiting.popleft(), world)
     numbers = {(s.class_name, id(symbol)): n for n, (s, symbol) in enumerate(servers)}
     rebecs = tuple(_dispatching(r, world, numbers) for r in drafts)
-    formulas, predicates, measured = _properties(world, rebecs, properties, measures)
+    formulas, predicates, measured = _properties(world, rebecs, properties, measures, between)
     ops = {i.op for i in world.code}
     program = Program(
         tuple(world.code),
@@ -212,6 +214,7 @@ def _properties(
     rebecs: tuple[RebecInfo, ...],
     properties: p.Properties,
     measures: tuple[p.Measure, ...],
+    between: tuple[p.TimeBetween, ...],
 ) -> tuple[tuple[f.NamedFormula, ...], tuple[int, ...], tuple[int, ...]]:
     """The formulas, and the bodies of their predicates and of the measures."""
     numbers: list[int] = []
@@ -234,4 +237,7 @@ def _properties(
         f.NamedFormula(each.name, temporal(each.formula, predicate, world.analysis))
         for each in properties.all
     )
+    for each in between:
+        predicate(each.start)
+        predicate(each.end)
     return formulas, tuple(numbers), tuple(observer(m.value, m.text) for m in measures)

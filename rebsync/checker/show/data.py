@@ -94,7 +94,10 @@ def _violation(violation: Violation, moving: Moving) -> Json:
 
 def _measure(measure: MeasureRange, moving: Moving) -> Json:
     def extreme(found: Extreme | None) -> Json | None:
-        return None if found is None else {"value": found.value, **_trace(found.trace, moving)}
+        if found is None:
+            return None
+        value = words.NEVER if found.value is None else found.value
+        return {"value": value, **_trace(found.trace, moving)}
 
     return {
         "expression": measure.expression,

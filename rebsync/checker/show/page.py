@@ -54,7 +54,7 @@ def result_page(
     for measure in result.measures:
         for name, extreme in (("least", measure.least), ("greatest", measure.greatest)):
             if extreme is not None:
-                heading = f"{name} {measure.expression} = {extreme.value}"
+                heading = f"{name} {measure.expression} = {words.measured(extreme)}"
                 runs.append(Shown(heading, extreme.trace, moving(extreme.trace)))
         if measure.undefined is not None:
             heading = f"{measure.expression} has no value"

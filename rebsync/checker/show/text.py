@@ -168,7 +168,11 @@ def _measures(result: Result) -> Iterator[Line]:
     for measure in result.measures:
         yield line(f"  {measure.expression}", hang=4)
         for name, extreme in (("least", measure.least), ("greatest", measure.greatest)):
-            value = "none" if extreme is None else f"{extreme.value:<10}  {_after(extreme.trace)}"
+            value = (
+                "none"
+                if extreme is None
+                else f"{words.measured(extreme):<10}  {_after(extreme.trace)}"
+            )
             yield line(f"    {name:<9}{value}", hang=6)
         if measure.undefined is not None:
             yield line(Piece(f"    no value  {_after(measure.undefined)}", _WRONG), hang=6)

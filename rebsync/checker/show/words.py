@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rebsync.checker.result import Violation
+from rebsync.checker.result import Extreme, Violation
 from rebsync.checker.steps import Semantics
 from rebsync.checker.trace import Change, ShownMessage, ShownRebec, TraceStep
 
@@ -13,10 +13,17 @@ _VIEWS: dict[str, str] = {
     "core": "without time (core)",
 }
 
+NEVER = "for ever"  # a time between two events of which the second need not come
+
 
 def view_of(semantics: Semantics | str) -> str:
     """The name of a view of the semantics."""
     return _VIEWS.get(semantics, semantics)
+
+
+def measured(extreme: Extreme) -> str:
+    """A least or greatest value."""
+    return NEVER if extreme.value is None else str(extreme.value)
 
 
 def title(violation: Violation) -> str:
