@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.cli.lint import lint
+from rebsync.lint import lint
 from rebsync.concept import parse_concept
 from rebsync.diagnostics import Findings, RebsyncError, Severity
 from rebsync.files import read_source

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.cli.lint import lint
+from rebsync.lint import lint
 from rebsync.codes import PROPERTIES
 from rebsync.diagnostics import Diagnostic, Severity
 from rebsync.edits import apply_edits, certain_edits
