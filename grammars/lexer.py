@@ -71,6 +71,12 @@ def rebeca_grammar() -> Lark:
     )
 
 
+def keywords(grammar: Lark) -> frozenset[str]:
+    """The words that a grammar reserves."""
+    words = (terminal.pattern.value for terminal in grammar.terminals)
+    return frozenset(word for word in words if word.isalpha() and word.isascii())
+
+
 def token_span(token: Token) -> Span:
     """The place of a token."""
     start = token.start_pos or 0

@@ -20,6 +20,7 @@ COMMANDS = {
     "generate": "Write the ROS package of a model.",
     "graph": "Draw the computation graph of packages, and tell what is wrong in it.",
     "lint": "Report mistakes in models and properties.",
+    "lsp": "Serve editors: diagnostics, navigation, renaming, completion.",
     "monitor": "Write the node that compares a run of a system with its model.",
     "new": "Begin a model from a conceptual model in TOML.",
     "simulate": "Make one run of a model, by chance or by hand.",

@@ -1,0 +1,195 @@
+"""The loop of the language server: requests of an editor are answered by pure functions."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Generator
+from typing import Any
+
+from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcInvalidParams
+from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol, lsp_method
+
+from rebsync import __version__
+from rebsync.grammars.formatting import format_text
+from rebsync.lsp.completion import completion
+from rebsync.lsp.document import Document, ModelDocument
+from rebsync.lsp.findings import diagnostics, quick_fixes
+from rebsync.lsp.navigation import definitions, entity_at, hover, references
+from rebsync.lsp.outline import folding, outline
+from rebsync.lsp.renaming import RenameRefused, renamed
+from rebsync.lsp.workspace import Documents
+
+DELAY = 0.15  # seconds without a keystroke before diagnostics are sent
+LONG_DELAY = 1.0  # the same for those of a text with errors of syntax, read as a whole
+
+
+class _Utf16Protocol(LanguageServerProtocol):
+    """Columns count UTF-16 units, which every client knows."""
+
+    @lsp_method(lsp.INITIALIZE)
+    def lsp_initialize(
+        self, params: lsp.InitializeParams
+    ) -> Generator[Any, Any, lsp.InitializeResult]:
+        if params.capabilities.general is not None:
+            params.capabilities.general.position_encodings = None
+        return (yield from super().lsp_initialize(params))
+
+
+class RebsyncServer(LanguageServer):
+    """What a session knows: its documents, and which of them wait for diagnostics."""
+
+    def __init__(self) -> None:
+        super().__init__("rebsync", __version__, protocol_cls=_Utf16Protocol)
+        self.documents = Documents(self.open_text)
+        self.waiting: dict[str, asyncio.TimerHandle] = {}
+        self.outlines: dict[str, list[lsp.DocumentSymbol]] = {}
+
+    def open_text(self, uri: str) -> str | None:
+        """The text of a document that is open in the editor."""
+        found = self.workspace.text_documents.get(uri)
+        return found.source if found is not None else None
+
+    def publish_soon(self, uri: str, delay: float = DELAY, *, exact: bool = False) -> None:
+        """Sends diagnostics of a document, and those of its properties, after a pause."""
+        if (waiting := self.waiting.pop(uri, None)) is not None:
+            waiting.cancel()
+        loop = asyncio.get_running_loop()
+        self.waiting[uri] = loop.call_later(delay, lambda: self.publish(uri, exact=exact))
+
+    def publish(self, uri: str, *, exact: bool = False) -> None:
+        """Sends the diagnostics of a document, and of the properties of a model."""
+        self.waiting.pop(uri, None)
+        document = self.documents.document(uri)
+        if document is None:
+            return
+        every = self.documents.related(document)
+        for each in every if isinstance(document, ModelDocument) else [document]:
+            if self.open_text(each.uri) is not None:
+                found = diagnostics(each, exact=exact)
+                self.text_document_publish_diagnostics(
+                    lsp.PublishDiagnosticsParams(each.uri, found)
+                )
+        if isinstance(document, ModelDocument) and not exact and not document.parts.whole.ok:
+            self.publish_soon(uri, LONG_DELAY, exact=True)
+
+    def known(self, of: lsp.TextDocumentIdentifier) -> Document:
+        """The document of a request. JsonRpcInvalidParams: there is none."""
+        document = self.documents.document(of.uri)
+        if document is None:
+            raise JsonRpcInvalidParams(f"{of.uri} is no model and no property file")
+        return document
+
+
+server = RebsyncServer()
+
+
+def serve() -> None:
+    """Answers until the editor says that it ends."""
+    server.start_io()
+
+
+# --- texts ---------------------------------------------------------------------------------------
+
+
+@server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
+def did_open(ls: RebsyncServer, params: lsp.DidOpenTextDocumentParams) -> None:
+    ls.publish(params.text_document.uri)
+
+
+@server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
+def did_change(ls: RebsyncServer, params: lsp.DidChangeTextDocumentParams) -> None:
+    ls.publish_soon(params.text_document.uri)
+
+
+@server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
+def did_close(ls: RebsyncServer, params: lsp.DidCloseTextDocumentParams) -> None:
+    found = lsp.PublishDiagnosticsParams(params.text_document.uri, [])
+    ls.text_document_publish_diagnostics(found)
+
+
+# --- questions -----------------------------------------------------------------------------------
+
+
+@server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+def document_symbol(
+    ls: RebsyncServer, params: lsp.DocumentSymbolParams
+) -> list[lsp.DocumentSymbol]:
+    """The outline; that of the last text of which something could be read."""
+    document = ls.known(params.text_document)
+    found = outline(document)
+    if found or not document.source.text.strip():
+        ls.outlines[document.uri] = found
+    return ls.outlines.get(document.uri, [])
+
+
+@server.feature(lsp.TEXT_DOCUMENT_FOLDING_RANGE)
+def folding_range(ls: RebsyncServer, params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
+    return folding(ls.known(params.text_document))
+
+
+@server.feature(lsp.TEXT_DOCUMENT_HOVER)
+def text_hover(ls: RebsyncServer, params: lsp.HoverParams) -> lsp.Hover | None:
+    return hover(ls.known(params.text_document), params.position, ())
+
+
+@server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
+def definition(ls: RebsyncServer, params: lsp.DefinitionParams) -> list[lsp.Location]:
+    document = ls.known(params.text_document)
+    found = entity_at(document, params.position)
+    return definitions(ls.documents.related(document), found.entity) if found is not None else []
+
+
+@server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
+def text_references(ls: RebsyncServer, params: lsp.ReferenceParams) -> list[lsp.Location]:
+    document = ls.known(params.text_document)
+    found = entity_at(document, params.position)
+    if found is None:
+        return []
+    declared = params.context.include_declaration
+    return references(ls.documents.related(document), found.entity, declared)
+
+
+@server.feature(lsp.TEXT_DOCUMENT_PREPARE_RENAME)
+def prepare_rename(ls: RebsyncServer, params: lsp.PrepareRenameParams) -> lsp.Range | None:
+    document = ls.known(params.text_document)
+    found = entity_at(document, params.position)
+    return document.range(found.span) if found is not None else None
+
+
+@server.feature(lsp.TEXT_DOCUMENT_RENAME, lsp.RenameOptions(prepare_provider=True))
+def rename(ls: RebsyncServer, params: lsp.RenameParams) -> lsp.WorkspaceEdit | None:
+    document = ls.known(params.text_document)
+    found = entity_at(document, params.position)
+    if found is None:
+        return None
+    try:
+        return renamed(ls.documents.related(document), found.entity, params.new_name)
+    except RenameRefused as refused:
+        raise JsonRpcInvalidParams(str(refused)) from None
+
+
+@server.feature(lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=[".", "@"]))
+def text_completion(ls: RebsyncServer, params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
+    return completion(ls.known(params.text_document), params.position)
+
+
+@server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
+def formatting(ls: RebsyncServer, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
+    """The canonical layout of a model without errors of syntax, as `rebsync fmt` has it."""
+    document = ls.known(params.text_document)
+    if not isinstance(document, ModelDocument) or not document.parts.whole.ok:
+        return []
+    text = document.source.text
+    whole = lsp.Range(lsp.Position(0, 0), document.text_position(len(text)))
+    laid_out = format_text(text)
+    return [lsp.TextEdit(whole, laid_out)] if laid_out != text else []
+
+
+@server.feature(
+    lsp.TEXT_DOCUMENT_CODE_ACTION,
+    lsp.CodeActionOptions([lsp.CodeActionKind.QuickFix, lsp.CodeActionKind.SourceFixAll]),
+)
+def code_action(ls: RebsyncServer, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
+    return list(quick_fixes(ls.known(params.text_document), params.range))
