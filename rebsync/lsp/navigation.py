@@ -73,8 +73,8 @@ def _location(document: Document, of: Occurrence) -> lsp.Location:
 # --- hover ---------------------------------------------------------------------------------------
 
 
-def hover(document: Document, position: lsp.Position, generated: Iterable[str]) -> lsp.Hover | None:
-    """What the name at a place is; `generated` are the places of the code that was made from it."""
+def hover(document: Document, position: lsp.Position) -> lsp.Hover | None:
+    """What the name at a place is."""
     found = entity_at(document, position)
     if found is None:
         return _hover_of_builtin(document, position)
@@ -82,7 +82,6 @@ def hover(document: Document, position: lsp.Position, generated: Iterable[str]) 
     lines = ["```rebeca", _declaration(found, document, analysis), "```"]
     if found.entity.owner and found.entity.kind != "local":
         lines.append(f"of `{found.entity.owner}`")
-    lines += [f"generated: {place}" for place in generated]
     return _told("\n".join(lines), document.range(found.span))
 
 

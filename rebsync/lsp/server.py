@@ -3,18 +3,32 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Generator
+import sys
+from collections.abc import Generator, Iterator
+from pathlib import Path
 from typing import Any
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, lsp_method
+from pygls.uris import to_fs_path
 
 from rebsync import __version__
+from rebsync.files import MODEL
 from rebsync.grammars.formatting import format_text
+from rebsync.lsp.border import CODE, in_code, in_model, model_path, packages_of
 from rebsync.lsp.completion import completion
 from rebsync.lsp.document import Document, ModelDocument
+from rebsync.lsp.drift import (
+    SYNC,
+    PackageDrift,
+    belongs_to,
+    drift_of,
+    is_saved,
+    sync_actions,
+    sync_command,
+)
 from rebsync.lsp.findings import diagnostics, quick_fixes
 from rebsync.lsp.navigation import definitions, entity_at, hover, references
 from rebsync.lsp.outline import folding, outline
@@ -45,6 +59,7 @@ class RebsyncServer(LanguageServer):
         self.documents = Documents(self.open_text)
         self.waiting: dict[str, asyncio.TimerHandle] = {}
         self.outlines: dict[str, list[lsp.DocumentSymbol]] = {}
+        self.drifts: dict[str, PackageDrift] = {}
 
     def open_text(self, uri: str) -> str | None:
         """The text of a document that is open in the editor."""
@@ -67,12 +82,36 @@ class RebsyncServer(LanguageServer):
         every = self.documents.related(document)
         for each in every if isinstance(document, ModelDocument) else [document]:
             if self.open_text(each.uri) is not None:
-                found = diagnostics(each, exact=exact)
+                found = [*diagnostics(each, exact=exact), *self.drift_at(each.uri)]
                 self.text_document_publish_diagnostics(
                     lsp.PublishDiagnosticsParams(each.uri, found)
                 )
         if isinstance(document, ModelDocument) and not exact and not document.parts.whole.ok:
             self.publish_soon(uri, LONG_DELAY, exact=True)
+
+    def unsaved(self) -> Iterator[str]:
+        """The paths of open texts that are not as on the disk."""
+        for uri, document in self.workspace.text_documents.items():
+            path = to_fs_path(uri)
+            if path is not None and not is_saved(path, document.source):
+                yield path
+
+    def drift_at(self, uri: str) -> list[lsp.Diagnostic]:
+        """What is different between models and code at a file."""
+        return [d for drift in self.drifts.values() for d in drift.diagnostics.get(uri, ())]
+
+    async def check(self, path: str) -> None:
+        """Checks the packages that a file belongs to, and sends what is different."""
+        for package in await asyncio.to_thread(packages_of, path):
+            drift = await asyncio.to_thread(drift_of, package)
+            before = self.drifts.get(drift.root)
+            self.drifts[drift.root] = drift
+            for uri in {**(before.diagnostics if before is not None else {}), **drift.diagnostics}:
+                if self.documents.document(uri) is not None:
+                    self.publish_soon(uri)
+                else:
+                    told = lsp.PublishDiagnosticsParams(uri, self.drift_at(uri))
+                    self.text_document_publish_diagnostics(told)
 
     def known(self, of: lsp.TextDocumentIdentifier) -> Document:
         """The document of a request. JsonRpcInvalidParams: there is none."""
@@ -103,10 +142,18 @@ def did_change(ls: RebsyncServer, params: lsp.DidChangeTextDocumentParams) -> No
     ls.publish_soon(params.text_document.uri)
 
 
+@server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
+async def did_save(ls: RebsyncServer, params: lsp.DidSaveTextDocumentParams) -> None:
+    path = to_fs_path(params.text_document.uri)
+    if path is not None and path.endswith((*CODE, MODEL)):
+        await ls.check(path)
+
+
 @server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
 def did_close(ls: RebsyncServer, params: lsp.DidCloseTextDocumentParams) -> None:
-    found = lsp.PublishDiagnosticsParams(params.text_document.uri, [])
-    ls.text_document_publish_diagnostics(found)
+    uri = params.text_document.uri
+    told = lsp.PublishDiagnosticsParams(uri, ls.drift_at(uri))
+    ls.text_document_publish_diagnostics(told)
 
 
 # --- questions -----------------------------------------------------------------------------------
@@ -131,14 +178,40 @@ def folding_range(ls: RebsyncServer, params: lsp.FoldingRangeParams) -> list[lsp
 
 @server.feature(lsp.TEXT_DOCUMENT_HOVER)
 def text_hover(ls: RebsyncServer, params: lsp.HoverParams) -> lsp.Hover | None:
-    return hover(ls.known(params.text_document), params.position, ())
+    return hover(ls.known(params.text_document), params.position)
 
 
 @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
 def definition(ls: RebsyncServer, params: lsp.DefinitionParams) -> list[lsp.Location]:
+    if params.text_document.uri.endswith(CODE):
+        return _in_model(ls, params)
     document = ls.known(params.text_document)
     found = entity_at(document, params.position)
     return definitions(ls.documents.related(document), found.entity) if found is not None else []
+
+
+@server.feature(lsp.TEXT_DOCUMENT_IMPLEMENTATION)
+def implementation(ls: RebsyncServer, params: lsp.ImplementationParams) -> list[lsp.Location]:
+    """The code that was generated from an element; of code the element."""
+    if params.text_document.uri.endswith(CODE):
+        return _in_model(ls, params)
+    document = ls.known(params.text_document)
+    found, model = entity_at(document, params.position), ls.documents.related(document)[0]
+    if found is None or not isinstance(model, ModelDocument):
+        return []
+    return in_code(model, found.entity, packages_of(model.source.path))
+
+
+def _in_model(
+    ls: RebsyncServer, params: lsp.DefinitionParams | lsp.ImplementationParams
+) -> list[lsp.Location]:
+    text = ls.documents.text(params.text_document.uri)
+    if text is None:
+        return []
+    models = (model_path(package) for package in packages_of(text.source.path))
+    documents = (ls.documents.document(Path(m).absolute().as_uri()) for m in models if m)
+    every = (in_model(text, params.position, d) for d in documents if isinstance(d, ModelDocument))
+    return [place for places in every for place in places]
 
 
 @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
@@ -192,4 +265,27 @@ def formatting(ls: RebsyncServer, params: lsp.DocumentFormattingParams) -> list[
     lsp.CodeActionOptions([lsp.CodeActionKind.QuickFix, lsp.CodeActionKind.SourceFixAll]),
 )
 def code_action(ls: RebsyncServer, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
-    return list(quick_fixes(ls.known(params.text_document), params.range))
+    uri = params.text_document.uri
+    document = ls.documents.document(uri)
+    fixes = quick_fixes(document, params.range) if document is not None else ()
+    drifts = (sync_actions(drift, uri, params.range) for drift in ls.drifts.values())
+    return [*fixes, *(action for actions in drifts for action in actions)]
+
+
+@server.command(SYNC)
+async def sync(ls: RebsyncServer, root: str, favour: str) -> None:
+    """Runs `rebsync sync` on a package whose open texts are saved, and says what it says."""
+    if unsaved := [path for path in ls.unsaved() if belongs_to(path, root)]:
+        message = f"save {', '.join(sorted(unsaved))} first"
+        ls.window_show_message(lsp.ShowMessageParams(lsp.MessageType.Warning, message))
+        return
+    done = await asyncio.create_subprocess_exec(
+        *(sys.executable, "-m", "rebsync", *sync_command(root, favour)),
+        stdin=asyncio.subprocess.DEVNULL,
+        stdout=asyncio.subprocess.PIPE,
+        stderr=asyncio.subprocess.STDOUT,
+    )
+    said, _ = await done.communicate()
+    kind = lsp.MessageType.Info if done.returncode == 0 else lsp.MessageType.Warning
+    ls.window_show_message(lsp.ShowMessageParams(kind, said.decode(errors="replace").strip()))
+    await ls.check(root)
