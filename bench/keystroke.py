@@ -24,7 +24,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from lsprotocol import types as lsp
 
 from rebsync.lsp.server import DELAY
-from tests.lsp.client import Editor, at, in_editor
+from tests.lsp.client import Editor, at, editor
 
 Question = Callable[[Editor, lsp.TextDocumentIdentifier, lsp.Position], Awaitable[object]]
 GOAL = 100.0
@@ -91,7 +91,7 @@ def main() -> None:
         path = Path(folder, "large.rebeca")
         path.write_text(text, encoding="utf-8")
         times: dict[str, list[float]] = {}
-        in_editor(Path(folder), lambda client: play(client, path, text, edits, times))
+        asyncio.run(play(path, text, edits, times))
     print(f"{text.count(chr(10))} lines, {edits} keystrokes")
     for what, each in times.items():
         median = statistics.median(each)
@@ -105,25 +105,24 @@ def model() -> str:
     return f"{classes}\nmain {{\n{rebecs}}}\n"
 
 
-async def play(
-    client: Editor, path: Path, text: str, edits: int, times: dict[str, list[float]]
-) -> None:
-    uri = client.open(path)
-    await client.diagnostics(uri)
-    place = lsp.Position(at(text, f"  C{CLASSES // 2}() {{").line + 1, 4)
-    number = 0
-    while number < edits:
-        for what, request in QUESTIONS.items():
-            client.type(uri, lsp.Range(place, place), STATEMENT[number % len(STATEMENT)])
-            place = lsp.Position(place.line, place.character + 1)
-            number += 1
-            times.setdefault(what, []).append(
-                await timed(request(client, lsp.TextDocumentIdentifier(uri), place))
-            )
-        client.type(uri, lsp.Range(place, place), " ")
-        waited = await timed(client.diagnostics(uri))
-        times.setdefault("diagnostics", []).append(waited - DELAY * 1000)
-        await asyncio.sleep(0.05)
+async def play(path: Path, text: str, edits: int, times: dict[str, list[float]]) -> None:
+    async with editor(path.parent) as client:
+        uri = client.open(path)
+        await client.diagnostics(uri)
+        place = lsp.Position(at(text, f"  C{CLASSES // 2}() {{").line + 1, 4)
+        number = 0
+        while number < edits:
+            for what, request in QUESTIONS.items():
+                client.type(uri, lsp.Range(place, place), STATEMENT[number % len(STATEMENT)])
+                place = lsp.Position(place.line, place.character + 1)
+                number += 1
+                times.setdefault(what, []).append(
+                    await timed(request(client, lsp.TextDocumentIdentifier(uri), place))
+                )
+            client.type(uri, lsp.Range(place, place), " ")
+            waited = await timed(client.diagnostics(uri))
+            times.setdefault("diagnostics", []).append(waited - DELAY * 1000)
+            await asyncio.sleep(0.05)
 
 
 async def timed(awaited: Awaitable[object]) -> float:

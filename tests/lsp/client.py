@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
 
@@ -66,16 +66,6 @@ async def editor(folder: Path) -> AsyncIterator[Editor]:
         await asyncio.wait_for(client.shutdown_async(None), 20)
         client.exit(None)
         await client.stop()  # type: ignore[no-untyped-call]
-
-
-def in_editor(folder: Path, play: Callable[[Editor], Awaitable[None]]) -> None:
-    """Plays something in an editor that is open in a folder."""
-
-    async def run() -> None:
-        async with editor(folder) as client:
-            await play(client)
-
-    asyncio.run(run())
 
 
 def at(text: str, marked: str, offset: int = 0) -> lsp.Position:

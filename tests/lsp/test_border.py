@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 from lsprotocol import types as lsp
 
-from tests.lsp.client import Editor, at, in_editor
+from tests.lsp.client import Editor, at
+from tests.lsp.conftest import InEditor
 
 HELLO = Path(__file__).parents[2] / "examples/hello"
 
@@ -26,7 +27,7 @@ def _of(uri: str) -> lsp.TextDocumentIdentifier:
     return lsp.TextDocumentIdentifier(uri)
 
 
-def test_an_element_leads_to_its_code_and_back(folder: Path) -> None:
+def test_an_element_leads_to_its_code_and_back(folder: Path, in_editor: InEditor) -> None:
     model = folder / "hello.rebeca"
     text = model.read_text(encoding="utf-8")
 
@@ -48,10 +49,10 @@ def test_an_element_leads_to_its_code_and_back(folder: Path) -> None:
         assert isinstance(declared, lsp.Location)
         assert (declared.uri, declared.range.start) == (uri, place)
 
-    in_editor(folder, play)
+    in_editor(play)
 
 
-def test_what_the_code_has_changed_is_taken_into_the_model(folder: Path) -> None:
+def test_a_change_of_the_code_is_taken_into_the_model(folder: Path, in_editor: InEditor) -> None:
     (source,) = folder.glob("hello/src/*[!e].cpp")
     text = source.read_text(encoding="utf-8")
     (model,) = folder.glob("*.rebeca")
@@ -82,5 +83,5 @@ def test_what_the_code_has_changed_is_taken_into_the_model(folder: Path) -> None
         await client.workspace_execute_command_async(command)
         assert not await client.diagnostics(uri)
 
-    in_editor(folder, play)
+    in_editor(play)
     assert model.read_text(encoding="utf-8") == before.replace("after(1)", "after(2)") != before

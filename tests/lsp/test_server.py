@@ -9,7 +9,8 @@ import pytest
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 
-from tests.lsp.client import Editor, at, in_editor
+from tests.lsp.client import Editor, at
+from tests.lsp.conftest import InEditor
 
 MODEL = """\
 env int limit = 3;
@@ -61,7 +62,7 @@ def _of(uri: str) -> lsp.TextDocumentIdentifier:
     return lsp.TextDocumentIdentifier(uri)
 
 
-def test_diagnostics_follow_what_is_typed(folder: Path) -> None:
+def test_diagnostics_follow_what_is_typed(folder: Path, in_editor: InEditor) -> None:
     async def play(client: Editor) -> None:
         uri = client.open(folder / "counter.rebeca")
         assert not [d for d in await client.diagnostics(uri) if d.severity == 1]
@@ -71,10 +72,10 @@ def test_diagnostics_follow_what_is_typed(folder: Path) -> None:
         assert found.code == "RS203"
         assert found.range == lsp.Range(name, lsp.Position(name.line, name.character + 6))
 
-    in_editor(folder, play)
+    in_editor(play)
 
 
-def test_diagnostics_of_properties_follow_the_model(folder: Path) -> None:
+def test_diagnostics_of_properties_follow_the_model(folder: Path, in_editor: InEditor) -> None:
     async def play(client: Editor) -> None:
         model = client.open(folder / "counter.rebeca")
         properties = client.open(folder / "counter.property")
@@ -84,10 +85,10 @@ def test_diagnostics_of_properties_follow_the_model(folder: Path) -> None:
         (found,) = await client.diagnostics(properties)
         assert found.code == "RS902"
 
-    in_editor(folder, play)
+    in_editor(play)
 
 
-def test_a_half_typed_document_has_an_outline(folder: Path) -> None:
+def test_a_half_typed_document_has_an_outline(folder: Path, in_editor: InEditor) -> None:
     async def play(client: Editor) -> None:
         uri = client.open(folder / "counter.rebeca")
         params = lsp.DocumentSymbolParams(_of(uri))
@@ -100,7 +101,7 @@ def test_a_half_typed_document_has_an_outline(folder: Path) -> None:
         client.type(uri, lsp.Range(lsp.Position(0, 0), lsp.Position(99, 0)), "{{{{ (")
         assert _names(await client.text_document_document_symbol_async(params)) == rest
 
-    in_editor(folder, play)
+    in_editor(play)
 
 
 def _names(symbols: object) -> list[str]:
@@ -108,7 +109,7 @@ def _names(symbols: object) -> list[str]:
     return [name for s in symbols for name in (s.name, *_names(s.children or []))]
 
 
-def test_names_lead_to_declarations_and_uses(folder: Path) -> None:
+def test_names_lead_to_declarations_and_uses(folder: Path, in_editor: InEditor) -> None:
     async def play(client: Editor) -> None:
         uri = client.open(folder / "counter.property")
         place = at(PROPERTY, "count > limit")
@@ -128,10 +129,10 @@ def test_names_lead_to_declarations_and_uses(folder: Path) -> None:
         assert shown is not None
         assert "statevar int count" in shown.contents.value  # type: ignore[union-attr]
 
-    in_editor(folder, play)
+    in_editor(play)
 
 
-def test_renaming_reaches_the_properties(folder: Path) -> None:
+def test_renaming_reaches_the_properties(folder: Path, in_editor: InEditor) -> None:
     async def play(client: Editor) -> None:
         uri = client.open(folder / "counter.rebeca")
         params = lsp.RenameParams(_of(uri), at(MODEL, "full;"), "done")
@@ -150,7 +151,7 @@ def test_renaming_reaches_the_properties(folder: Path) -> None:
                     lsp.RenameParams(_of(uri), at(MODEL, "full;"), taken)
                 )
 
-    in_editor(folder, play)
+    in_editor(play)
 
 
 def _applied(edits: object, text: str) -> str:
@@ -164,7 +165,7 @@ def _applied(edits: object, text: str) -> str:
     return "".join(lines)
 
 
-def test_completion_knows_what_stands_before_the_dot(folder: Path) -> None:
+def test_completion_knows_what_stands_before_the_dot(folder: Path, in_editor: InEditor) -> None:
     async def play(client: Editor) -> None:
         uri = client.open(folder / "counter.rebeca")
         place = at(MODEL, "count + by")
@@ -177,7 +178,7 @@ def test_completion_knows_what_stands_before_the_dot(folder: Path) -> None:
         place = at(PROPERTY, "count > limit")
         assert await _labels(client, properties, place) == {"count", "full"}
 
-    in_editor(folder, play)
+    in_editor(play)
 
 
 async def _labels(client: Editor, uri: str, place: lsp.Position) -> set[str]:
@@ -186,7 +187,7 @@ async def _labels(client: Editor, uri: str, place: lsp.Position) -> set[str]:
     return {item.label for item in found}
 
 
-def test_formatting_folding_and_quick_fixes(folder: Path) -> None:
+def test_formatting_folding_and_quick_fixes(folder: Path, in_editor: InEditor) -> None:
     text = MODEL.replace("statevars", "statvars").replace("    count = 0;", "count  =  0;")
 
     async def play(client: Editor) -> None:
@@ -210,4 +211,4 @@ def test_formatting_folding_and_quick_fixes(folder: Path) -> None:
         folds = await client.text_document_folding_range_async(lsp.FoldingRangeParams(_of(uri)))
         assert [f.start_line for f in folds or ()] == [3, 7, 14, 16, 12, 2, 22]
 
-    in_editor(folder, play)
+    in_editor(play)
