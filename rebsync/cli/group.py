@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from importlib import import_module
 
 import click
@@ -12,6 +13,7 @@ COMMANDS = {
     "accept": "Accept places of which no verdict can be given.",
     "ask": "Answer a question about what the nodes of a package do.",
     "check": "Tell whether packages and their models are in step.",
+    "completion": "Print the script that completes commands and options in a shell.",
     "conform": "Tell whether a recorded run is a run of the model.",
     "diff": "Compare two models, packages of code, or revisions of either.",
     "export": "Print a model in the form that another tool accepts.",
@@ -29,6 +31,18 @@ COMMANDS = {
 }
 
 
+COMPLETING = "_REBSYNC_COMPLETE"  # the variable by which a shell asks for what may follow
+_PATHS = ("FILE", "DIR", "PATH", "MODEL", "PACKAGE", "RECORDING", "A", "B")
+
+
+def _complete_paths(command: click.Command) -> None:
+    """Lets shells complete paths where a command names one."""
+    for param in command.params:
+        names = (param.metavar or "").strip("[.]").split("|")
+        if param.type is click.STRING and names[0] in _PATHS:
+            param.type = click.Path()
+
+
 class LazyGroup(click.Group):
     """A group that knows its commands without having loaded them."""
 
@@ -40,6 +54,8 @@ class LazyGroup(click.Group):
             return None
         command = import_module(f"rebsync.cli.{cmd_name}").command
         assert isinstance(command, click.Command)
+        if COMPLETING in os.environ:
+            _complete_paths(command)
         return command
 
     def resolve_command(
