@@ -16,6 +16,7 @@ COMMANDS = {
     "completion": "Print the script that completes commands and options in a shell.",
     "conform": "Tell whether a recorded run is a run of the model.",
     "diff": "Compare two models, packages of code, or revisions of either.",
+    "doctor": "Tell which programs and libraries are found, and what each is for.",
     "export": "Print a model in the form that another tool accepts.",
     "extract": "Read the code of a package back into a model.",
     "fmt": "Bring models into the canonical layout.",
