@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcInvalidParams
@@ -32,6 +32,7 @@ from rebsync.lsp.drift import (
 from rebsync.lsp.findings import diagnostics, quick_fixes
 from rebsync.lsp.navigation import definitions, entity_at, hover, references
 from rebsync.lsp.outline import folding, outline
+from rebsync.lsp.registration import registered_later
 from rebsync.lsp.renaming import RenameRefused, renamed
 from rebsync.lsp.workspace import Documents
 
@@ -39,8 +40,10 @@ DELAY = 0.15  # seconds without a keystroke before diagnostics are sent
 LONG_DELAY = 1.0  # the same for those of a text with errors of syntax, read as a whole
 
 
-class _Utf16Protocol(LanguageServerProtocol):
-    """Columns count UTF-16 units, which every client knows."""
+class _Protocol(LanguageServerProtocol):
+    """Columns count UTF-16 units, which every client knows; code has other servers, too."""
+
+    registrations: list[lsp.Registration]
 
     @lsp_method(lsp.INITIALIZE)
     def lsp_initialize(
@@ -48,14 +51,16 @@ class _Utf16Protocol(LanguageServerProtocol):
     ) -> Generator[Any, Any, lsp.InitializeResult]:
         if params.capabilities.general is not None:
             params.capabilities.general.position_encodings = None
-        return (yield from super().lsp_initialize(params))
+        result: lsp.InitializeResult = yield from super().lsp_initialize(params)
+        self.registrations = registered_later(result.capabilities, params.capabilities)
+        return result
 
 
 class RebsyncServer(LanguageServer):
     """What a session knows: its documents, and which of them wait for diagnostics."""
 
     def __init__(self) -> None:
-        super().__init__("rebsync", __version__, protocol_cls=_Utf16Protocol)
+        super().__init__("rebsync", __version__, protocol_cls=_Protocol)
         self.documents = Documents(self.open_text)
         self.waiting: dict[str, asyncio.TimerHandle] = {}
         self.outlines: dict[str, list[lsp.DocumentSymbol]] = {}
@@ -113,13 +118,6 @@ class RebsyncServer(LanguageServer):
                     told = lsp.PublishDiagnosticsParams(uri, self.drift_at(uri))
                     self.text_document_publish_diagnostics(told)
 
-    def known(self, of: lsp.TextDocumentIdentifier) -> Document:
-        """The document of a request. JsonRpcInvalidParams: there is none."""
-        document = self.documents.document(of.uri)
-        if document is None:
-            raise JsonRpcInvalidParams(f"{of.uri} is no model and no property file")
-        return document
-
 
 server = RebsyncServer()
 
@@ -127,6 +125,13 @@ server = RebsyncServer()
 def serve() -> None:
     """Answers until the editor says that it ends."""
     server.start_io()
+
+
+@server.feature(lsp.INITIALIZED)
+def initialized(ls: RebsyncServer, params: lsp.InitializedParams) -> None:
+    assert isinstance(ls.protocol, _Protocol)
+    if ls.protocol.registrations:
+        ls.client_register_capability(lsp.RegistrationParams(ls.protocol.registrations))
 
 
 # --- texts ---------------------------------------------------------------------------------------
@@ -156,15 +161,38 @@ def did_close(ls: RebsyncServer, params: lsp.DidCloseTextDocumentParams) -> None
     ls.text_document_publish_diagnostics(told)
 
 
+class _OfDocument(Protocol):
+    """The parameters of a request about a document."""
+
+    @property
+    def text_document(self) -> lsp.TextDocumentIdentifier: ...
+
+
+Params = TypeVar("Params", bound=_OfDocument)
+Answer = TypeVar("Answer")
+
+
+def of_document(
+    answer: Callable[[RebsyncServer, Document, Params], Answer],
+) -> Callable[[RebsyncServer, Params], Answer | None]:
+    """Answers for models and property files only: editors may ask about code as well."""
+
+    def handler(ls: RebsyncServer, params: Params) -> Answer | None:
+        document = ls.documents.document(params.text_document.uri)
+        return answer(ls, document, params) if document is not None else None
+
+    return handler
+
+
 # --- questions -----------------------------------------------------------------------------------
 
 
 @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+@of_document
 def document_symbol(
-    ls: RebsyncServer, params: lsp.DocumentSymbolParams
+    ls: RebsyncServer, document: Document, params: lsp.DocumentSymbolParams
 ) -> list[lsp.DocumentSymbol]:
     """The outline; that of the last text of which something could be read."""
-    document = ls.known(params.text_document)
     found = outline(document)
     if found or not document.source.text.strip():
         ls.outlines[document.uri] = found
@@ -172,20 +200,26 @@ def document_symbol(
 
 
 @server.feature(lsp.TEXT_DOCUMENT_FOLDING_RANGE)
-def folding_range(ls: RebsyncServer, params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
-    return folding(ls.known(params.text_document))
+@of_document
+def folding_range(
+    ls: RebsyncServer, document: Document, params: lsp.FoldingRangeParams
+) -> list[lsp.FoldingRange]:
+    return folding(document)
 
 
 @server.feature(lsp.TEXT_DOCUMENT_HOVER)
-def text_hover(ls: RebsyncServer, params: lsp.HoverParams) -> lsp.Hover | None:
-    return hover(ls.known(params.text_document), params.position)
+@of_document
+def text_hover(ls: RebsyncServer, document: Document, params: lsp.HoverParams) -> lsp.Hover | None:
+    return hover(document, params.position)
 
 
 @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
 def definition(ls: RebsyncServer, params: lsp.DefinitionParams) -> list[lsp.Location]:
     if params.text_document.uri.endswith(CODE):
         return _in_model(ls, params)
-    document = ls.known(params.text_document)
+    document = ls.documents.document(params.text_document.uri)
+    if document is None:
+        return []
     found = entity_at(document, params.position)
     return definitions(ls.documents.related(document), found.entity) if found is not None else []
 
@@ -195,7 +229,9 @@ def implementation(ls: RebsyncServer, params: lsp.ImplementationParams) -> list[
     """The code that was generated from an element; of code the element."""
     if params.text_document.uri.endswith(CODE):
         return _in_model(ls, params)
-    document = ls.known(params.text_document)
+    document = ls.documents.document(params.text_document.uri)
+    if document is None:
+        return []
     found, model = entity_at(document, params.position), ls.documents.related(document)[0]
     if found is None or not isinstance(model, ModelDocument):
         return []
@@ -215,8 +251,10 @@ def _in_model(
 
 
 @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
-def text_references(ls: RebsyncServer, params: lsp.ReferenceParams) -> list[lsp.Location]:
-    document = ls.known(params.text_document)
+@of_document
+def text_references(
+    ls: RebsyncServer, document: Document, params: lsp.ReferenceParams
+) -> list[lsp.Location]:
     found = entity_at(document, params.position)
     if found is None:
         return []
@@ -225,15 +263,19 @@ def text_references(ls: RebsyncServer, params: lsp.ReferenceParams) -> list[lsp.
 
 
 @server.feature(lsp.TEXT_DOCUMENT_PREPARE_RENAME)
-def prepare_rename(ls: RebsyncServer, params: lsp.PrepareRenameParams) -> lsp.Range | None:
-    document = ls.known(params.text_document)
+@of_document
+def prepare_rename(
+    ls: RebsyncServer, document: Document, params: lsp.PrepareRenameParams
+) -> lsp.Range | None:
     found = entity_at(document, params.position)
     return document.range(found.span) if found is not None else None
 
 
 @server.feature(lsp.TEXT_DOCUMENT_RENAME, lsp.RenameOptions(prepare_provider=True))
-def rename(ls: RebsyncServer, params: lsp.RenameParams) -> lsp.WorkspaceEdit | None:
-    document = ls.known(params.text_document)
+@of_document
+def rename(
+    ls: RebsyncServer, document: Document, params: lsp.RenameParams
+) -> lsp.WorkspaceEdit | None:
     found = entity_at(document, params.position)
     if found is None:
         return None
@@ -244,14 +286,19 @@ def rename(ls: RebsyncServer, params: lsp.RenameParams) -> lsp.WorkspaceEdit | N
 
 
 @server.feature(lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=[".", "@"]))
-def text_completion(ls: RebsyncServer, params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
-    return completion(ls.known(params.text_document), params.position)
+@of_document
+def text_completion(
+    ls: RebsyncServer, document: Document, params: lsp.CompletionParams
+) -> list[lsp.CompletionItem]:
+    return completion(document, params.position)
 
 
 @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
-def formatting(ls: RebsyncServer, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
+@of_document
+def formatting(
+    ls: RebsyncServer, document: Document, params: lsp.DocumentFormattingParams
+) -> list[lsp.TextEdit]:
     """The canonical layout of a model without errors of syntax, as `rebsync fmt` has it."""
-    document = ls.known(params.text_document)
     if not isinstance(document, ModelDocument) or not document.parts.whole.ok:
         return []
     text = document.source.text

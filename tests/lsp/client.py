@@ -21,10 +21,15 @@ class Editor(LanguageClient):
         super().__init__("tests", "1")
         self.sent: asyncio.Queue[lsp.PublishDiagnosticsParams] = asyncio.Queue()
         self.messages: list[str] = []
+        self.registered: dict[str, lsp.Registration] = {}
         self.versions: dict[str, int] = {}
 
         self.feature(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)(lambda sent: self.sent.put_nowait(sent))
         self.feature(lsp.WINDOW_SHOW_MESSAGE)(lambda shown: self.messages.append(shown.message))
+
+        @self.feature(lsp.CLIENT_REGISTER_CAPABILITY)  # type: ignore[untyped-decorator]
+        def register(params: lsp.RegistrationParams) -> None:
+            self.registered |= {each.method: each for each in params.registrations}
 
     def open(self, path: Path, text: str | None = None) -> str:
         """Opens a file, with another text if it is not as on the disk; gives its address."""
@@ -57,7 +62,9 @@ async def editor(folder: Path) -> AsyncIterator[Editor]:
     await client.start_io(sys.executable, "-m", "rebsync", "lsp", env=environment(), cwd=folder)
     offered = [lsp.PositionEncodingKind.Utf8, lsp.PositionEncodingKind.Utf16]
     general = lsp.GeneralClientCapabilities(position_encodings=offered)
-    capabilities = lsp.ClientCapabilities(general=general)
+    formatting = lsp.DocumentFormattingClientCapabilities(dynamic_registration=True)
+    documents = lsp.TextDocumentClientCapabilities(formatting=formatting)
+    capabilities = lsp.ClientCapabilities(general=general, text_document=documents)
     await client.initialize_async(lsp.InitializeParams(capabilities, root_uri=folder.as_uri()))
     client.initialized(lsp.InitializedParams())
     try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -210,5 +211,20 @@ def test_formatting_folding_and_quick_fixes(folder: Path, in_editor: InEditor) -
         assert "/* 😀 counts */" in whole.new_text
         folds = await client.text_document_folding_range_async(lsp.FoldingRangeParams(_of(uri)))
         assert [f.start_line for f in folds or ()] == [3, 7, 14, 16, 12, 2, 22]
+
+    in_editor(play)
+
+
+def test_code_is_left_to_its_own_servers(folder: Path, in_editor: InEditor) -> None:
+    code = folder / "robot.cpp"
+    code.write_text("int  main() {}\n", encoding="utf-8")
+
+    async def play(client: Editor) -> None:
+        uri = client.open(code)
+        place = lsp.Position(0, 6)
+        assert await client.text_document_hover_async(lsp.HoverParams(_of(uri), place)) is None
+        options = client.registered[lsp.TEXT_DOCUMENT_FORMATTING].register_options
+        shown = [{"pattern": "**/*.rebeca"}, {"pattern": "**/*.property"}]
+        assert json.loads(json.dumps(options, default=vars))["documentSelector"] == shown
 
     in_editor(play)
