@@ -71,17 +71,28 @@ def rebeca_grammar() -> Lark:
     )
 
 
+def keywords(grammar: Lark) -> frozenset[str]:
+    """The words that a grammar reserves."""
+    words = (terminal.pattern.value for terminal in grammar.terminals)
+    return frozenset(word for word in words if word.isalpha() and word.isascii())
+
+
 def token_span(token: Token) -> Span:
     """The place of a token."""
     start = token.start_pos or 0
     return Span(start, start + len(token))
 
 
-def lex(text: str) -> Lexed:
-    """All tokens of a text; what belongs to no token becomes a diagnostic."""
+def lex(text: str, start: int = 0) -> Lexed:
+    """All tokens of a text; what belongs to no token becomes a diagnostic.
+
+    Places count from `start`, where the text is a part of a larger one.
+    """
     if (mistake := too_large(text)) is not None:
         return Lexed([], (), (mistake,))
     everything = list(_not_too_deep(rebeca_grammar().lex(text)))
+    for token in everything if start else ():
+        token.start_pos = (token.start_pos or 0) + start
     scan = _Scan([t for t in everything if t.type not in _TRIVIA])
     for token in everything:
         if token.type in _TRIVIA and token.type != "COMMENT":

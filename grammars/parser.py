@@ -36,27 +36,31 @@ class Parsed:
         return not any(d.severity is Severity.ERROR for d in self.diagnostics)
 
 
-def parse_model(source: Source) -> Parsed:
-    """Read a model; mistakes become diagnostics, and reading goes on behind them."""
-    lexed = lex(source.text)
+def parse_model(source: Source, start: int = 0) -> Parsed:
+    """Read a model; mistakes become diagnostics, and reading goes on behind them.
+
+    Places count from `start`, where the text is a part of a larger one.
+    """
+    lexed = lex(source.text, start)
     model = Model((), (), None, Span(0, len(source.text)))
     found = [*lexed.diagnostics]
     if not lexed.hopeless:
         parser = RecoveringParser(rebeca_grammar(), "model", lexed.tokens)
         read = parser.run()
         model = read if isinstance(read, Model) else model
-        found += [*parser.diagnostics, *_out_of_place(model)]
+        found += [*parser.diagnostics, *misplaced_parts(model), *_misplaced_statements(model)]
     return Parsed(
         source,
         model,
-        tuple(_comment(source, str(c), token_span(c)) for c in lexed.comments),
+        tuple(_comment(source, str(c), token_span(c), start) for c in lexed.comments),
         tuple(sorted(found, key=lambda d: (d.span.start, d.code))),
     )
 
 
-def _comment(source: Source, text: str, span: Span) -> Comment:
-    line = source.text[source.text.rfind("\n", 0, span.start) + 1 : span.start].rstrip()
-    behind = source.text.rfind(line, 0, span.start) + len(line) if line else None
+def _comment(source: Source, text: str, span: Span, start: int) -> Comment:
+    at = span.start - start
+    line = source.text[source.text.rfind("\n", 0, at) + 1 : at].rstrip()
+    behind = source.text.rfind(line, 0, at) + len(line) + start if line else None
     return Comment(text, span, behind)
 
 
@@ -79,7 +83,7 @@ def _parse_part(text: str, start: str) -> object:
     return part
 
 
-def _out_of_place(model: Model) -> list[Diagnostic]:
+def misplaced_parts(model: Model) -> list[Diagnostic]:
     """The order that the language demands of the parts of a model: heads, classes, main."""
     found = []
     first_class = min((c.span.start for c in model.classes), default=model.span.end)
@@ -90,6 +94,11 @@ def _out_of_place(model: Model) -> list[Diagnostic]:
         for c in model.classes:
             if c.span.start > model.main.span.start:
                 found.append(Diagnostic("RS112", c.name_span, "classes belong before `main`"))
+    return found
+
+
+def _misplaced_statements(model: Model) -> list[Diagnostic]:
+    found = []
     for node in walk(model):
         if isinstance(node, Switch):
             for case in node.cases:

@@ -158,11 +158,13 @@ class RecoveringParser:
         j = self._end_of_part(i)
         state = self._parser.parser_state
         boundaries = [d for d in range(len(state.state_stack), 0, -1) if self._at_boundary(d)]
-        ahead = self._from(j)[:2]
+        ahead, closing = self._from(j)[:2], [Token("RBRACE", "}")]
+        if j == len(self.tokens) and any(self._trial(closing, d) for d in boundaries):
+            ahead = closing  # what is open at the end of the file is closed next
         fits = (d for d in boundaries if self._trial(ahead, d) == len(ahead))
         depth = next(fits, boundaries[0])
         del state.state_stack[depth:], state.value_stack[depth - 1 :]
-        self._quiet_until = j - 1
+        self._quiet_until = j if ahead is closing else j - 1
         return j
 
     def _at_boundary(self, depth: int) -> bool:

@@ -16,6 +16,7 @@ from rebsync.long_numbers import MOST_DIGITS, long_number
 from rebsync.source import Source, Span
 from rebsync.trees import leads_out, repository_of_link
 
+MODEL, PROPERTY = ".rebeca", ".property"  # how the names of such files end
 STANDARD_INPUT = "-"
 RECORDS = ".rebsync"  # the folder of a package with what it was made from
 _RECORD = re.compile(rf"((?:.*?/)?)({re.escape(RECORDS)}/.*)", re.DOTALL)

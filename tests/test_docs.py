@@ -37,7 +37,7 @@ def test_the_page_of_codes_has_every_code() -> None:
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_option_is_described(name: str) -> None:
     command = import_module(f"rebsync.cli.{name}").command
-    section = re.search(rf"^## rebsync {name} .*?(?=^## )", REFERENCE, re.MULTILINE | re.DOTALL)
+    section = re.search(rf"^## rebsync {name}\b.*?(?=^## )", REFERENCE, re.MULTILINE | re.DOTALL)
     assert section is not None
     described = set(re.findall(r"^\| .*?\|", section[0], re.MULTILINE))
     shown = {

@@ -7,10 +7,10 @@ import sys
 import click
 
 from rebsync.cli.options import write_output
-from rebsync.cli.paths import MODEL, expand
+from rebsync.cli.paths import expand
 from rebsync.cli.status import Status, worst
 from rebsync.diagnostics import Findings, RebsyncError, Severity
-from rebsync.files import STANDARD_INPUT, read_source
+from rebsync.files import MODEL, STANDARD_INPUT, read_source
 from rebsync.patches import patch
 from rebsync.report import print_report
 from rebsync.source import Source

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from importlib import import_module
 
 import click
@@ -12,20 +13,35 @@ COMMANDS = {
     "accept": "Accept places of which no verdict can be given.",
     "ask": "Answer a question about what the nodes of a package do.",
     "check": "Tell whether packages and their models are in step.",
+    "completion": "Print the script that completes commands and options in a shell.",
     "conform": "Tell whether a recorded run is a run of the model.",
     "diff": "Compare two models, packages of code, or revisions of either.",
+    "doctor": "Tell which programs and libraries are found, and what each is for.",
     "export": "Print a model in the form that another tool accepts.",
     "extract": "Read the code of a package back into a model.",
     "fmt": "Bring models into the canonical layout.",
     "generate": "Write the ROS package of a model.",
     "graph": "Draw the computation graph of packages, and tell what is wrong in it.",
     "lint": "Report mistakes in models and properties.",
+    "lsp": "Serve editors: diagnostics, navigation, renaming, completion.",
     "monitor": "Write the node that compares a run of a system with its model.",
     "new": "Begin a model from a conceptual model in TOML.",
     "simulate": "Make one run of a model, by chance or by hand.",
     "sync": "Bring packages and their models in step.",
     "verify": "Check everything that can go wrong in a model, and its properties.",
 }
+
+
+COMPLETING = "_REBSYNC_COMPLETE"  # the variable by which a shell asks for what may follow
+_PATHS = ("FILE", "DIR", "PATH", "MODEL", "PACKAGE", "RECORDING", "A", "B")
+
+
+def _complete_paths(command: click.Command) -> None:
+    """Lets shells complete paths where a command names one."""
+    for param in command.params:
+        names = (param.metavar or "").strip("[.]").split("|")
+        if param.type is click.STRING and names[0] in _PATHS:
+            param.type = click.Path()
 
 
 class LazyGroup(click.Group):
@@ -39,6 +55,8 @@ class LazyGroup(click.Group):
             return None
         command = import_module(f"rebsync.cli.{cmd_name}").command
         assert isinstance(command, click.Command)
+        if COMPLETING in os.environ:
+            _complete_paths(command)
         return command
 
     def resolve_command(

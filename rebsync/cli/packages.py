@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rebsync.cli.paths import MODEL, PROPERTY
 from rebsync.cli.problem import refuse
 from rebsync.diagnostics import RebsyncError
-from rebsync.files import read_source
+from rebsync.files import MODEL, PROPERTY, read_source
 from rebsync.source import Source
 
 if TYPE_CHECKING:

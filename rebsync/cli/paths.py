@@ -9,9 +9,6 @@ from pathlib import Path
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import STANDARD_INPUT, followed, os_mistake
 
-MODEL = ".rebeca"
-PROPERTY = ".property"
-
 
 def expand(paths: Sequence[str], suffixes: tuple[str, ...]) -> Iterator[str | RebsyncError]:
     """The files meant, in order, each once; a path that cannot be used gives its error."""

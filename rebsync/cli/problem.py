@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from rebsync.cli.options import refuse_to_overwrite
-from rebsync.cli.paths import PROPERTY
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
-from rebsync.files import STANDARD_INPUT, read_source
+from rebsync.files import PROPERTY, STANDARD_INPUT, read_source
 from rebsync.source import Source
 
 if TYPE_CHECKING:

@@ -23,6 +23,7 @@ _PLACES = {
     KEEP_LAST: "a message server",
     "Move": "an empty statement: @Move(X+1, Y);",
 }
+KNOWN_ANNOTATIONS = (*_PLACES, *sorted(_PRIORITIES))
 _LEGAL = {
     "a class": frozenset(("Robot", "Controller")),
     "a message server": frozenset(("Sensor", "Port", OPEN, KEEP_LAST)) | OFFERS | _PRIORITIES,

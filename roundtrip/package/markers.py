@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import field
 
 from rebsync.records import dataclass
 from rebsync.terminal import encoded
@@ -17,11 +18,12 @@ _NOT_ELEMENTS = frozenset({"annotation", "end"})
 
 @dataclass(frozen=True, slots=True)
 class MarkedElement:
-    """A marked piece of a generated file: its kind and path in the model, and its text."""
+    """A marked piece of a generated file: its kind and path in the model, its text, its lines."""
 
     kind: str
     path: str
     text: str
+    lines: range = field(default=range(0), compare=False)  # counted from 1, the marker's first
 
     @property
     def name(self) -> str:
@@ -52,8 +54,10 @@ def elements(text: str) -> Iterator[MarkedElement]:
             continue
         before = match["before"].strip()
         block = _suite if "#" in line.partition("rebsync:")[0] else _block
-        body = before if before else "\n".join(block(lines, number + 1))
-        yield MarkedElement(match["kind"], match["path"], body)
+        body = [before] if before else list(block(lines, number + 1))
+        last = number + 1 if before else number + 1 + len(body)
+        where = range(number + 1, last + 1)
+        yield MarkedElement(match["kind"], match["path"], "\n".join(body), where)
 
 
 def _block(lines: list[str], first: int) -> Iterator[str]:

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.cli.lint import lint
 from rebsync.concept import parse_concept
 from rebsync.diagnostics import Findings, RebsyncError, Severity
 from rebsync.files import read_source
 from rebsync.forward.skeleton import skeleton
 from rebsync.grammars.formatting import format_text
+from rebsync.lint import lint
 from rebsync.source import Source
 
 FOLDER = Path(__file__).parent / "cases"

@@ -12,13 +12,13 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.cli.lint import lint
 from rebsync.codes import PROPERTIES
 from rebsync.diagnostics import Diagnostic, Severity
 from rebsync.edits import apply_edits, certain_edits
 from rebsync.files import read_source
 from rebsync.grammars.parser import parse_model
 from rebsync.grammars.properties import parse_properties
+from rebsync.lint import lint
 from rebsync.property_check import check_properties
 from rebsync.source import Source
 from rebsync.static import Analysis, analyse

@@ -147,11 +147,13 @@ def as_github(outcomes: Sequence[Outcome]) -> str:
     """Workflow commands that GitHub shows beside the changed lines."""
     from rebsync.report_data import as_github as commands
 
-    found: list[Findings] = []
-    for outcome in outcomes:
-        found += [_finding(outcome.checked, *d) for d in differences(outcome.checked)]
-        found += [*_others(outcome), *(f for f, _ in _proofs(outcome))]
-    return commands(found)
+    return commands([found for outcome in outcomes for found in findings_of(outcome)])
+
+
+def findings_of(outcome: Outcome) -> list[Findings]:
+    """Everything that there is to say of a package, differences included, as findings."""
+    found = [_finding(outcome.checked, *d) for d in differences(outcome.checked)]
+    return [*found, *_others(outcome), *(f for f, _ in _proofs(outcome))]
 
 
 def _others(outcome: Outcome) -> list[Findings]:

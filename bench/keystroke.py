@@ -1,0 +1,136 @@
+"""How long an editor waits for `rebsync lsp` after a keystroke, in a model of 2,000 lines.
+
+    python bench/keystroke.py [--edits N]
+
+A real client types a character into a body in the middle of the model and asks for completion, for
+the outline, and for what the name at the cursor is; then it waits for the diagnostics. Printed are
+the median and the longest time of each in milliseconds, and the ratio to the goal of 100 ms. The
+server waits 150 ms for the next keystroke before it sends diagnostics: that is taken off.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from lsprotocol import types as lsp
+
+from rebsync.lsp.server import DELAY
+from tests.lsp.client import Editor, at, editor
+
+Question = Callable[[Editor, lsp.TextDocumentIdentifier, lsp.Position], Awaitable[object]]
+GOAL = 100.0
+CLASS = """
+reactiveclass C{0}(10) {{
+  knownrebecs {{
+    C{1} other;
+  }}
+  statevars {{
+    int count;
+    boolean full;
+    int[4] cells;
+  }}
+  C{0}() {{
+    count = 0;
+    full = false;
+    self.tick();
+  }}
+  // counts, and tells the other
+  msgsrv tick() {{
+    if (count > 3 && !full) {{
+      count = count + 1;
+      full = count > 2;
+      cells[count] = count * 2 + 7;
+      other.hello(count, full) after(3);
+    }} else {{
+      while (count > 0) {{
+        count -= 1;
+        cells[0] = cells[1] + cells[2];
+      }}
+    }}
+    self.tick() after(10);
+  }}
+  msgsrv hello(int x, boolean y) {{
+    if (y) {{
+      count = x;
+    }} else {{
+      full = !y;
+    }}
+  }}
+}}
+"""
+CLASSES = 52
+STATEMENT = "count=count+1;"  # most of the time there is only a part of it
+QUESTIONS: dict[str, Question] = {
+    "completion": lambda client, document, place: client.text_document_completion_async(
+        lsp.CompletionParams(document, place)
+    ),
+    "outline": lambda client, document, place: client.text_document_document_symbol_async(
+        lsp.DocumentSymbolParams(document)
+    ),
+    "hover": lambda client, document, place: client.text_document_hover_async(
+        lsp.HoverParams(document, place)
+    ),
+}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("--edits", type=int, default=20, metavar="N")
+    edits = parser.parse_args().edits
+    text = model()
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "large.rebeca")
+        path.write_text(text, encoding="utf-8")
+        times: dict[str, list[float]] = {}
+        asyncio.run(play(path, text, edits, times))
+    print(f"{text.count(chr(10))} lines, {edits} keystrokes")
+    for what, each in times.items():
+        median = statistics.median(each)
+        print(f"{what:12} {median:6.0f} ms, longest {max(each):6.0f} ms, ratio {median / GOAL:.2f}")
+
+
+def model() -> str:
+    """A ring of classes."""
+    classes = "".join(CLASS.format(i, (i + 1) % CLASSES) for i in range(CLASSES))
+    rebecs = "".join(f"  C{i} r{i}(r{(i + 1) % CLASSES}):();\n" for i in range(CLASSES))
+    return f"{classes}\nmain {{\n{rebecs}}}\n"
+
+
+async def play(path: Path, text: str, edits: int, times: dict[str, list[float]]) -> None:
+    async with editor(path.parent) as client:
+        uri = client.open(path)
+        await client.diagnostics(uri)
+        place = lsp.Position(at(text, f"  C{CLASSES // 2}() {{").line + 1, 4)
+        number = 0
+        while number < edits:
+            for what, request in QUESTIONS.items():
+                client.type(uri, lsp.Range(place, place), STATEMENT[number % len(STATEMENT)])
+                place = lsp.Position(place.line, place.character + 1)
+                number += 1
+                times.setdefault(what, []).append(
+                    await timed(request(client, lsp.TextDocumentIdentifier(uri), place))
+                )
+            client.type(uri, lsp.Range(place, place), " ")
+            waited = await timed(client.diagnostics(uri))
+            times.setdefault("diagnostics", []).append(waited - DELAY * 1000)
+            await asyncio.sleep(0.05)
+
+
+async def timed(awaited: Awaitable[object]) -> float:
+    """How long something takes, in milliseconds."""
+    start = time.perf_counter()
+    await awaited
+    return (time.perf_counter() - start) * 1000
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""The language server: texts of an editor in, values of its protocol out."""

@@ -1,0 +1,87 @@
+"""From model to code and back, drift in saved files, and the actions that take it away."""
+
+from __future__ import annotations
+
+import shutil
+from ast import literal_eval
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from lsprotocol import types as lsp
+
+from tests.lsp.client import Editor, at
+from tests.lsp.conftest import InEditor
+
+HELLO = Path(__file__).parents[2] / "examples/hello"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    made = tmp_path / "hello"
+    shutil.copytree(HELLO, made)
+    return made
+
+
+def _of(uri: str) -> lsp.TextDocumentIdentifier:
+    return lsp.TextDocumentIdentifier(uri)
+
+
+def test_an_element_leads_to_its_code_and_back(folder: Path, in_editor: InEditor) -> None:
+    model = folder / "hello.rebeca"
+    text = model.read_text(encoding="utf-8")
+
+    async def play(client: Editor) -> None:
+        uri = client.open(model)
+        place = at(text, "msgsrv ", len("msgsrv "))
+        found = await client.text_document_implementation_async(
+            lsp.ImplementationParams(_of(uri), place)
+        )
+        assert isinstance(found, Sequence)
+        code = next(f for f in found if f.uri.endswith(".cpp"))  # type: ignore[union-attr]
+        assert isinstance(code, lsp.Location)
+        inside = lsp.Position(code.range.start.line + 1, 0)
+        back = await client.text_document_definition_async(
+            lsp.DefinitionParams(_of(code.uri), inside)
+        )
+        assert isinstance(back, Sequence)
+        (declared,) = back
+        assert isinstance(declared, lsp.Location)
+        assert (declared.uri, declared.range.start) == (uri, place)
+
+    in_editor(play)
+
+
+def test_a_change_of_the_code_is_taken_into_the_model(folder: Path, in_editor: InEditor) -> None:
+    (source,) = folder.glob("hello/src/*[!e].cpp")
+    text = source.read_text(encoding="utf-8")
+    (model,) = folder.glob("*.rebeca")
+    before = model.read_text(encoding="utf-8")
+
+    async def play(client: Editor) -> None:
+        uri = client.open(source)
+        source.write_text(text.replace("after(1)", "after(2)"), encoding="utf-8")
+        client.text_document_did_save(lsp.DidSaveTextDocumentParams(_of(uri)))
+        (found,) = await client.diagnostics(uri)
+        assert found.code == "RS952"
+        context = lsp.CodeActionContext(diagnostics=[found])
+        (action,) = (
+            await client.text_document_code_action_async(
+                lsp.CodeActionParams(_of(uri), found.range, context)
+            )
+            or ()
+        )
+        assert action.title == "Take into the model (rebsync sync)"
+        # lsprotocol takes an action that has a command for a command, and its command for a text
+        sent = literal_eval(str(action.command))
+        command = lsp.ExecuteCommandParams(sent["command"], sent["arguments"])
+        await client.workspace_execute_command_async(command)
+        assert client.messages[-1].startswith("save ")  # the open text is the old one
+        lines = text.count("\n")
+        place = lsp.Range(lsp.Position(0, 0), lsp.Position(lines + 1, 0))
+        client.type(uri, place, source.read_text(encoding="utf-8"))
+        await client.workspace_execute_command_async(command)
+        assert not await client.diagnostics(uri)
+
+    in_editor(play)
+    assert model.read_text(encoding="utf-8") == before.replace("after(1)", "after(2)") != before
