@@ -19,6 +19,7 @@ from rebsync.reverse.files.monitors import is_monitor
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import SETUP, is_launch, is_python
 from rebsync.reverse.findings import Finding, Findings, Grade
+from rebsync.reverse.generated.before_main import at_the_end, beside_main
 from rebsync.reverse.generated.one_definition import defined_again
 from rebsync.reverse.generated.parameters import odd_arguments
 from rebsync.reverse.generated.ros1_classes import Classes
@@ -192,6 +193,9 @@ class _Reading:
         chosen = tuple(classes.chosen(wanted))
         for owner in chosen:
             self.findings.all += defined_again(self.code, owner)
+            self.findings.all += at_the_end(self.code, owner)
+        if chosen:
+            self.findings.all += beside_main(self.code)
         names = {owner.name for owner in chosen}
         for program in self.programs:
             self.findings.all += odd_arguments(self.code, program.main, names)

@@ -11,6 +11,7 @@ import re
 from collections.abc import Mapping
 from functools import cached_property
 
+_RUNTIME = b"/mailbox.h"  # what the files of generated classes include
 _MUCH = 200_000  # bytes, from which on comparing names is quicker than reading it all
 _INCLUDE = re.compile(rb'#[ \t]*include[ \t]*["<](?:[^">\n]*/)?([^">\n/]+)[">]')
 _NAME = re.compile(rb"(?<![\w.])(?<!->)[A-Za-z_]\w*")
@@ -52,6 +53,8 @@ def relevant(code: Mapping[str, bytes], only: str | None = None) -> set[str]:
     kept = {name for name, data in code.items() if name == only or _of_ros(data)}
     if not kept or len(kept) == len(code):
         return kept
+    if any(_RUNTIME in data for data in code.values()) and sum(map(len, code.values())) < _MUCH:
+        return {*code}  # what runs before `main` counts, which may name nothing of all others
     tied = _tied(code, kept)
     others = sum(len(code[name]) for name in tied - kept)
     if others < _MUCH or others < sum(len(code[name]) for name in kept):

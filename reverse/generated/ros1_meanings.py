@@ -41,9 +41,14 @@ class Meaning:
     why: str
 
 
+def is_runtime_header(path: str) -> bool:
+    """Whether a file is a header of the run-time part."""
+    return _RUNTIME.search(path) is not None
+
+
 def other_meanings(code: Code) -> tuple[Meaning, ...]:
     """All such places in what is not the run-time part."""
-    own = [cpp for cpp in code.files if not _RUNTIME.search(cpp.source.path)]
+    own = [cpp for cpp in code.files if not is_runtime_header(cpp.source.path)]
     found = [m for cpp in own for m in _named_again(cpp)]
     macros = [m for cpp in own for m in _macros(cpp)]
     if macros:

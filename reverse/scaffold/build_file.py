@@ -11,6 +11,16 @@ from rebsync.reverse.scaffold.texts import squeezed
 from rebsync.source import Source, Span
 
 _OPTION = re.compile(r"(?:^|[\s\"])((?:-D|-U|-f|-include)\s*[^\s\"]+)")
+_COMMAND = "COMMAND"
+_CHANGING = frozenset(
+    {"configure_file", "add_custom_command", "link_libraries", "add_link_options"}
+    | {"target_link_options", "cmake_language", "write_file", "exec_program"}
+)
+_LINKING = frozenset(
+    {"CMAKE_EXE_LINKER_FLAGS", "CMAKE_SHARED_LINKER_FLAGS", "CMAKE_CXX_STANDARD_LIBRARIES"}
+    | {"CMAKE_CXX_COMPILER", "CMAKE_TOOLCHAIN_FILE", "CMAKE_PROJECT_INCLUDE"}
+)
+_ONLY_LOOKS = frozenset({"GLOB", "GLOB_RECURSE", "READ", "STRINGS", "RELATIVE_PATH", "TO_CMAKE_PATH"})
 _SCOPES = frozenset({"PRIVATE", "PUBLIC", "INTERFACE"})
 _DEFINING = "COMPILE_DEFINITIONS"
 _MESSAGES = frozenset({"rosidl_generate_interfaces", "add_message_files"})
@@ -24,7 +34,8 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
     names = dict(filter(None, map(_named, commands)))
     for command in commands:
         words = [argument.text for argument in command.arguments]
-        for fact in (*_compiled(command, words), *_made(command, words, names)):
+        found = (*_compiled(command, words), *_steps(command, words))
+        for fact in (*found, *_made(command, words, names)):
             kind, owner, name, value, span = fact
             yield Fact(kind, owner, name, value, source, span)
 
@@ -68,6 +79,24 @@ def _compiled(command: Command, words: Sequence[str]) -> Iterator[_Told]:
     for word in sorted({*defined} - _SCOPES):
         option = f"-D{word.removeprefix('-D')}"
         yield "compiler option", "", option, "given", command.span
+
+
+def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
+    """What may change the files of the package, or what programs are linked to and made of."""
+    is_step = command.name in _CHANGING or (command.name == "set" and _LINKING & {*words[:1]})
+    match command.name, words:
+        case "include", [module, *_]:
+            is_step = "/" in module or module.endswith(".cmake")
+        case "file", [action, *_]:
+            is_step = action not in _ONLY_LOOKS
+        case "include_directories" | "target_include_directories", _:
+            is_step = "BEFORE" in words
+        case "execute_process", _:
+            is_step = _COMMAND not in words or words[words.index(_COMMAND) + 1 :][:1] != ["git"]
+        case _:
+            pass
+    if is_step:
+        yield "step of the build", "", squeezed(" ".join((command.name, *words))), "given", command.span
 
 
 def _made(command: Command, words: Sequence[str], names: dict[str, str]) -> Iterator[_Told]:

@@ -55,7 +55,7 @@ _K = TypeVar("_K")
 _V = TypeVar("_V")
 
 _HEADERS = (".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp")
-_CONTAINERS = frozenset(
+CONTAINERS = frozenset(
     {
         *("translation_unit", "namespace_definition", "declaration_list", "ERROR"),
         *("linkage_specification", "preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif"),
@@ -246,7 +246,7 @@ class Code:
                     if only_braces(child):
                         self._add_function(cpp, child)
                     self._add_variables(cpp, child)
-                case kind if kind in _CONTAINERS:
+                case kind if kind in CONTAINERS:
                     self._add(cpp, child)
 
     def _add_function(self, cpp: Cpp, node: Node) -> None:

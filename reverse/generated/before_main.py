@@ -1,0 +1,214 @@
+"""What a program of generated classes does besides its `main`, by what stands outside of functions.
+
+Objects of namespace scope are initialised before `main` ([basic.start.dynamic]), as are static
+members; a function may be a constructor of the program, or stand in place of one of a library
+([replacement.functions]); a specialisation stands in place of a template of the run-time part. And
+a destructor runs when a node ends. What of these is not known to do nothing is listed.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.reverse.bodies.known_functions import acts, is_known, starts_nothing
+from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.generated.ros1_hand import is_passive
+from rebsync.reverse.generated.ros1_idle import working
+from rebsync.reverse.generated.ros1_meanings import is_runtime_header
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
+from rebsync.reverse.syntax.cpp_index import CONTAINERS, Code, CppClass
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
+
+_INITIALISED = "this is initialised before `main`: what it does then is not in the model"
+_EARLY = "this runs before or after `main`: what it does is not in the model"
+_REPLACED = "this may stand in place of a function of a library or of the run-time part"
+_OTHERWISE = "what the compiler makes of the code because of this is not in the model"
+_ENDING = "this runs when the node ends: what it does is not in the model"
+_REGISTERS = frozenset(
+    {"RCLCPP_COMPONENTS_REGISTER_NODE", "PLUGINLIB_EXPORT_CLASS", "CLASS_LOADER_REGISTER_CLASS"}
+)
+_CLASSES = ("class_specifier", "struct_specifier", "union_specifier")
+_PRAGMA = re.compile(
+    r"#\s*pragma\s+(?!once\b|GCC\s+diagnostic|clang\s+diagnostic|warning\b|region\b|endregion\b)"
+)
+_EARLY_FUNCTION = re.compile(r"\b(?:constructor|destructor|init_priority|ifunc|alias|weakref)\b")
+_REPLACEABLE = re.compile(r"\boperator\s*(?:new|delete)\b")
+_PLAIN = re.compile(
+    r"(?:(?:std::)?(?:u?int(?:8|16|32|64)?(?:_t)?|size_t|float|double|bool|char|long|short|unsigned"
+    r"|signed)\s*)+\Z|(?:std::)?(?:string_view|array<.*>|mutex|atomic<.*>|chrono::[\w:<>, ]+)\Z",
+    re.DOTALL,
+)
+_CONSTANT = ("constexpr", "constinit")
+_STOP = "mailbox_.stop();"  # as it is generated
+_RUNNING = ("new_expression", "delete_expression", "assignment_expression", "update_expression")
+_CALLABLE = ("identifier", "qualified_identifier", "field_expression", "template_function")
+_RUN_TIME = frozenset({"Server", "When"})  # the plain records of the run-time part
+
+
+def beside_main(code: Code) -> Iterator[Finding]:
+    """All such places in files that are not of the run-time part."""
+    for cpp in code.files:
+        if not is_runtime_header(cpp.source.path):
+            for node, why in _outside(code, cpp, cpp.root):
+                yield Finding(Grade.UNREADABLE, cpp.source, cpp.span(node), why)
+
+
+def at_the_end(code: Code, owner: CppClass) -> Iterator[Finding]:
+    """The destructors of a class and of those above it that do anything."""
+    for above in code.lineage(owner.name):
+        for function in code.functions_of(above):
+            ending = working(function.body) if function.name == f"~{above.name}" else ()
+            if any(text_of(statement) != _STOP for statement in ending):
+                span = function.cpp.span(function.node)
+                yield Finding(
+                    Grade.UNREADABLE, function.cpp.source, span, _ENDING, within=owner.name
+                )
+
+
+def _outside(code: Code, cpp: Cpp, scope: Node) -> Iterator[tuple[Node, str]]:
+    """What the declarations of a namespace do."""
+    for node in named(scope):
+        match node.type:
+            case "declaration":
+                yield from _declared(code, node)
+            case "function_definition":
+                yield from _function(node)
+            case "expression_statement":
+                call = call_of(named(node)[0]) if named(node) else None
+                if call is not None and call.name not in _REGISTERS:
+                    yield node, _INITIALISED
+            case "preproc_call" if _PRAGMA.match(text_of(node)):
+                yield node, _OTHERWISE
+            case "template_declaration" if _is_specialisation(node):
+                if not _is_of_own(code, node):
+                    yield node, _REPLACED
+            case kind if kind in _CLASSES:
+                yield from _static_members(code, node)
+            case kind if kind in CONTAINERS and kind != "template_declaration":
+                yield from _outside(code, cpp, node)
+            case _:
+                pass
+
+
+def _function(node: Node) -> Iterator[tuple[Node, str]]:
+    head = text_of(node).partition("{")[0]
+    above = node.parent
+    linkage = above.parent if above is not None and above.type == "declaration_list" else above
+    is_c = linkage is not None and linkage.type == "linkage_specification"
+    if "attribute" in head or "[[" in head:
+        if _EARLY_FUNCTION.search(head):
+            yield node, _EARLY
+    elif is_c or _REPLACEABLE.search(head):
+        yield node, _REPLACED
+
+
+def _declared(code: Code, node: Node) -> Iterator[tuple[Node, str]]:
+    """A declaration of variables of which one is initialised by what may do anything."""
+    if inside(node, "function_declarator") and not inside(node, "init_declarator"):
+        if _EARLY_FUNCTION.search(text_of(node)) and "attribute" in text_of(node):
+            yield node, _EARLY
+        return
+    words = {text_of(child) for child in node.children}
+    declarators = node.children_by_field_name("declarator")
+    is_elsewhere = "extern" in words and not inside(node, "init_declarator")
+    if not declarators or is_elsewhere or not words.isdisjoint(_CONSTANT):
+        return
+    is_plain = all(_is_plain_value(code, d.child_by_field_name("value")) for d in declarators)
+    pointer = all(_inner(d).type == "pointer_declarator" for d in declarators)
+    if not is_plain or not (pointer or _is_plain_type(code, part(node, "type"))):
+        yield node, _INITIALISED
+
+
+def _inner(declarator: Node) -> Node:
+    if declarator.type == "init_declarator":
+        return part(declarator, "declarator")
+    return declarator
+
+
+def _static_members(code: Code, owner: Node) -> Iterator[tuple[Node, str]]:
+    body = owner.child_by_field_name("body")
+    for field in named(body) if body is not None else ():
+        if field.type != "field_declaration":
+            continue
+        words = {text_of(child) for child in field.children}
+        value = field.child_by_field_name("default_value")
+        if "static" in words and value is not None and not _is_plain_value(code, value):
+            yield field, _INITIALISED
+
+
+def _is_plain_value(code: Code, value: Node | None) -> bool:
+    """Whether to evaluate an expression does nothing but to give its value."""
+    if value is None:
+        return True
+    if inside(value, *_RUNNING, "compound_statement") and not _only_lambda(value):
+        return False
+    called = (c.child_by_field_name("function") for c in inside(value, "call_expression"))
+    if any(f is not None and f.type not in _CALLABLE for f in called):
+        return False
+    return _only_lambda(value) or all(_is_plain_call(code, call) for call in calls_in(value))
+
+
+def _only_lambda(value: Node) -> bool:
+    return value.type == "lambda_expression"
+
+
+def _is_plain_call(code: Code, call: CppCall) -> bool:
+    if acts(call, is_generated=True) is not None:
+        return False
+    name = call.name.rpartition("::")[2]
+    if name in code.all_classes:
+        return name in _RUN_TIME or all(map(_does_nothing, code.all_classes[name]))
+    return is_known(call)
+
+
+def _is_plain_type(code: Code, type_: Node) -> bool:
+    """Whether to make an object of a type runs nothing that is not known."""
+    if type_.type in _CLASSES:
+        return all(not calls_in(part_) for part_ in named(type_))
+    text = " ".join(text_of(type_).split())
+    name = text.partition("<")[0].rpartition("::")[2]
+    if name in code.all_classes and name not in _RUN_TIME:
+        return all(map(_does_nothing, code.all_classes[name]))
+    is_known_name = name in _RUN_TIME or name in code.aliases or "auto" in text
+    return is_known_name or bool(_PLAIN.match(text)) or is_passive(text) or not _runs(text)
+
+
+def _runs(type_: str) -> bool:
+    """Whether a type is no enumeration or plain one by its looks: it is of ROS, or runs code."""
+    return "::" in type_ or not starts_nothing(type_)
+
+
+def _does_nothing(owner: CppClass) -> bool:
+    """Whether to make an object of a class stores values alone."""
+    special = (owner.name, f"~{owner.name}")
+    made = [f for f in inside(owner.node, "function_definition") if _name_of(f) in special]
+    declared = [f for f in owner.functions if f.name in special]
+    own = all(f.body is not None and not named(f.body) for f in declared)
+    initialised = inside(owner.node, "field_initializer_list")
+    values = [f.value for f in owner.fields if f.value is not None]
+    stores = not any(calls_in(node) for node in (*initialised, *values))
+    return not owner.bases and own and stores and all(not named(part(f, "body")) for f in made)
+
+
+def _name_of(function: Node) -> str:
+    declarator = function.child_by_field_name("declarator")
+    return text_of(declarator).partition("(")[0].strip() if declarator is not None else ""
+
+
+def _is_specialisation(node: Node) -> bool:
+    parameters = node.child_by_field_name("parameters")
+    return parameters is not None and not named(parameters)
+
+
+def _is_of_own(code: Code, node: Node) -> bool:
+    """Whether a template is specialised that people wrote in the package."""
+    head = text_of(node).partition(">")[2].partition("{")[0].partition("(")[0].partition("<")[0]
+    name = re.findall(r"\w+", head)[-1:] or [""]
+    own = (c for c in code.all_classes.get(name[0], ()) if not is_runtime_header(c.cpp.source.path))
+    functions = (f for (o, n), all_ in code.definitions.items() if n == name[0] for f in all_)
+    return any(True for c in own if c.node.parent != node) or any(
+        f.node.parent != node and not is_runtime_header(f.cpp.source.path) for f in functions
+    )
