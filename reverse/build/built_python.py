@@ -10,7 +10,7 @@ import ast
 import posixpath
 import re
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from rebsync.records import dataclass
 from rebsync.reverse.build.cmake import BUILD
@@ -50,7 +50,9 @@ def unbuilt_python(files: Mapping[str, Source]) -> frozenset[str]:
     reached, waiting = set(programs), list(programs)
     while waiting:
         path = waiting.pop()
-        fresh = {p for n in modules[path].imports for p in _found(n, path, modules)} - reached
+        fresh = {
+            p for n in modules[path].imports for p in files_of_import(n, path, modules)
+        } - reached
         reached |= fresh
         waiting += fresh
     defined = frozenset[str]().union(*(modules[p].defined for p in reached))
@@ -73,7 +75,7 @@ def _read(text: str) -> _Module | None:
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return None
     nodes = list(ast.walk(tree))
-    imports = frozenset(name for node in nodes for name in _imported(node))
+    imports = frozenset(imported_by(tree))
     used = {node.id for node in nodes if isinstance(node, ast.Name)}
     used |= {node.attr for node in nodes if isinstance(node, ast.Attribute)}
     if not _DYNAMIC.isdisjoint(used | {name.partition(".")[0] for name in imports}):
@@ -82,6 +84,11 @@ def _read(text: str) -> _Module | None:
     defined = frozenset(n.name for n in tree.body if isinstance(n, kinds) and n.name != "main")
     is_guarded = any(isinstance(n, ast.If) and "__main__" in ast.dump(n.test) for n in tree.body)
     return _Module(imports, defined, is_guarded or text.startswith("#!"))
+
+
+def imported_by(tree: ast.Module) -> Iterator[str]:
+    """The names of modules that a file may import, wherever it does."""
+    return (name for node in ast.walk(tree) for name in _imported(node))
 
 
 def _imported(node: ast.AST) -> Iterator[str]:
@@ -104,7 +111,7 @@ def _programs(files: Mapping[str, Source], modules: Mapping[str, _Module]) -> se
     words = {word for text in naming for word in _WORD.findall(text)}
     found = {p for p in modules if p.endswith(LAUNCHES) or posixpath.basename(p) in words}
     found |= {p for p, m in modules.items() if m.is_program and _stem(p) in words}
-    named = {p for word in words if "." in word for p in _found(word, SETUP, modules)}
+    named = {p for word in words if "." in word for p in files_of_import(word, SETUP, modules)}
     setup = files.get(SETUP)
     if setup is None or "console_scripts" not in setup.text:
         return found | named | {p for p, m in modules.items() if m.is_program}
@@ -115,7 +122,7 @@ def _stem(path: str) -> str:
     return posixpath.basename(path).removesuffix(SUFFIX)
 
 
-def _found(name: str, path: str, modules: Mapping[str, _Module]) -> Iterator[str]:
+def files_of_import(name: str, path: str, modules: Collection[str]) -> Iterator[str]:
     """The files that an import in a file may mean, and those of the packages that they are in."""
     plain = name.lstrip(".")
     up = len(name) - len(plain)
@@ -131,7 +138,7 @@ def _found(name: str, path: str, modules: Mapping[str, _Module]) -> Iterator[str
             yield from _around(each, modules)
 
 
-def _around(path: str, modules: Mapping[str, _Module]) -> Iterator[str]:
+def _around(path: str, modules: Collection[str]) -> Iterator[str]:
     """What runs first, because a module is in these packages."""
     while path:
         path = posixpath.dirname(path)

@@ -19,7 +19,7 @@ from rebsync.reverse.generated.ros1_hand import is_passive
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_meanings import is_runtime_header
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
-from rebsync.reverse.syntax.cpp_index import CONTAINERS, Code, CppClass
+from rebsync.reverse.syntax.cpp_index import CONTAINERS, Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
 _INITIALISED = "this is initialised before `main`: what it does then is not in the model"
@@ -38,7 +38,8 @@ _EARLY_FUNCTION = re.compile(r"\b(?:constructor|destructor|init_priority|ifunc|a
 _REPLACEABLE = re.compile(r"\boperator\s*(?:new|delete)\b")
 _PLAIN = re.compile(
     r"(?:(?:std::)?(?:u?int(?:8|16|32|64)?(?:_t)?|size_t|float|double|bool|char|long|short|unsigned"
-    r"|signed)\s*)+\Z|(?:std::)?(?:string_view|array<.*>|mutex|atomic<.*>|chrono::[\w:<>, ]+)\Z",
+    r"|signed)\s*)+\Z|(?:std::)?(?:string_view|array<.*>|(?:unique|shared)_ptr<.*>"
+    r"|mutex|atomic<.*>|chrono::[\w:<>, ]+)\Z",
     re.DOTALL,
 )
 _CONSTANT = ("constexpr", "constinit")
@@ -161,13 +162,20 @@ def _is_plain_call(code: Code, call: CppCall) -> bool:
     name = call.name.rpartition("::")[2]
     if name in code.all_classes:
         return name in _RUN_TIME or all(map(_does_nothing, code.all_classes[name]))
-    return is_known(call)
+    own = code.definitions.get(("", call.name), ())
+    return all(map(_only_gives, own)) if own else is_known(call)
+
+
+def _only_gives(function: CppFunction) -> bool:
+    """Whether a function does nothing but to give a value of its parameters."""
+    body = function.body
+    return body is not None and not inside(body, *_RUNNING, "call_expression")
 
 
 def _is_plain_type(code: Code, type_: Node) -> bool:
     """Whether to make an object of a type runs nothing that is not known."""
     if type_.type in _CLASSES:
-        return all(not calls_in(part_) for part_ in named(type_))
+        return not any(True for _ in calls_in(type_))
     text = " ".join(text_of(type_).split())
     name = text.partition("<")[0].rpartition("::")[2]
     if name in code.all_classes and name not in _RUN_TIME:
@@ -189,7 +197,7 @@ def _does_nothing(owner: CppClass) -> bool:
     own = all(f.body is not None and not named(f.body) for f in declared)
     initialised = inside(owner.node, "field_initializer_list")
     values = [f.value for f in owner.fields if f.value is not None]
-    stores = not any(calls_in(node) for node in (*initialised, *values))
+    stores = not any(True for node in (*initialised, *values) for _ in calls_in(node))
     return not owner.bases and own and stores and all(not named(part(f, "body")) for f in made)
 
 

@@ -61,6 +61,10 @@ _AT_TOP = frozenset(
 )
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
 _DECORATORS = frozenset({"abstractmethod", "final", "override", "staticmethod", "classmethod"})
+# Python calls these itself, or makes of attributes what they say.
+_HOOKS = frozenset(
+    {"__del__", "__new__", "__init_subclass__", "__getattribute__", "__setattr__", "__getattr__"}
+)
 _WHY = "what this does is not in the model"
 _LOST = "no subscription takes this in: the class only sends it to itself"
 _LATE = "this gives a coroutine, and nobody runs it"
@@ -98,6 +102,8 @@ class Plumbing:
             for node in self._odd(function):
                 self._list(owner.py, node, why, function.name)
         for function in self.roles.functions.values():
+            if function.name in _HOOKS:
+                self._list(owner.py, function.node, _WHY, function.name)
             if any(c.type == "async" for c in function.node.children):
                 self._list(owner.py, function.node, _LATE, function.name)
             odd = [d for d in function.decorators if not self._is_plain(function, d)]

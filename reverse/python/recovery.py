@@ -30,6 +30,7 @@ from rebsync.reverse.nodes.node_joined import Part
 from rebsync.reverse.nodes.node_system import unit_of_time
 from rebsync.reverse.python.body_started import Started, is_module, scripts_of
 from rebsync.reverse.python.body_system import PyNodes, PySystem
+from rebsync.reverse.python.import_effects import list_import_effects, list_setup_effects
 from rebsync.reverse.python.model_classes import ModelClasses
 from rebsync.reverse.python.model_env import integer_constants
 from rebsync.reverse.python.model_parameters import constant, parameter_read
@@ -167,7 +168,10 @@ def read_python(
     read = classes.read(path) if asked is not None or only is None else ()
     if read and only is None and SETUP in (files or {}):
         findings.all += unparsed(parse((files or {})[SETUP]))
+        list_setup_effects((files or {})[SETUP], findings)
     own = {(o.name, o.py.source.path) for o in classes.owners}
+    if read and only is None:
+        list_import_effects(python.sources, _read_paths(python), findings)
     is_people = partial(_is_people, own=own)
     scripts = scripts_of(files or {})
     started = Started(launch, package, scripts, frozenset(programs))
@@ -179,6 +183,12 @@ def read_python(
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
     arguments, stored = classes.arguments(), classes.own()
     return PythonPart(graph, read, used, python.code, nodes, scripts, arguments, stored)
+
+
+def _read_paths(python: PythonCode) -> frozenset[str]:
+    """The files of which the statements at the top are read otherwise: of classes and run-time."""
+    runtime = {s.path for s in python.sources.values() if is_runtime_file(s)}
+    return frozenset(runtime | {o.py.source.path for o in python.classes.owners})
 
 
 def _types_in(known: MessageTypes) -> dict[str, dict[str, m.Type]]:

@@ -20,7 +20,9 @@ _LINKING = frozenset(
     {"CMAKE_EXE_LINKER_FLAGS", "CMAKE_SHARED_LINKER_FLAGS", "CMAKE_CXX_STANDARD_LIBRARIES"}
     | {"CMAKE_CXX_COMPILER", "CMAKE_TOOLCHAIN_FILE", "CMAKE_PROJECT_INCLUDE"}
 )
-_ONLY_LOOKS = frozenset({"GLOB", "GLOB_RECURSE", "READ", "STRINGS", "RELATIVE_PATH", "TO_CMAKE_PATH"})
+_ONLY_LOOKS = frozenset(
+    {"GLOB", "GLOB_RECURSE", "READ", "STRINGS", "RELATIVE_PATH", "TO_CMAKE_PATH"}
+)
 _SCOPES = frozenset({"PRIVATE", "PUBLIC", "INTERFACE"})
 _DEFINING = "COMPILE_DEFINITIONS"
 _MESSAGES = frozenset({"rosidl_generate_interfaces", "add_message_files"})
@@ -92,11 +94,23 @@ def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
         case "include_directories" | "target_include_directories", _:
             is_step = "BEFORE" in words
         case "execute_process", _:
-            is_step = _COMMAND not in words or words[words.index(_COMMAND) + 1 :][:1] != ["git"]
+            is_step = _COMMAND not in words or not _asks(words)
         case _:
             pass
     if is_step:
-        yield "step of the build", "", squeezed(" ".join((command.name, *words))), "given", command.span
+        yield (
+            "step of the build",
+            "",
+            squeezed(" ".join((command.name, *words))),
+            "given",
+            command.span,
+        )
+
+
+def _asks(words: Sequence[str]) -> bool:
+    """Whether the command that is run only tells of the version of the package."""
+    run = words[words.index(_COMMAND) + 1 :]
+    return run[:2] in (["git", "describe"], ["git", "rev-parse"], ["git", "log"])
 
 
 def _made(command: Command, words: Sequence[str], names: dict[str, str]) -> Iterator[_Told]:

@@ -20,6 +20,7 @@ from rebsync.roundtrip.package.record import Record
 from rebsync.roundtrip.package.state import NOT_EXECUTABLE, PackageState
 from rebsync.roundtrip.package.units import folders_of
 from rebsync.roundtrip.verdict.missing_definitions import finding, missing_definitions
+from rebsync.roundtrip.verdict.shadowing import shadowing
 from rebsync.source import NOWHERE, Source, Span
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ def missing_files(
         *missing_definitions(now, [*_codes(now)]),
         *_fields(package, record, now),
         *_packages(package, record, now),
+        *shadowing(record, now),
         *_refused(now),
         *_not_executable(now),
     )

@@ -1,0 +1,265 @@
+"""What modules that people wrote do when generated code imports them, by their top statements.
+
+An import runs a module from its first statement to its last: what of this is not known to do
+nothing but to bind names may change the run-time part, the environment, or the library of ROS.
+"""
+
+from __future__ import annotations
+
+import ast
+import warnings
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from typing import TypeGuard
+
+from rebsync.reverse.build.built_python import files_of_import, imported_by
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.libraries.effects import of_function
+from rebsync.reverse.libraries.routines import Effect, Language
+from rebsync.source import Source, Span
+
+_WHY = "this runs when the module is imported: what it does is not in the model"
+# What binds names, makes plain values, or only reads; further functions are in the tables.
+_PLAIN = frozenset(
+    {"int", "float", "str", "bool", "range", "dict", "list", "tuple", "set", "frozenset", "print"}
+    | {"property", "staticmethod", "classmethod", "object", "bytes"}
+    | {"logging.getLogger", "rclpy.logging.get_logger", "re.compile", "os.path.join", "os.getenv"}
+    | {"os.path.dirname", "os.path.abspath", "os.path.expanduser", "os.environ.get"}
+    | {"pathlib.Path", "collections.namedtuple", "collections.defaultdict", "collections.deque"}
+    | {"typing.TypeVar", "typing.NewType", "typing.cast", "typing.overload", "typing.final"}
+    | {"functools.lru_cache", "functools.cache", "functools.partial", "functools.wraps"}
+    | {"functools.total_ordering", "functools.cached_property", "contextlib.contextmanager"}
+    | {
+        "dataclasses.dataclass",
+        "dataclasses.field",
+        "enum.auto",
+        "enum.unique",
+        "abc.abstractmethod",
+    }
+    | {"threading.Lock", "threading.RLock", "threading.Event", "collections.OrderedDict"}
+)
+_IN_SETUP = _PLAIN | {
+    *("setuptools.setup", "distutils.core.setup", "setuptools.find_packages", "glob.glob"),
+    *("catkin_pkg.python_setup.generate_distutils_setup", "os.listdir", "os.walk"),
+    *("setuptools.find_namespace_packages", "setup", "find_packages", "os.path.splitext"),
+    *("open", "readme.read", "f.read", "file.read"),
+}
+_CLASS_HOOKS = frozenset({"__init_subclass__", "__set_name__"})
+_MAKING = frozenset({"__init__", "__new__", "__post_init__", "__call__"})
+_BINDS = (ast.Import, ast.ImportFrom, ast.Pass, ast.Global, ast.Nonlocal)
+
+
+def list_import_effects(
+    sources: Mapping[str, Source], generated: Collection[str], findings: Findings
+) -> None:
+    """Lists what modules do that generated ones import; these are given by their paths."""
+    trees = {path: _parsed(sources[path].text) for path in sources}
+    reached = set[str]()
+    waiting = [path for path, source in sources.items() if source.path in generated]
+    while waiting:
+        path = waiting.pop()
+        tree = trees[path]
+        names = imported_by(tree) if tree is not None else ()
+        fresh = {p for n in names for p in files_of_import(n, path, sources)} - reached
+        reached |= fresh
+        waiting += fresh
+    for path in sorted(reached):
+        tree, source = trees[path], sources[path]
+        if tree is None or source.path in generated:
+            continue  # what cannot be parsed is listed, and what is generated is read itself
+        _list(source, _ImportedCode(tree).acting(), findings)
+
+
+def list_setup_effects(source: Source, findings: Findings) -> None:
+    """Lists what `setup.py` does besides to say what is installed."""
+    tree = _parsed(source.text)
+    if tree is not None:
+        _list(source, _ImportedCode(tree, _IN_SETUP).acting(), findings)
+
+
+def _list(source: Source, nodes: Iterable[ast.stmt], findings: Findings) -> None:
+    for node in nodes:
+        start = source.start_of(node.lineno)
+        line = source.text[start:].partition("\n")[0]
+        findings.unreadable(source, Unread(Span(start, start + len(line)), _WHY), "")
+
+
+def _parsed(text: str) -> ast.Module | None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            return ast.parse(text)
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            return None
+
+
+class _ImportedCode:
+    """One module: its statements, what its imports call things, and the classes that it defines."""
+
+    def __init__(self, tree: ast.Module, plain: frozenset[str] = _PLAIN) -> None:
+        self._tree = tree
+        self._plain = plain
+        self._aliases: dict[str, str] = {}
+        self._functions = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
+        self._asked = set[str]()
+        own = (n.targets for n in tree.body if isinstance(n, ast.Assign) and _is_made(n.value))
+        self._containers = {t.id for targets in own for t in targets if isinstance(t, ast.Name)}
+        self._classes = {n.name: n for n in ast.walk(tree) if isinstance(n, ast.ClassDef)}
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Import):
+                for alias in node.names:
+                    if alias.asname is not None:
+                        self._aliases[alias.asname] = alias.name
+            elif isinstance(node, ast.ImportFrom):
+                names = ((a.asname or a.name, f"{node.module}.{a.name}") for a in node.names)
+                self._aliases.update(names)
+
+    def acting(self) -> Iterator[ast.stmt]:
+        """The statements that may do more than to bind names."""
+        return self._acting(self._tree.body)
+
+    def _acting(self, body: Iterable[ast.stmt]) -> Iterator[ast.stmt]:
+        for node in body:
+            match node:
+                case ast.If(test=test, orelse=others) if self._never_here(test):
+                    yield from self._acting(others)
+                case ast.If(test=test, body=inner, orelse=others):
+                    yield from () if self._is_plain(test) else (node,)
+                    yield from self._acting((*inner, *others))
+                case ast.Try(body=inner, handlers=handlers, orelse=others, finalbody=last):
+                    caught = (s for handler in handlers for s in handler.body)
+                    yield from self._acting((*inner, *caught, *others, *last))
+                case ast.For(target=target, iter=all_, body=inner, orelse=others):
+                    yield from () if _is_name(target) and self._is_plain(all_) else (node,)
+                    yield from self._acting((*inner, *others))
+                case ast.With(items=items, body=inner):
+                    yield from () if all(self._is_plain(i.context_expr) for i in items) else (node,)
+                    yield from self._acting(inner)
+                case ast.ClassDef(body=inner):
+                    if not self._is_plain_class(node):
+                        yield node
+                    yield from self._acting(inner)
+                case _ if not self._only_binds(node):
+                    yield node
+                case _:
+                    pass
+
+    @staticmethod
+    def _never_here(test: ast.expr) -> bool:
+        text = ast.unparse(test)
+        return text in ("TYPE_CHECKING", "typing.TYPE_CHECKING", "__name__ == '__main__'")
+
+    def _only_binds(self, node: ast.stmt) -> bool:
+        match node:
+            case (
+                ast.FunctionDef(args=args, decorator_list=decorators)
+                | ast.AsyncFunctionDef(args=args, decorator_list=decorators)
+            ):
+                defaults = (*args.defaults, *(d for d in args.kw_defaults if d is not None))
+                plain = all(map(self._is_plain, defaults))
+                return plain and all(map(self._is_plain_decorator, decorators))
+            case ast.Assign(targets=targets, value=value):
+                return all(map(self._is_own, targets)) and self._is_plain(value)
+            case ast.AnnAssign(target=target, value=value):
+                return _is_name(target) and (value is None or self._is_plain(value))
+            case ast.Expr(value=value):
+                return self._is_plain(value)
+            case _:
+                return isinstance(node, _BINDS)
+
+    def _is_own(self, target: ast.expr) -> bool:
+        """Whether a place is a name of the module, or in a container that it made."""
+        match target:
+            case ast.Subscript(value=ast.Name(id=name), slice=index):
+                return name in self._containers and self._is_plain(index)
+            case _:
+                return _is_name(target)
+
+    def _is_plain_function(self, name: str) -> bool:
+        """Whether a function of the module does nothing but to give a value."""
+        function = self._functions.get(name)
+        if function is None or name in self._asked:
+            return False
+        self._asked.add(name)
+        plain = all(self._only_gives(s) for s in function.body)
+        self._asked.discard(name)
+        return plain and not function.decorator_list
+
+    def _only_gives(self, node: ast.stmt) -> bool:
+        match node:
+            case ast.Return(value=value):
+                return value is None or self._is_plain(value)
+            case ast.If(test=test, body=inner, orelse=others):
+                return self._is_plain(test) and all(map(self._only_gives, (*inner, *others)))
+            case ast.Assign(targets=targets, value=value):
+                return all(map(_is_name, targets)) and self._is_plain(value)
+            case _:
+                return self._only_binds(node) and not isinstance(node, ast.Global | ast.Nonlocal)
+
+    def _is_plain_class(self, node: ast.ClassDef) -> bool:
+        """Whether to define a class runs nothing besides its body."""
+        bases = (*node.bases, *(k.value for k in node.keywords if k.arg == "metaclass"))
+        above = (self._classes.get(ast.unparse(base)) for base in node.bases)
+        hooks = (n.name for c in above if c is not None for n in c.body if _is_function(n))
+        is_plain = all(map(self._is_plain, bases)) and all(
+            k.arg != "metaclass" or ast.unparse(k.value).endswith(("ABCMeta", "EnumMeta"))
+            for k in node.keywords
+        )
+        decorated = all(map(self._is_plain_decorator, node.decorator_list))
+        return is_plain and decorated and _CLASS_HOOKS.isdisjoint(hooks)
+
+    def _is_plain_decorator(self, node: ast.expr) -> bool:
+        if isinstance(node, ast.Call):
+            return self._is_plain(node)
+        name = self._name_of(node)
+        is_property = name.rpartition(".")[2] in ("setter", "getter", "deleter")
+        return name in self._plain or is_property or self._is_plain_function(name)
+
+    def _is_plain(self, node: ast.expr) -> bool:
+        """Whether to evaluate an expression calls nothing that is not known to be harmless."""
+        match node:
+            case ast.Lambda(args=args):
+                return all(map(self._is_plain, args.defaults))
+            case ast.Call(func=function, keywords=keywords):
+                is_changed = any(k.arg == "cmdclass" for k in keywords)
+                if is_changed or not self._is_plain_call(function):
+                    return False
+            case ast.Await() | ast.Yield() | ast.YieldFrom():
+                return False
+            case _:
+                pass
+        inner = (child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr))
+        return all(map(self._is_plain, inner))
+
+    def _is_plain_call(self, function: ast.expr) -> bool:
+        name = self._name_of(function)
+        made = self._classes.get(name)
+        if made is not None:
+            return _MAKING.isdisjoint(n.name for n in made.body if _is_function(n))
+        if name in self._plain or self._is_plain_function(name):
+            return True
+        if isinstance(function, ast.Attribute) and isinstance(function.value, ast.Constant):
+            return True
+        return any(
+            of_function(Language.PYTHON, full).effect in (Effect.NONE, Effect.READS)
+            for full in (name, f"builtins.{name}")
+        )
+
+    def _name_of(self, node: ast.expr) -> str:
+        """The full name of what is called, by the imports."""
+        first, _, rest = ast.unparse(node).partition(".")
+        whole = self._aliases.get(first, first)
+        return f"{whole}.{rest}" if rest else whole
+
+
+def _is_name(target: ast.expr) -> bool:
+    if isinstance(target, ast.Tuple):
+        return all(map(_is_name, target.elts))
+    return isinstance(target, ast.Name)
+
+
+def _is_made(value: ast.expr) -> bool:
+    return isinstance(value, ast.Dict | ast.List | ast.Set)
+
+
+def _is_function(node: ast.stmt) -> TypeGuard[ast.FunctionDef]:
+    return isinstance(node, ast.FunctionDef)

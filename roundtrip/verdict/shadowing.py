@@ -1,0 +1,47 @@
+"""New files that Python imports in place of what generated code means by a name.
+
+A package stands in place of a module beside it, and what lies in a folder that Python looks in
+first stands in place of a library's module. `sitecustomize` is imported before any program.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from posixpath import dirname
+
+from rebsync.diagnostics import Findings
+from rebsync.files import read_source
+from rebsync.roundtrip.package.record import Record
+from rebsync.roundtrip.package.state import PackageState
+from rebsync.roundtrip.verdict.missing_definitions import finding
+from rebsync.source import NOWHERE
+
+_SUFFIX, _INIT = ".py", "/__init__.py"
+_ALWAYS = frozenset({"sitecustomize", "usercustomize"})
+_IMPORTS = re.compile(r"^[ \t]*(?:from|import)[ \t]+(\w+)", re.MULTILINE)
+
+
+def shadowing(record: Record, now: PackageState) -> Iterator[Findings]:
+    """The files that are imported in place of a generated module or of a library's."""
+    paths = now.listing.files
+    new = [n for n in now.changed if n not in record.files and n.endswith(_SUFFIX) and n in paths]
+    if not new:
+        return
+    code = [n for n in record.files if n in paths and _is_python(n)]
+    roots = {dirname(n) for n in code if not n.endswith(_SUFFIX)}
+    roots |= {dirname(dirname(n)) for n in code if n.endswith(_INIT)}
+    imported = {m for n in code for m in _IMPORTS.findall(read_source(paths[n]).text)}
+    for name in new:
+        module = name.removesuffix(_INIT).removesuffix(_SUFFIX)
+        folder, _, stem = module.rpartition("/")
+        is_instead = name.endswith(_INIT) and f"{module}{_SUFFIX}" in record.files
+        own = {n.removesuffix(_INIT) for n in code}
+        is_first = folder in roots and stem in imported | _ALWAYS and module not in own
+        if is_instead or is_first:
+            message = f'Python imports this in place of what generated code means by "{stem}"'
+            yield finding(read_source(paths[name]), NOWHERE, message)
+
+
+def _is_python(name: str) -> bool:
+    return name.endswith(_SUFFIX) or name.partition("/")[0] == "scripts" or "/scripts/" in name
