@@ -15,7 +15,7 @@ from rebsync.checker.views import Exact, Steps
 from rebsync.roundtrip.conform.observable import Observable
 from rebsync.roundtrip.conform.recording import Served
 
-MOST = 100_000  # states that are remembered
+MOST = 50_000  # states that are remembered
 
 Key = tuple[int, str, str, int, tuple[Cell, ...]]
 """What of an observation decides about a step: rebec, server, arguments, arrival - start, state."""
