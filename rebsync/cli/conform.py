@@ -205,14 +205,14 @@ def _topics(given: dict[str, Any]) -> Status:
     from rebsync.cli.recorded_topics import TopicBounds, compared
     from rebsync.roundtrip.conform.report.formats import as_text
 
-    for option in ("property_file", "namespace", "times", "calibrate", "applies", "page"):
+    for option in ("namespace", "times", "calibrate", "applies", "page"):
         if given[option]:
-            name = {"property_file": "property", "applies": "apply"}.get(option, option)
+            name = {"applies": "apply"}.get(option, option)
             raise click.UsageError(f"--{name} is for models, and packages generated from them")
     for read in (given["model"], *given["recordings"]):
         refuse_to_overwrite(read, given["output"])
     bounds = TopicBounds(given["max_states"], given["from_start"], given["slack"])
-    found, subject = compared(given["model"], given["recordings"], bounds)
+    found, subject = compared(given["model"], given["recordings"], bounds, given["property_file"])
     write_output(given["output"], as_text(found, subject, given["recordings"], given["style"]))
     return _status(found)
 

@@ -10,13 +10,13 @@ A full bag is left out of account (`search` looks at all orders then).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from rebsync.checker.program import UNRANKED
 from rebsync.checker.state import Local, Message
 from rebsync.roundtrip.conform.graph import Move, Node, StateGraph
 from rebsync.roundtrip.conform.recording import Served
-from rebsync.roundtrip.conform.stream import Positions, Stream
+from rebsync.roundtrip.conform.stream import Stream
 
 
 class PersistentSets:
@@ -45,7 +45,9 @@ class PersistentSets:
             is_ranked = len({s.priority for s in servers}) > 1
             self._ranks.append(worst if is_ranked else {})
 
-    def has(self, node: Node, at: Positions, served: Served, moves: list[Move], time: int) -> bool:
+    def has(
+        self, node: Node, at: Sequence[int], served: Served, moves: Sequence[Move], time: int
+    ) -> bool:
         """Whether these steps, of the rebec that `served` is of, can go first on every run."""
         return (
             self.exist
@@ -53,7 +55,7 @@ class PersistentSets:
             and (not any(self._ranks) or not any(self._restrain(node, at, m, time) for m in moves))
         )
 
-    def _is_own_choice(self, node: Node, at: Positions, served: Served, time: int) -> bool:
+    def _is_own_choice(self, node: Node, at: Sequence[int], served: Served, time: int) -> bool:
         """Whether no message that is sent at this moment can be the one that was served."""
         if self._is_plain or served.arrival < time or node.state[served.rebec].point is not None:
             return True
@@ -63,7 +65,7 @@ class PersistentSets:
         look = served.server, served.arguments, served.arrival
         return later is not None and all(s[1:4] != look for s in later)
 
-    def _restrain(self, node: Node, at: Positions, move: Move, time: int) -> bool:
+    def _restrain(self, node: Node, at: Sequence[int], move: Move, time: int) -> bool:
         """Whether a step may keep others from serving what they have served before its messages."""
         after = move.node.state
         return any(
@@ -73,7 +75,7 @@ class PersistentSets:
             for message in _sent_now(before, after[rebec])
         )
 
-    def _delays(self, rebec: int, at: Positions, message: Message, time: int) -> bool:
+    def _delays(self, rebec: int, at: Sequence[int], message: Message, time: int) -> bool:
         """Whether a message has a better rank than one that was served before it."""
         later = self._arrived(rebec, at[rebec], time)
         if later is None:

@@ -199,8 +199,8 @@ class Search:
             after, lacks = self._after(config, rebec, served, fitting, time)
             silent = rebec if lacks else silent
             if reduces and after and served is not None:
-                moves = list(fitting.moves)
-                if self._persistent.has(node, config.positions, served, moves, time):
+                at, moves = config.positions, fitting.moves
+                if self._persistent.has(node, at, served, moves, time):
                     return after
             found += after
         if not found:

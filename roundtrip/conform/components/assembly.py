@@ -54,6 +54,7 @@ class Assembly:
     notes: list[str] = field(default_factory=list)
     doubts: dict[str, str] = field(default_factory=dict)
     recorded: int = 0
+    begin: float = 0.0  # s, of the first message
     end: int = 0
 
 
@@ -116,6 +117,7 @@ class _Assembler:
         for topic in sorted(self._jumps):
             self.found.open.append(f"the clock jumps back in the messages on {topic}")
         if self._heard:
+            self.found.begin = self.begin
             self.found.end = round((self.end - self.begin) / self.scale.unit)
         for topic in sorted(self._links):
             lacking = self.closed.dropped.get(topic, ())
