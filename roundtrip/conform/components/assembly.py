@@ -103,6 +103,12 @@ class _Assembler:
                 self.found.open.append(f"{link.topic} has messages of several types")
             self._links[link.topic] = server, link
         wanted = {topic: link.fields for topic, (_, link) in self._links.items()}
+        for topic, agree in recordings.recorded_twice(wanted).items():
+            why = f"several files have messages on {topic} at the same time"
+            for interface in self.interfaces:
+                self.found.doubts[interface.rebec] = why
+            if not agree:
+                self.found.open.append(f"{why}, and not the same")
         for event in recordings.events(wanted):
             if isinstance(event, Truncated):
                 self.found.open.append(f"it can be compared up to there: {event.why}")

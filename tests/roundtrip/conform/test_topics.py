@@ -220,6 +220,32 @@ def test_topics_that_were_not_recorded_leave_it_open(tmp_path: Path) -> None:
     assert "heater publishes nothing that was recorded" in found.notes
 
 
+@pytest.mark.parametrize(
+    ("parts", "verdict"),
+    [
+        (lambda log: (log, log), "conforms"),
+        (lambda log: (log[:50], log[50:]), "conforms"),
+        (lambda log: (log[:50], log[20:]), "conforms"),
+        (
+            lambda log: tuple(
+                [m for m in log if (m["topic"] == t)] for t in ("/heat", "/power", "/temperature")
+            ),
+            "conforms",
+        ),
+        # Of each message both tell, one of them later: it is not known which are the same.
+        (lambda log: (log, [m | {"stamp": m["stamp"] + 0.004} for m in log]), "undetermined"),
+        (lambda log: (log, wrong_value(log, 61)), "undetermined"),
+        (lambda log: (log[:50], wrong_value(log, 61)[50:]), "deviates"),
+    ],
+)
+def test_several_files_of_one_run(
+    parts: Callable[[Log], tuple[Log, ...]], verdict: str, tmp_path: Path
+) -> None:
+    paths = [write(part, tmp_path / f"{n}.jsonl") for n, part in enumerate(parts(real()))]
+    found, _ = compared(str(PACKAGES / "thermostat"), list(map(str, paths)), FROM_START)
+    assert found.verdict == verdict, found.reason
+
+
 def test_times_by_another_clock_leave_it_open(tmp_path: Path) -> None:
     slow = [m | {"stamp": 2 * m["stamp"]} for m in real()]
     path = write(slow, tmp_path / "run.jsonl")
