@@ -28,6 +28,7 @@ class TopicBounds:
     most: int | None
     from_start: bool
     slack: float | None
+    measures: bool = False  # what messages took
 
 
 def is_by_hand(path: str) -> bool:
@@ -88,7 +89,9 @@ class OpenPackage:
         scale = Scale(self.subject.time_unit, slack)
         program = self.subject.program
         assembly = assemble(self.closed, self.model, program, recordings, scale)
-        found = compare(self.closed, assembly, Bounds(bounds.most or WIDEST, bounds.from_start))
+        most = bounds.most or WIDEST
+        limits = Bounds(most, bounds.from_start, bounds.measures)
+        found = compare(self.closed, assembly, limits)
         if properties is None:
             return found
         events = recordings.events(properties.fields())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from random import Random
 from shutil import copytree
@@ -191,6 +192,30 @@ def test_faults_in_a_real_run_are_found(fault: str, tmp_path: Path) -> None:
         script = {"/heat": "thermostat.py", "/power": "heater.py"}[topic]
         place = found.deviation.code
         assert place.path.endswith(script) if place else fault == "second publisher"
+
+
+def test_what_messages_took_is_measured(tmp_path: Path) -> None:
+    log = real()
+    own = [n for n, message in enumerate(log) if message["topic"] == "/heat"]
+    late = log[own[5]]["stamp"] + 0.06
+    log[own[5]] |= {"stamp": late}
+    path = write(sorted(log, key=lambda m: m["stamp"]), tmp_path / "run.jsonl")
+    measuring = TopicBounds(None, False, None, True)
+    found, _ = compared(str(PACKAGES / "thermostat"), [str(path)], measuring)
+    took = {(i.rebec, i.server, i.topic, i.kind): i.seconds for i in found.intervals}
+    assert list(took) == [
+        ("heater", "tick", "/power", "period"),
+        ("thermostat", "measured", "/heat", "delay"),
+    ]
+    ticks = [m["stamp"] for m in log if m["topic"] == "/power"]
+    assert list(took["heater", "tick", "/power", "period"]) == pytest.approx(
+        [after - before for before, after in pairwise(ticks)]
+    )
+    inputs = [m["stamp"] for m in log if m["topic"] == "/temperature"]
+    cause = max(stamp for stamp in inputs if stamp < late)
+    delays = took["thermostat", "measured", "/heat", "delay"]
+    assert len(delays) == len(own)
+    assert max(delays) == pytest.approx(late - cause)
 
 
 # --- what is not known
