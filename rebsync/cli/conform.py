@@ -203,17 +203,27 @@ def _problem(model: str, property_file: str | None) -> tuple[Problem, Config, _P
 def _topics(given: dict[str, Any]) -> Status:
     """The answer for a package that people wrote."""
     from rebsync.cli.recorded_topics import TopicBounds, compared
+    from rebsync.roundtrip.calibration.topics import interval_lines, intervals_json
     from rebsync.roundtrip.conform.report.formats import as_text
+    from rebsync.roundtrip.conform.report.page import conformance_page
 
-    for option in ("property_file", "namespace", "times", "calibrate", "applies", "page"):
+    for option in ("namespace", "calibrate", "applies"):
         if given[option]:
-            name = {"property_file": "property", "applies": "apply"}.get(option, option)
+            name = {"applies": "apply"}.get(option, option)
             raise click.UsageError(f"--{name} is for models, and packages generated from them")
-    for read in (given["model"], *given["recordings"]):
-        refuse_to_overwrite(read, given["output"])
-    bounds = TopicBounds(given["max_states"], given["from_start"], given["slack"])
-    found, subject = compared(given["model"], given["recordings"], bounds)
-    write_output(given["output"], as_text(found, subject, given["recordings"], given["style"]))
+    for written in filter(None, (given["page"], given["output"])):
+        for read in (given["model"], *given["recordings"]):
+            refuse_to_overwrite(read, written)
+    keeps = given["times"] or given["page"] is not None
+    bounds = TopicBounds(given["max_states"], given["from_start"], given["slack"], keeps)
+    found, subject = compared(given["model"], given["recordings"], bounds, given["property_file"])
+    if given["page"] is not None:
+        write_output(given["page"], conformance_page(found, subject, given["recordings"]))
+    extra, data = [], None
+    if given["times"]:
+        extra, data = [*interval_lines(found.intervals)], intervals_json(found.intervals)
+    text = as_text(found, subject, given["recordings"], given["style"], extra, data)
+    write_output(given["output"], text)
     return _status(found)
 
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from rebsync.properties import Properties
     from rebsync.reverse.environment.package import ClosedPackage, EnvironmentChoice, ReadPackage
     from rebsync.reverse.findings import Finding, Grade
+    from rebsync.roundtrip.conform.components.properties import TopicProperties
     from rebsync.roundtrip.diff.difference import Place
 
 
@@ -34,6 +35,28 @@ def read_package(
     chosen = property_file if property_file is not None else _property_in(path)
     properties = read_source(chosen) if chosen is not None else None
     return _closed(path, in_fitting_unit(_files(path)), properties, choice, written)
+
+
+def read_observed(path: str, property_file: str | None) -> TopicProperties | None:
+    """The properties of a package over its topics; None where there are none.
+
+    RebsyncError: as of `read_package`.
+    """
+    from rebsync.checker.lowering import lower
+    from rebsync.reverse.environment.observation import observations
+    from rebsync.reverse.environment.package import in_fitting_unit, message_types
+    from rebsync.roundtrip.conform.components.properties import TopicProperties
+
+    chosen = property_file if property_file is not None else _property_in(path)
+    if chosen is None:
+        return None
+    read = in_fitting_unit(_files(path))
+    problem = _closed(path, read, read_source(chosen), "none", None)
+    program, formulas = lower(problem.analysis, problem.properties)
+    seen = observations(read.extracted.joined, message_types(read.files))
+    variables = {(r.name, slot.name) for r in program.rebecs for slot in r.state}
+    observed = {(r, o.variable): o for r, o in seen if (r, o.variable) in variables}
+    return TopicProperties(program, formulas, problem.properties, observed)
 
 
 def _property_in(path: str) -> str | None:

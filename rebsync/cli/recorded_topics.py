@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.files.reading import Chosen
     from rebsync.roundtrip.conform.components.environment import Closed
     from rebsync.roundtrip.conform.components.heard import HeardRecordings
+    from rebsync.roundtrip.conform.components.properties import TopicProperties
     from rebsync.roundtrip.conform.conformance import Conformance
     from rebsync.roundtrip.conform.matching import Subject
 
@@ -26,6 +28,7 @@ class TopicBounds:
     most: int | None
     from_start: bool
     slack: float | None
+    measures: bool = False  # what messages took
 
 
 def is_by_hand(path: str) -> bool:
@@ -71,7 +74,12 @@ class OpenPackage:
         subject = Subject.of(Problem(source, analysis), parse_config(package.settings))
         return cls(package, subject, analysis.model)
 
-    def compare(self, recordings: HeardRecordings, bounds: TopicBounds) -> Conformance:
+    def compare(
+        self,
+        recordings: HeardRecordings,
+        bounds: TopicBounds,
+        properties: TopicProperties | None = None,
+    ) -> Conformance:
         """The answer for a recording. RebsyncError: it cannot be read."""
         from rebsync.roundtrip.conform.components.assembly import Scale, assemble
         from rebsync.roundtrip.conform.components.comparison import Bounds, compare
@@ -81,13 +89,21 @@ class OpenPackage:
         scale = Scale(self.subject.time_unit, slack)
         program = self.subject.program
         assembly = assemble(self.closed, self.model, program, recordings, scale)
-        return compare(self.closed, assembly, Bounds(bounds.most or WIDEST, bounds.from_start))
+        most = bounds.most or WIDEST
+        limits = Bounds(most, bounds.from_start, bounds.measures)
+        found = compare(self.closed, assembly, limits)
+        if properties is None:
+            return found
+        events = recordings.events(properties.fields())
+        evaluated = properties.evaluated(events, assembly.begin, scale.unit, slack)
+        return replace(found, properties=evaluated)
 
 
 def compared(
-    path: str, recordings: Sequence[str], bounds: TopicBounds
+    path: str, recordings: Sequence[str], bounds: TopicBounds, property_file: str | None = None
 ) -> tuple[Conformance, Subject]:
     """A package compared with a recording. RebsyncError: one of them cannot be read."""
+    from rebsync.cli.packages import read_observed
     from rebsync.reverse.files.reading import chosen
     from rebsync.roundtrip.conform.components.environment import own_types
     from rebsync.roundtrip.conform.components.heard import HeardRecordings
@@ -95,4 +111,5 @@ def compared(
     given = chosen(path)
     opened = HeardRecordings.of(recordings, own_types(given))
     package = OpenPackage.of(given, opened.topics())
-    return package.compare(opened, bounds), package.subject
+    properties = read_observed(path, property_file)
+    return package.compare(opened, bounds, properties), package.subject

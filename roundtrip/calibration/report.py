@@ -66,10 +66,11 @@ def _row(place: Measured) -> tuple[str, ...]:
     shown = place.statistics
     if shown is None:
         return (*head, "0", "-", "-", "-", "-", _remarks(place))
-    return (*head, str(shown.count), *(f"{v:.2f}" for v in _numbers(shown)), _remarks(place))
+    return (*head, str(shown.count), *(f"{v:.2f}" for v in numbers_of(shown)), _remarks(place))
 
 
-def _numbers(shown: Statistics) -> tuple[float, float, float, float]:
+def numbers_of(shown: Statistics) -> tuple[float, float, float, float]:
+    """Least, median, 99 % and greatest."""
     return shown.least, shown.median, shown.most, shown.greatest
 
 
@@ -110,7 +111,7 @@ def calibration_json(found: Calibration, verdict: str | None) -> Json:
         "uncertain": times.unknown,
         "places": [_place(place) for place in times.places],
         "slow": [
-            {"body": s.body, "line": s.line, "times": _statistics(_of(s))} for s in times.slow
+            {"body": s.body, "line": s.line, "times": statistics_json(_of(s))} for s in times.slow
         ],
         "proposals": [_proposal(proposal) for proposal in found.proposals],
         "verified": verdict,
@@ -125,7 +126,7 @@ def _place(place: Measured) -> Json:
         "text": site.text,
         "body": site.body,
         "model": list(place.model),
-        "measured": _statistics(place.statistics),
+        "measured": statistics_json(place.statistics),
         "shortened": place.shortened,
         "together": list(place.shared),
     }
@@ -135,10 +136,11 @@ def _of(slow: Slow) -> Statistics | None:
     return Statistics.of([sample.measured for sample in slow.samples])
 
 
-def _statistics(shown: Statistics | None) -> Json:
+def statistics_json(shown: Statistics | None) -> Json:
+    """Some times for other programs."""
     if shown is None:
         return {"count": 0, "least": None, "median": None, "most": None, "greatest": None}
-    least, middle, most, greatest = (round(value, 6) for value in _numbers(shown))
+    least, middle, most, greatest = (round(value, 6) for value in numbers_of(shown))
     return {
         "count": shown.count, "least": least, "median": middle, "most": most, "greatest": greatest,
     }  # fmt: skip

@@ -92,6 +92,20 @@ class Lateness:
 
 
 @dataclass(frozen=True, slots=True)
+class TopicInterval:
+    """Seconds that messages of a rebec on a topic took, by the server that publishes them.
+
+    "delay": since what the server got; "period": since its last one, of timers and the like.
+    """
+
+    rebec: str
+    server: str
+    topic: str
+    kind: str
+    seconds: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Conformance:
     """What became of comparing a recorded run with a model.
 
@@ -111,4 +125,5 @@ class Conformance:
     last: tuple[Served, ...] = ()
     widest: int = 1
     properties: tuple[Evaluated, ...] = ()
+    intervals: tuple[TopicInterval, ...] = ()  # of topics, where that was asked for
     run: tuple[TraceStep, ...] = ()  # the last steps of a run that fits, where that was asked for

@@ -8,14 +8,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from rebsync.checker.program import UNRANKED, Cell, Program
+from rebsync.checker.program import Cell, Program
 from rebsync.checker.state import Message, State
 from rebsync.checker.steps import TIME, Action, Failure, Step
 from rebsync.checker.views import Exact, Steps
 from rebsync.roundtrip.conform.observable import Observable
 from rebsync.roundtrip.conform.recording import Served
 
-MOST = 100_000  # states that are remembered
+MOST = 50_000  # states that are remembered
 
 Key = tuple[int, str, str, int, tuple[Cell, ...]]
 """What of an observation decides about a step: rebec, server, arguments, arrival - start, state."""
@@ -24,6 +24,7 @@ Key = tuple[int, str, str, int, tuple[Cell, ...]]
 class Move(NamedTuple):
     """A step of a rebec that fits: where it leads, and whether the body ends in it."""
 
+    rebec: int
     node: Node
     ended: bool
     message: Message | None
@@ -86,12 +87,6 @@ class StateGraph:
         self.view = Exact(program)
         self.program = program
         self.observable = observable
-        ranks = {r.priority for r in program.rebecs} | {s.priority for s in program.servers}
-        ops = {i.op for i in program.code}
-        # Without priorities, messages only add to what others can do at the moment they are sent;
-        # and where nobody sees a sender or has a deadline, equal messages are one (see `search`).
-        self.commutes = ranks <= {UNRANKED} and not program.global_ranks
-        self.is_plain = not ops & {"SENDER", "SENDBY"}
         self._nodes: dict[State, Node] = {}
         self._texts: dict[tuple[int, tuple[Cell, ...]], str] = {}
 
@@ -150,7 +145,7 @@ class StateGraph:
             ended = result[rebec].point is None
             variables = result[rebec].variables
             if not ended or self.observable.is_same(rebec, served.cells, variables):
-                moves.append(Move(self.node(result), ended, message))
+                moves.append(Move(rebec, self.node(result), ended, message))
         return Fitting(tuple(moves), tuple(failures)) if moves or failures else NOTHING
 
     def all_of(self, node: Node, rebec: int) -> Fitting:
@@ -162,7 +157,7 @@ class StateGraph:
                 failures.append(result)
             else:
                 ended = result[rebec].point is None
-                moves.append(Move(self.node(result), ended, node.message(action)))
+                moves.append(Move(rebec, self.node(result), ended, node.message(action)))
         return Fitting(tuple(moves), tuple(failures))
 
     def serves(self, message: Message | None, served: Served, time: int) -> bool:

@@ -3,8 +3,7 @@
 The set of possible states is carried along, moment by moment of the model's time. At each moment
 the rebecs act in every order that their observations allow: an observation fixes which message is
 served, when, and the state after it; what it leaves open (senders, choices that show later) stays
-open. Where orders commute one of them is enough (partial-order reduction, after Godefroid): the
-model has no priorities, nobody asks for senders or has deadlines, and no bag was full.
+open. Where orders commute one of them is enough (`persistent`), unless a bag was full.
 """
 
 from __future__ import annotations
@@ -17,6 +16,7 @@ from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.graph import NOTHING, Fitting, Move, StateGraph
 from rebsync.roundtrip.conform.path import Path
+from rebsync.roundtrip.conform.persistent import PersistentSets
 from rebsync.roundtrip.conform.possible import Config, Dead, Observer, Reason
 from rebsync.roundtrip.conform.recording import Served
 from rebsync.roundtrip.conform.single import Single
@@ -71,6 +71,7 @@ class Search:
         self.passed = passed
         self.path = path
         self.widest = 0
+        self._persistent = PersistentSets(graph, stream)
         self._waiting: dict[int, set[Config]] = {}
         self._next: list[int] = []
         self._dead: list[Dead] = []
@@ -84,13 +85,13 @@ class Search:
         if self.path is not None:
             self.path.begin(time, configs)
         while True:
-            if len(configs) == 1 and not self._waiting and self.graph.commutes:
+            if len(configs) == 1 and not self._waiting:
                 configs[0], time = self._followed(configs[0], time)
             self.widest = max(self.widest, len(configs))
             before = self._depth, list(self._dead), {t: set(c) for t, c in self._waiting.items()}
             try:
-                found = self._moment(configs, time, self.graph.commutes)
-                if self._overflow and self.graph.commutes and not found:
+                found = self._moment(configs, time, self._persistent.exist)
+                if self._overflow and self._persistent.exist and not found:
                     # An order that another one stands for may be the one in which there is room.
                     self._depth, self._dead, self._waiting = before
                     found = self._moment(configs, time, False)
@@ -118,7 +119,7 @@ class Search:
         if self.path is not None:
             self.path.settle(time, config)
             visit = self.path.visit
-        single = Single(self.graph, self.stream, self.passed, visit)
+        single = Single(self.graph, self.stream, self._persistent, self.passed, visit)
         try:
             node, positions, time = single.follow(config.node, config.positions, time)
         except EndlessBody:
@@ -194,20 +195,18 @@ class Search:
             served = None if hidden else self.stream.get(rebec, config.positions[rebec])
             fitting = self._fitting(config, rebec, served, time)
             failures += fitting.failures
+            self._overflow |= any(f.kind == "overflow" for f in fitting.failures)
             after, lacks = self._after(config, rebec, served, fitting, time)
             silent = rebec if lacks else silent
-            if reduces and after and served is not None and self._stands_for_all(served, time):
-                return after
+            if reduces and after and served is not None:
+                at, moves = config.positions, fitting.moves
+                if self._persistent.has(node, at, served, moves, time):
+                    return after
             found += after
-        self._overflow |= any(f.kind == "overflow" for f in failures)
         if not found:
             reason: Reason = "silent" if silent >= 0 else "step"
             self._die(Dead(config, time, reason, silent, tuple(failures)))
         return found
-
-    def _stands_for_all(self, served: Served, time: int) -> bool:
-        """Whether the other rebecs can do afterwards all that they could have done before."""
-        return self.graph.is_plain or served.arrival < time
 
     def _fitting(self, config: Config, rebec: int, served: Served | None, time: int) -> Fitting:
         """The steps of a rebec that fit, but for the time at which a body ends."""

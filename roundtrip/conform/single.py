@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from rebsync.roundtrip.conform.graph import Move, Node, StateGraph
 from rebsync.roundtrip.conform.path import Visit
+from rebsync.roundtrip.conform.persistent import PersistentSets
 from rebsync.roundtrip.conform.possible import Observer
 from rebsync.roundtrip.conform.stream import Positions, Stream
 
@@ -18,10 +19,16 @@ class Single:
     """Follows one possible state."""
 
     def __init__(
-        self, graph: StateGraph, stream: Stream, passed: Observer, visit: Visit | None
+        self,
+        graph: StateGraph,
+        stream: Stream,
+        persistent: PersistentSets,
+        passed: Observer,
+        visit: Visit | None,
     ) -> None:
         self._graph = graph
         self._stream = stream
+        self._persistent = persistent
         self._passed = passed
         self._visit = visit
 
@@ -82,10 +89,11 @@ class Single:
             ]
             if not moves:
                 continue
-            if len(moves) > 1 or not (
-                len(node.able) == 1 or graph.is_plain or served.arrival < time
-            ):
+            if len(moves) > 1:
                 return None
+            is_only = len(node.able) == 1
+            if not (is_only or self._persistent.has(node, positions, served, moves, time)):
+                continue
             if moves[0].ended:
                 positions[rebec] += 1
             return moves[0].node

@@ -130,6 +130,15 @@ def test_the_page_shows_both_runs_and_the_deviation(tmp_path: Path) -> None:
     assert "://" not in page.replace("http://www.w3.org/2000/svg", "")
 
 
+def test_the_page_shows_rebecs_of_which_nothing_was_recorded(tmp_path: Path) -> None:
+    path = log(tmp_path / "run.jsonl")
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    path.write_text("".join(line for line in lines if "robot1" not in line))
+    done = rebsync("conform", MODEL, str(path), "--page", "page.html", cwd=tmp_path)
+    assert done.status == 4, done.err
+    assert "robot1" in (tmp_path / "page.html").read_text(encoding="utf-8")
+
+
 def test_the_end_of_a_run_conforms_from_where_it_begins(tmp_path: Path) -> None:
     path = log(tmp_path / "run.jsonl")
     path.write_text("".join(path.read_text().splitlines(keepends=True)[50:]))
@@ -302,11 +311,29 @@ def test_topics_of_a_package_that_people_wrote(tmp_path: Path) -> None:
     assert done.status == 1, done.out  # whatever the nodes did before
 
 
+def test_properties_times_and_page_of_topics(tmp_path: Path) -> None:
+    (tmp_path / "some.property").write_text(
+        "property { Assertion { Weak: heater.out_power_data < 4; Same: heater.power >= 0; } }"
+    )
+    options = ("--property", "some.property", "--times", "--page", "page.html")
+    done = rebsync("conform", PEOPLE, str(TOPICS), *options, cwd=tmp_path)
+    assert done.status == 3, done.err
+    assert "Weak: violated (at 8696)" in done.out
+    assert "Same: undetermined (no topic shows heater.power)" in done.out
+    assert re.search(r"heater +tick +period +/power +28 +0\.997 +1\.000", done.out)
+    assert "thermostat  measured  delay   /heat      31" in done.out
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "A run of the model that fits" in page
+    assert "/power(0)" in page
+    done = rebsync("conform", PEOPLE, str(TOPICS), *options, "--format", "json", cwd=tmp_path)
+    jsonschema.validate(json.loads(done.out), SCHEMA)
+
+
 @pytest.mark.parametrize(
     ("model", "options", "said"),
     [
-        (PEOPLE, ("--page", "x.html"), "--page is for models"),
-        (PEOPLE, ("--property", "x.property"), "--property is for models"),
+        (PEOPLE, ("--calibrate",), "--calibrate is for models"),
+        (PEOPLE, ("--namespace", "a"), "--namespace is for models"),
         (MODEL, ("--from-start",), "--from-start is for packages"),
         (MODEL, ("--slack", "1"), "--slack is for packages"),
     ],

@@ -211,7 +211,7 @@ def _busy(
         own = [
             n for n, p in enumerate(rows) if p.row.column == column or p.row.step.kind == "start"
         ]
-        for number, following in zip(own, [*own[1:], None], strict=True):
+        for number, following in zip(own, [*own[1:], None], strict=False):  # it may have no step
             until = trace.steps[number].rebecs[column].busy_until
             if until is None or trace.steps[number].failure is not None:
                 continue

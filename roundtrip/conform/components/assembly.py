@@ -54,6 +54,7 @@ class Assembly:
     notes: list[str] = field(default_factory=list)
     doubts: dict[str, str] = field(default_factory=dict)
     recorded: int = 0
+    begin: float = 0.0  # s, of the first message
     end: int = 0
 
 
@@ -102,6 +103,12 @@ class _Assembler:
                 self.found.open.append(f"{link.topic} has messages of several types")
             self._links[link.topic] = server, link
         wanted = {topic: link.fields for topic, (_, link) in self._links.items()}
+        for topic, agree in recordings.recorded_twice(wanted).items():
+            why = f"several files have messages on {topic} at the same time"
+            for interface in self.interfaces:
+                self.found.doubts[interface.rebec] = why
+            if not agree:
+                self.found.open.append(f"{why}, and not the same")
         for event in recordings.events(wanted):
             if isinstance(event, Truncated):
                 self.found.open.append(f"it can be compared up to there: {event.why}")
@@ -116,6 +123,7 @@ class _Assembler:
         for topic in sorted(self._jumps):
             self.found.open.append(f"the clock jumps back in the messages on {topic}")
         if self._heard:
+            self.found.begin = self.begin
             self.found.end = round((self.end - self.begin) / self.scale.unit)
         for topic in sorted(self._links):
             lacking = self.closed.dropped.get(topic, ())

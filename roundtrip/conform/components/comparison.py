@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from rebsync.checker.trace import TraceStep
 from rebsync.model import Model
 from rebsync.records import dataclass
 from rebsync.reverse.findings import COUNTS_ON, IN_THREADS, Finding, Grade
@@ -18,8 +19,10 @@ from rebsync.roundtrip.conform.components.component import Component
 from rebsync.roundtrip.conform.components.diagnosis import TopicDiagnosis
 from rebsync.roundtrip.conform.components.environment import Closed
 from rebsync.roundtrip.conform.components.inclusion import Inclusion, InclusionSearch
+from rebsync.roundtrip.conform.components.intervals import intervals, way_to
 from rebsync.roundtrip.conform.components.middle import middle, served_before
-from rebsync.roundtrip.conform.conformance import Conformance, Deviation
+from rebsync.roundtrip.conform.components.run import merged, steps_of
+from rebsync.roundtrip.conform.conformance import Conformance, Deviation, TopicInterval
 
 _BESIDE = "callbacks may have run beside each other, which the model does not have"
 _ELSEWHERE = "may have been in another state when the recording began (--from-start: it was not)"
@@ -29,10 +32,14 @@ _FEW = 5  # findings that are named
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """`most` states at a time; `from_start`: nodes were started while it was recorded."""
+    """`most` states at a time; `from_start`: nodes were started while it was recorded.
+
+    `measures`: what messages took, and a run, is in the answer.
+    """
 
     most: int
     from_start: bool
+    measures: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +51,8 @@ class Judged:
     deviation: Deviation | None = None
     open: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    intervals: tuple[TopicInterval, ...] = ()
+    run: tuple[TraceStep, ...] = ()
 
 
 def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
@@ -82,6 +91,8 @@ def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
         first,
         notes=tuple(dict.fromkeys(notes)),
         widest=max((each.widest for each in judged), default=1),
+        intervals=tuple(interval for each in judged for interval in each.intervals),
+        run=merged([each.run for each in judged]),
     )
 
 
@@ -128,11 +139,13 @@ class _Judge:
         in_threads = any(IN_THREADS in f.why for f in self.findings)
         component = replace(self.component, in_threads=in_threads)
         search = InclusionSearch(component, self.bounds.most)
+        search.keeps = self.bounds.measures
         found = search.run(search.constructed())
         if found.verdict != "refused" or self.bounds.from_start:
             return self._judged(search, found)
         starts = middle(component, min(_REACHED, self.bounds.most))
         later = InclusionSearch(component, self.bounds.most, served_before(component.timing))
+        later.keeps = self.bounds.measures
         again = later.run(starts.starts)
         if again.verdict == "refused" and not starts.is_whole:
             why = f"{component.name} does not fit from its beginning on, but {_ELSEWHERE}"
@@ -152,7 +165,12 @@ class _Judge:
         over = [f for f in self.findings if f.grade in grades and not _is_exact_here(f)]
         why = f"{name} fits, but its model may do otherwise than it: {_named(over)}"
         compared = sum(map(len, self.component.outputs))
-        return Judged(compared, found.widest, open=(why,) if over else ())
+        took: tuple[TopicInterval, ...] = ()
+        run: tuple[TraceStep, ...] = ()
+        if search.keeps and found.last is not None:
+            way = way_to(found.last, search.came_from)
+            took, run = intervals(self.component, way), steps_of(self.component, way)
+        return Judged(compared, found.widest, None, (why,) if over else (), (), took, run)
 
     def _refused(self, search: InclusionSearch, found: Inclusion) -> Judged:
         name = self.component.name
@@ -165,7 +183,9 @@ class _Judge:
             return self._open(search, found, f"{name} does not fit, but {self.doubt}")
         if found.raced:
             return self._open(search, found, f"{name} does not fit, but {_BESIDE}")
-        return Judged(_compared(found), found.widest, self._deviation(search, found))
+        best = max(found.dead, key=lambda dead: dead.progress)
+        run = steps_of(self.component, way_to(best, search.came_from))
+        return Judged(_compared(found), found.widest, self._deviation(search, found), run=run)
 
     def _open(self, search: InclusionSearch, found: Inclusion, why: str) -> Judged:
         """Undetermined; the deviation is told nevertheless."""

@@ -76,9 +76,77 @@ class HeardRecordings:
         return tuple(sorted(names.all))
 
     def events(self, wanted: Mapping[str, Sequence[str]]) -> Iterator[Event]:
-        """The messages on some topics, with the fields at the paths that are asked for."""
+        """The messages on some topics, with the fields at the paths that are asked for.
+
+        Where several files have a topic at the same time, those of the one that began first.
+        """
+        if len(self.paths) == 1:
+            return self._merged(wanted)
+        spans = self._spans(wanted)
+        return (e for e in self._merged(wanted) if not (isinstance(e, Heard) and spans.has_two(e)))
+
+    def recorded_twice(self, wanted: Mapping[str, Sequence[str]]) -> dict[str, bool]:
+        """Topics that several files have at the same time, and if these say the same of them."""
+        if len(self.paths) == 1:
+            return {}
+        spans = self._spans(wanted)
+        shared: dict[str, dict[int, list[tuple[object, ...]]]] = {}
+        for event in self._merged(wanted):
+            if isinstance(event, Heard) and spans.is_shared(event):
+                files = shared.setdefault(event.topic, {})
+                files.setdefault(event.place.file, []).append(event.values)
+        return {topic: _agree(list(files.values())) for topic, files in shared.items()}
+
+    def _merged(self, wanted: Mapping[str, Sequence[str]]) -> Iterator[Event]:
         choice = _FieldChoice(wanted)
         streams = [events_of(path, n, choice, self.own) for n, path in enumerate(self.paths)]
-        if len(streams) == 1:
-            return streams[0]
         return heapq.merge(*streams, key=lambda event: event.stamp)
+
+    def _spans(self, wanted: Mapping[str, Sequence[str]]) -> _Spans:
+        spans = _Spans()
+        for event in self._merged(wanted):
+            if isinstance(event, Heard):
+                spans.see(event)
+        return spans
+
+
+def _agree(files: Sequence[list[tuple[object, ...]]]) -> bool:
+    """Whether all have the same values, but for one more at either end of what they share."""
+    first, *others = files
+    ends = [(begin, end) for begin in (0, 1) for end in (0, 1)]
+    return bool(others) and all(
+        any(
+            str(first[a : len(first) - b]) == str(other[c : len(other) - d])
+            for a, b in ends
+            for c, d in ends
+        )
+        for other in others
+    )
+
+
+class _Spans:
+    """When each file has its first and its last message on a topic."""
+
+    def __init__(self) -> None:
+        self._of: dict[str, dict[int, tuple[float, float]]] = {}
+
+    def see(self, heard: Heard) -> None:
+        """Takes a message into account."""
+        files = self._of.setdefault(heard.topic, {})
+        first, last = files.get(heard.place.file, (heard.stamp, heard.stamp))
+        files[heard.place.file] = min(first, heard.stamp), max(last, heard.stamp)
+
+    def is_shared(self, heard: Heard) -> bool:
+        """Whether another file has messages on the topic before and after this one."""
+        return any(self._others(heard))
+
+    def has_two(self, heard: Heard) -> bool:
+        """Whether one that began before does, so that it has the message, too."""
+        own = heard.place.file
+        begun = self._of[heard.topic][own][0], own
+        return any((first, file) < begun for file, first in self._others(heard))
+
+    def _others(self, heard: Heard) -> Iterator[tuple[int, float]]:
+        for file, (first, last) in self._of[heard.topic].items():
+            if file != heard.place.file and first <= heard.stamp <= last:
+                yield file, first

@@ -82,12 +82,14 @@ class Inclusion:
     raced: bool = False
     failures: tuple[Failure, ...] = ()
     widest: int = 1
+    last: Hypothesis | None = None  # of a run that fits
 
 
 class InclusionSearch:
     """One search; with more than `limit` hypotheses at a time it is cut.
 
-    Inputs up to `served_before` may have been served before the beginnings.
+    Inputs up to `served_before` may have been served before the beginnings. `keeps`: `came_from`
+    has for each hypothesis one before it.
     """
 
     def __init__(self, component: Component, limit: int, served_before: float = -inf) -> None:
@@ -95,6 +97,8 @@ class InclusionSearch:
         self.limit = limit
         self.served_before = served_before
         self.raced = False
+        self.keeps = False
+        self.came_from: dict[Hypothesis, Hypothesis] = {}
         self.failures: dict[Failure, None] = {}
         self._timing = component.timing
         self._dead: list[Hypothesis] = []
@@ -130,7 +134,7 @@ class InclusionSearch:
                 self._seen.pop(before, None)
                 before = low
             if self._is_complete(hypothesis):
-                return self._ended("fits", "", widest)
+                return self._ended("fits", "", widest, hypothesis)
             try:
                 after = list(self.successors(hypothesis))
             except EndlessBody as endless:
@@ -138,15 +142,21 @@ class InclusionSearch:
                 return self._ended("cut", f"a body of {body} does not end", widest)
             for each in after:
                 self._push(each)
+                if self.keeps and each != hypothesis:
+                    self.came_from.setdefault(each, hypothesis)
             if not after:
                 self._die(hypothesis)
         return self._ended("refused", "", widest)
 
     def _ended(
-        self, verdict: Literal["fits", "refused", "cut"], reason: str, widest: int
+        self,
+        verdict: Literal["fits", "refused", "cut"],
+        reason: str,
+        widest: int,
+        last: Hypothesis | None = None,
     ) -> Inclusion:
         dead, failures = tuple(self._dead), tuple(self.failures)
-        return Inclusion(verdict, reason, dead, self.raced, failures, widest)
+        return Inclusion(verdict, reason, dead, self.raced, failures, widest, last)
 
     def _push(self, hypothesis: Hypothesis) -> None:
         seen = self._seen.setdefault(hypothesis.low, set())

@@ -148,7 +148,7 @@ def cells_of(program: Program, server: int, values: Sequence[object]) -> tuple[C
         elements = _elements(value)
         if len(elements) != slot.size:
             raise Unmodelled(f"{slot.name} has {len(elements)} elements, not {slot.size}")
-        cells += (_cell(slot.name, slot.kind, each) for each in elements)
+        cells += (cell_of_field(slot.name, slot.kind, each) for each in elements)
     return tuple(cells)
 
 
@@ -157,7 +157,8 @@ def _elements(value: Any) -> list[object]:  # noqa: ANN401
     return list(value) if is_list else [value]
 
 
-def _cell(name: str, kind: Kind, value: object) -> Cell:
+def cell_of_field(name: str, kind: Kind, value: object) -> Cell:
+    """A value of a field. Unmodelled: it is none of that kind."""
     try:
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):

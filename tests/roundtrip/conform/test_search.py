@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from random import Random
 
 import pytest
@@ -28,6 +29,7 @@ FAMILIES: dict[str, Features] = {
     "real numbers": REAL,
 }
 LONG = 20  # steps
+WAREHOUSE = Path(__file__).parents[3] / "examples" / "warehouse" / "warehouse.rebeca"
 # Drawing a model takes long; shrinking one takes longer than a test may, and the time limit then
 # hides what was wrong.
 DRAWN = settings(max_examples=min(settings().max_examples, 20), phases=set(Phase) - {Phase.shrink})
@@ -169,3 +171,40 @@ def test_what_is_cut_is_undetermined() -> None:
         assert found.verdict == "undetermined"
         assert found.reason == "more than 60 states of the model are possible"
         assert found.deviation is None
+
+
+ROOM = """
+reactiveclass Sender(2) {
+  knownrebecs { Receiver receiver; }
+  Sender() { self.go() after(1); }
+  msgsrv go() { if (?(true, false)) { receiver.more(); } }
+}
+reactiveclass Receiver(1) {
+  statevars { int n; }
+  Receiver() { n = 0; self.tick() after(1); }
+  msgsrv tick() { n = 1; }
+  msgsrv more() { n = 2; }
+}
+main { Sender s(r):(); Receiver r():(); }
+"""
+
+
+def test_an_order_in_which_a_bag_has_room_is_found() -> None:
+    """In the order that stands for all, one choice overflows and the other one fits so far."""
+    model = simulated.given(ROOM)
+    runs = (simulated.simulate(model, seed) for seed in range(50))
+    run = next(run for run in runs if any(step.server == "more" for step in run))
+    _, found = search(model, run)
+    assert found is not None
+    assert (found.verdict, found.compared) == ("fits", len(run))
+
+
+def test_orders_that_commute_are_not_all_tried() -> None:
+    """With priorities, senders and deadlines, too: of 300 steps few moments have several orders."""
+    model = simulated.given(WAREHOUSE.read_text(encoding="utf-8"))
+    run = simulated.simulate(model, 1, 300)
+    graph = StateGraph(model.program, model.observable)
+    stream = Stream(iter(run), len(model.program.rebecs), _ignored)
+    begun = start(graph, stream, "constructors")
+    assert Search(graph, stream).run(begun.configs).verdict == "fits"
+    assert len(graph._nodes) < 1000

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from random import Random
 from shutil import copytree
@@ -193,6 +194,30 @@ def test_faults_in_a_real_run_are_found(fault: str, tmp_path: Path) -> None:
         assert place.path.endswith(script) if place else fault == "second publisher"
 
 
+def test_what_messages_took_is_measured(tmp_path: Path) -> None:
+    log = real()
+    own = [n for n, message in enumerate(log) if message["topic"] == "/heat"]
+    late = log[own[5]]["stamp"] + 0.06
+    log[own[5]] |= {"stamp": late}
+    path = write(sorted(log, key=lambda m: m["stamp"]), tmp_path / "run.jsonl")
+    measuring = TopicBounds(None, False, None, True)
+    found, _ = compared(str(PACKAGES / "thermostat"), [str(path)], measuring)
+    took = {(i.rebec, i.server, i.topic, i.kind): i.seconds for i in found.intervals}
+    assert list(took) == [
+        ("heater", "tick", "/power", "period"),
+        ("thermostat", "measured", "/heat", "delay"),
+    ]
+    ticks = [m["stamp"] for m in log if m["topic"] == "/power"]
+    assert list(took["heater", "tick", "/power", "period"]) == pytest.approx(
+        [after - before for before, after in pairwise(ticks)]
+    )
+    inputs = [m["stamp"] for m in log if m["topic"] == "/temperature"]
+    cause = max(stamp for stamp in inputs if stamp < late)
+    delays = took["thermostat", "measured", "/heat", "delay"]
+    assert len(delays) == len(own)
+    assert max(delays) == pytest.approx(late - cause)
+
+
 # --- what is not known
 
 
@@ -218,6 +243,32 @@ def test_topics_that_were_not_recorded_leave_it_open(tmp_path: Path) -> None:
     found = without("/power")
     assert found.verdict == "conforms"
     assert "heater publishes nothing that was recorded" in found.notes
+
+
+@pytest.mark.parametrize(
+    ("parts", "verdict"),
+    [
+        (lambda log: (log, log), "conforms"),
+        (lambda log: (log[:50], log[50:]), "conforms"),
+        (lambda log: (log[:50], log[20:]), "conforms"),
+        (
+            lambda log: tuple(
+                [m for m in log if (m["topic"] == t)] for t in ("/heat", "/power", "/temperature")
+            ),
+            "conforms",
+        ),
+        # Of each message both tell, one of them later: it is not known which are the same.
+        (lambda log: (log, [m | {"stamp": m["stamp"] + 0.004} for m in log]), "undetermined"),
+        (lambda log: (log, wrong_value(log, 61)), "undetermined"),
+        (lambda log: (log[:50], wrong_value(log, 61)[50:]), "deviates"),
+    ],
+)
+def test_several_files_of_one_run(
+    parts: Callable[[Log], tuple[Log, ...]], verdict: str, tmp_path: Path
+) -> None:
+    paths = [write(part, tmp_path / f"{n}.jsonl") for n, part in enumerate(parts(real()))]
+    found, _ = compared(str(PACKAGES / "thermostat"), list(map(str, paths)), FROM_START)
+    assert found.verdict == verdict, found.reason
 
 
 def test_times_by_another_clock_leave_it_open(tmp_path: Path) -> None:

@@ -1,0 +1,48 @@
+"""What messages on topics took, as lines of text and as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from rebsync.roundtrip.calibration.report import numbers_of, statistics_json
+from rebsync.roundtrip.calibration.times import Statistics
+from rebsync.roundtrip.conform.conformance import TopicInterval
+
+_HEADS = ("node", "callback", "kind", "topic", "count", "least", "median", "99 %", "greatest")
+_WORDS = 4  # columns of text
+
+
+def interval_lines(intervals: Sequence[TopicInterval]) -> Iterator[str]:
+    """The table of what was measured."""
+    yield "times in seconds, by the stamps of the recording"
+    rows = [_HEADS, *(_row(each) for each in intervals)]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        both = list(zip(row, widths, strict=True))
+        cells = [text.ljust(width) for text, width in both[:_WORDS]]
+        cells += [text.rjust(width) for text, width in both[_WORDS:]]
+        yield f"  {'  '.join(cells)}".rstrip()
+
+
+def _row(each: TopicInterval) -> tuple[str, ...]:
+    shown = Statistics.of(each.seconds)
+    assert shown is not None  # an interval that was not measured is none
+    numbers = (f"{value:.3f}" for value in numbers_of(shown))
+    return (each.rebec, each.server, each.kind, each.topic, str(shown.count), *numbers)
+
+
+def intervals_json(intervals: Sequence[TopicInterval]) -> dict[str, Any]:
+    """The same for other programs."""
+    return {
+        "topics": [
+            {
+                "rebec": each.rebec,
+                "server": each.server,
+                "kind": each.kind,
+                "topic": each.topic,
+                "measured": statistics_json(Statistics.of(each.seconds)),
+            }
+            for each in intervals
+        ]
+    }

@@ -1,0 +1,98 @@
+"""Properties over topics of a package that people wrote (packages/thermostat), on recordings."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from rebsync.cli.packages import read_observed
+from rebsync.roundtrip.conform.bags import OwnTypes
+from rebsync.roundtrip.conform.components.heard import HeardRecordings
+from rebsync.roundtrip.conform.components.properties import TopicProperties
+from tests.roundtrip.conform.test_topics import PACKAGES
+
+PROPERTIES = """property {
+  define {
+    heating = (thermostat.out_heat_data);
+    strong = (heater.out_power_data > 3);
+    hot = (thermostat.in_temperature_data > 22);
+  }
+  Assertion {
+    Weak: !strong;
+    Off: !(hot && heating);
+    Same: heater.in_heat_data == thermostat.out_heat_data;
+    Few: heater.out_count_power < 3;
+    Inside: heater.power < 3;
+  }
+  LTL {
+    Again: G(F(strong));
+    Once: F(strong);
+    First: heating;
+    Then: G(X(heating));
+  }
+  TCTL {
+    Soon: AG(AF(time <= 5, strong));
+  }
+}
+"""
+T, H, P = "/temperature", "/heat", "/power"
+SLOWLY = [(0.0, T, 23), (0.01, H, True), (0.02, P, 0), (5.0, T, 20), (5.01, H, False)]
+QUICKLY = [(0.0, T, 16), (0.01, H, True), (0.02, P, 0), (1.0, T, 23), (1.01, H, False)]
+CASES = [
+    ("Weak", [(0.0, P, 3), (0.01, P, 4), (0.02, P, 3)], ("violated", 10)),  # one topic is exact
+    ("Weak", [(0.0, P, 3), (1.0, P, 3)], ("open", None)),
+    ("Off", SLOWLY, ("violated", 10)),
+    ("Off", QUICKLY, ("open", None)),  # for less than messages may be late
+    ("Off", SLOWLY[:1], ("undetermined", None)),  # nothing was published
+    ("Same", [(0.0, H, False), (0.01, H, True), (3.0, H, False)], ("open", None)),
+    ("Few", [(n, P, 0) for n in range(5)], ("undetermined", None)),
+    ("Inside", [(0.0, P, 4)], ("undetermined", None)),
+    ("Again", [(0.0, P, 4), (1.0, P, 0)], ("open", None)),
+    ("Once", [(0.0, P, 0), (1.0, P, 4)], ("satisfied", 1000)),
+    ("First", [(0.0, H, False), (9.0, H, False)], ("undetermined", None)),
+    ("Then", [(0.0, H, False), (9.0, H, False)], ("undetermined", None)),
+    ("Soon", [(0.0, P, 0), (90.0, P, 0)], ("undetermined", None)),
+]
+
+
+@pytest.fixture(scope="module")
+def properties(tmp_path_factory: pytest.TempPathFactory) -> TopicProperties:
+    """All of them, read with the package."""
+    path = tmp_path_factory.mktemp("properties") / "some.property"
+    path.write_text(PROPERTIES)
+    found = read_observed(str(PACKAGES / "thermostat"), str(path))
+    assert found is not None
+    return found
+
+
+def said(
+    properties: TopicProperties, log: list[tuple[float, str, int]], path: Path, node: str | None
+) -> dict[str, tuple[str, int | None]]:
+    """What is said of a log; messages on topics of nodes are from those, or from `node`."""
+    names = {T: "/sensor", H: "/thermostat", P: "/heater"}
+    lines = [
+        {"topic": t, "stamp": 100 + s, "data": {"data": v}, "node": node or names[t]}
+        for s, t, v in log
+    ]
+    path.write_text("".join(f"{json.dumps(line)}\n" for line in lines))
+    recording = HeardRecordings.of([str(path)], OwnTypes("", {}))
+    found = properties.evaluated(recording.events(properties.fields()), 100.0, 0.001, 0.1)
+    return {each.name: (each.verdict, each.time) for each in found}
+
+
+@pytest.mark.parametrize(("name", "log", "expected"), CASES)
+def test_properties_are_evaluated(
+    name: str,
+    log: list[tuple[float, str, int]],
+    expected: tuple[str, int | None],
+    properties: TopicProperties,
+    tmp_path: Path,
+) -> None:
+    assert said(properties, log, tmp_path / "run.jsonl", None)[name] == expected
+
+
+def test_messages_of_strangers_are_not_counted(properties: TopicProperties, tmp_path: Path) -> None:
+    log = [(0.0, P, 4), (1.0, P, 4)]
+    assert said(properties, log, tmp_path / "run.jsonl", "/other")["Weak"] == ("undetermined", None)
