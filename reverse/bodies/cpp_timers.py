@@ -45,17 +45,18 @@ def switched(
     if meaning.switch is None or name == "setPeriod":
         raise reader.unread(node, _WHY, _HINT)
     if name == "reset":
-        return iter(_again(meaning.server, meaning.switch))
-    return iter((_changed(meaning.server, meaning.switch, name == "start"),))
+        return iter(again(meaning.server, meaning.switch))
+    return iter((changed(meaning.server, meaning.switch, name == "start"),))
 
 
-def _again(server: str, switch: Switch) -> Iterator[m.Statement]:
+def again(server: str, switch: Switch) -> Iterator[m.Statement]:
     """A timer that begins its period anew, whether it runs or not."""
-    yield _changed(server, switch, False)
-    yield _changed(server, switch, True)
+    yield changed(server, switch, False)
+    yield changed(server, switch, True)
 
 
-def _changed(server: str, switch: Switch, start: bool) -> m.Statement:
+def changed(server: str, switch: Switch, start: bool) -> m.Statement:
+    """A timer is started or stopped, if it is not yet."""
     running, stale = m.Name(switch.running), m.Name(switch.stale)
     sets = m.ExpressionStatement(m.Assign("=", running, m.BoolLiteral(start)))
     if start:

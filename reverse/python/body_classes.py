@@ -12,6 +12,7 @@ from rebsync import model as m
 from rebsync.intervals import Interval
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.invariants import Body, BodyStart, Unbounded, unbounded
+from rebsync.reverse.bodies.cpp_timers import without_stale
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Unread
@@ -37,6 +38,7 @@ from rebsync.reverse.python.body_scope import (
 )
 from rebsync.reverse.python.body_starts import constructor, declared
 from rebsync.reverse.python.body_statements import PyStatements
+from rebsync.reverse.python.body_timers import switch_of
 from rebsync.reverse.python.body_units import runs_in_threads
 from rebsync.reverse.python.object_model import decorated_callback
 from rebsync.reverse.python.py_callbacks import body_of
@@ -141,7 +143,9 @@ class PyClass:
         fact = server.timers[0] if server.timers else None
         if fact is not None and fact.one_shot is not True and period is not None:
             body, again = m.Block(statements), send(server.name, period)
-            statements = repeated(body, again, takes_time(body)).statements
+            body = repeated(body, again, takes_time(body))
+            switch = switch_of(reading, number)
+            statements = (body if switch is None else without_stale(body, switch)).statements
         return ReadServer(server.name, statements, carried, ranges, scope.node)
 
     def _body(self, reader: PyStatements, scope: Scope) -> tuple[m.Statement, ...]:

@@ -14,6 +14,7 @@ from rebsync.reverse.build.message_types import Fields
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.python import body_methods
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_reading import field_key, zero
 from rebsync.reverse.python.body_scope import (
@@ -128,6 +129,11 @@ def _sends(
     type_ = fact.type if isinstance(fact.type, str) else ""
     given: dict[str, Node] | None = None
     message = plain[0] if len(plain) == 1 and not keywords else None
+    back = body_methods.returned(reader, message) if message is not None else None
+    if back is not None and _is_message(back[1], back[2], type_):
+        first, reader, message = back
+        yield from first
+        plain = [message]
     if message is None or not _is_message(reader, message, type_):
         given = arguments_by_name(
             reader.expressions, call, reader.reading.types.fields(type_) or {}

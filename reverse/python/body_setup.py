@@ -12,7 +12,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import ParameterFact, RateFact, SubscriptionFact, TimerFact
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.python import body_calls, body_loops, body_methods
+from rebsync.reverse.python import body_calls, body_loops, body_methods, body_timers
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.py_index import CLASS, arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, text_of
@@ -70,6 +70,10 @@ def _fact(
                 raise Unread(span, "a timer that is started later is not read")
             if reader.frame.depth:
                 raise Unread(span, "whether there is this timer depends on a condition")
+            body_timers.made(reader, fact)
+            switch = body_timers.switch_of(reader.reading, number)
+            if switch is not None:
+                yield from body_timers.running(switch)
             yield send(server.name, period, call, reader)
         case SubscriptionFact(single=True):
             raise Unread(span, "it waits here for one message")
