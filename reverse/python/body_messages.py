@@ -14,9 +14,9 @@ from rebsync.reverse.build.message_types import Fields
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.python import body_methods
+from rebsync.reverse.python import body_containers, body_methods
 from rebsync.reverse.python.body_effects import is_harmless
-from rebsync.reverse.python.body_reading import field_key, zero
+from rebsync.reverse.python.body_reading import Reading, field_key, zero
 from rebsync.reverse.python.body_scope import (
     OTHER,
     REAL,
@@ -114,7 +114,10 @@ def published(reader: BodyStatementReader, call: Node) -> Iterator[m.Statement] 
         return None
     if text_of(field(function, "attribute")) not in libraries.publishing():
         return None
-    found = reader.reading.made_by(field(function, "object"), reader.frame)
+    holder = field(function, "object")
+    by_key = holder.type == "subscript"
+    asked = body_containers.element if by_key else Reading.made_by
+    found = asked(reader.reading, holder, reader.frame)
     number, fact = found if found is not None else (0, None)
     if not isinstance(fact, PublisherFact):
         raise Unread(reader.frame.span(call), "it is not known what this publishes to")

@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 
+_CONTAINERS = frozenset({"dictionary", "list", "tuple"})
+_PLACES = frozenset({"identifier", "attribute"})
+
+
 def assignment(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     """`target = value`; several targets get it from left to right."""
     targets = [field(node, "left")]
@@ -41,6 +45,9 @@ def assignment(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]
         if known is not None:
             yield from known
             return
+    if value.type in _CONTAINERS and len(targets) == 1 and targets[0].type in _PLACES:
+        yield from _contained(reader, targets[0], value, node)
+        return
     if len(targets) > 1 and value.type not in ("integer", "float", "true", "false", "none"):
         raise Unread(reader.frame.span(node), "several variables get one value")
     for target in targets:
@@ -91,6 +98,20 @@ def _assigned(
                 why = "this may be a field of a message that has another name as well"
                 raise Unread(reader.frame.span(node), why)
             outside(reader, value, node)
+
+
+def _contained(
+    reader: BodyStatementReader, target: Node, value: Node, node: Node
+) -> Iterator[m.Statement]:
+    """A list, tuple or dictionary, of which the model has nothing but what is made in it."""
+    for each in named(value):
+        inner = field(each, "value") if each.type == "pair" else each
+        made = body_setup.asked(reader, inner) if inner.type == "call" else None
+        if made is not None:
+            yield from made
+        else:
+            outside(reader, each, node)
+    forget(reader, target)
 
 
 def _kept(
