@@ -6,7 +6,7 @@ one timer come in the order in which they were sent, so that a number of stale o
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -72,3 +72,11 @@ def without_stale(body: m.Block, switch: Switch) -> m.Block:
     one_less = m.ExpressionStatement(m.Assign("=", stale, binary("-", stale, _ONE)))
     leaves = m.If(binary(">", stale, _ZERO), m.Block((one_less, m.Return(None))), None)
     return m.Block((leaves, *body.statements), body.annotations, body.span)
+
+
+def stale_messages(switches: Mapping[str, Switch], bodies: Iterable[m.Node]) -> int:
+    """How many stale messages may wait, if each place that starts a timer runs once in a unit."""
+    calls = (n for body in bodies for n in m.walk(body) if isinstance(n, m.Call))
+    sent = [call.name for call in calls if isinstance(call.target, m.Self)]
+    return sum(max(sent.count(n) - 1, 0) * each.period for n, each in switches.items())
+

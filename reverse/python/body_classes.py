@@ -12,7 +12,7 @@ from rebsync import model as m
 from rebsync.intervals import Interval
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.invariants import Body, BodyStart, Unbounded, unbounded
-from rebsync.reverse.bodies.cpp_timers import without_stale
+from rebsync.reverse.bodies.cpp_timers import stale_messages, without_stale
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Unread
@@ -205,9 +205,11 @@ class PyClass:
         members.append(m.Constructor(name, (), body))
         unit = self.reading.unit
         first = unit.lineage[0] if unit.lineage else unit.module
+        stopped = ((s.name, switch_of(self.reading, n)) for n, s in self.reading.servers.items())
+        stale = stale_messages({n: s for n, s in stopped if s is not None}, servers)
         return m.ReactiveClass(
             name,
-            self.reading.unit.unit.queue(len(self.loops)),
+            self.reading.unit.unit.queue(len(self.loops)) + stale,
             (*members, *servers),
             span=first.py.span(first.node),
         )
