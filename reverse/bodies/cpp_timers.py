@@ -79,4 +79,3 @@ def stale_messages(switches: Mapping[str, Switch], bodies: Iterable[m.Node]) -> 
     calls = (n for body in bodies for n in m.walk(body) if isinstance(n, m.Call))
     sent = [call.name for call in calls if isinstance(call.target, m.Self)]
     return sum(max(sent.count(n) - 1, 0) * each.period for n, each in switches.items())
-

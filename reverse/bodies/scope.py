@@ -76,12 +76,16 @@ class Record:
 
     Fields that are not named here are outside. `type` is `package/Type` where it is known.
     A `constant` one cannot be changed through its name; a `pointer` is copied by its name alone.
+    `there` is the variable that says whether a pointer that is a member points to a message; what
+    is `shared` may be changed by another pointer to it.
     """
 
     fields: Mapping[str, Variable]
     type: str = ""
     constant: bool = False
     pointer: bool = False
+    there: str = ""
+    shared: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -69,7 +69,11 @@ def kept(
     since = len(learnt.answers)
     meaning, _ = reader.expressions.meaning(target)
     assert isinstance(meaning, Var | Message)
-    if node.type != "call" and not _is_deep(reader, value) and _may_change(source, node, target, type_):
+    if (
+        node.type != "call"
+        and not _is_deep(reader, value)
+        and _may_change(source, node, target, type_)
+    ):
         raise Unread(reader.frame.span(target), _CHANGED)
     learnt.join(meaning.key, type_)
     learnt.settle(meaning.key, since)
@@ -119,7 +123,9 @@ def presence_key(key: Key) -> Key:
     return where, number, f"{name} is there"
 
 
-def presence(reader: BodyStatementReader, message: Message, is_there: bool) -> Iterator[m.Statement]:
+def presence(
+    reader: BodyStatementReader, message: Message, is_there: bool
+) -> Iterator[m.Statement]:
     """A variable holds a message, or None."""
     key = presence_key(message.key)
     learnt = reader.reading.learnt

@@ -21,8 +21,9 @@ class Learnt:
     """What is known of all bodies of a package so far: each round of reading adds to it.
 
     `kinds` are those of variables; `mixed` those of floats that also get whole numbers; `used` are
-    the fields that servers read, `wanted` those of messages in variables; `open` those whose values nobody knows; `refused` are expressions
-    that may leave the model's `int`; on `pending` variables something stood in the last reading.
+    the fields that servers read, `wanted` those of messages in variables that something reads;
+    `open` those whose values nobody knows; `refused` are expressions that may leave the model's
+    `int`; on `pending` variables something stood in the last reading.
     Reading a unit asks for these by the methods alone, so that `answers` is all that it depends on:
     while they are the same, it would be read the same again.
     """

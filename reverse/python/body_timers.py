@@ -115,5 +115,8 @@ def _switch(reading: Reading, number: int, period: int) -> Switch:
     fact = reading.unit.unit.facts[number]
     kept = fact.site.kept.rpartition(".")[2].strip("_") or "timer"
     running, stale = _keys(fact)
-    names = reading.state_name(running, f"{kept}_running"), reading.state_name(stale, f"{kept}_stale")
+    names = (
+        reading.state_name(running, f"{kept}_running"),
+        reading.state_name(stale, f"{kept}_stale"),
+    )
     return Switch(*names, period)
