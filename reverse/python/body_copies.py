@@ -34,6 +34,7 @@ _ROOT = re.compile(r"(?:(\w+)\.)?(\w+)")
 _COPY = "copy.copy"
 _DEEP = "copy.deepcopy"
 _LOOPS = frozenset({"for_statement", "while_statement"})
+_FUNCTIONS = frozenset({"function_definition", "lambda", "module"})
 _CHANGED = "another name for a message that may be changed"
 
 
@@ -202,8 +203,8 @@ def _are_before(bindings: list[Binding], holder: str, node: Node) -> bool:
     """Whether a local message gets its fields before an expression that names it."""
     if node.type != "identifier" or not _is_below(holder, text_of(node)):
         return False
-    loops = any(n.type in _LOOPS for n in ancestors(node, lambda n: n.type != "module"))
-    return not loops and all(b.node.end_byte <= node.start_byte for b in bindings)
+    around = ancestors(node, lambda n: n.type in _FUNCTIONS)
+    return not any(n.type in _LOOPS for n in around) and all(b.node.end_byte <= node.start_byte for b in bindings)
 
 
 def _is_new(reading: Reading, frame: Frame, scope: Scope, holder: str) -> bool:
