@@ -56,22 +56,47 @@ def again(server: str, switch: Switch) -> Iterator[m.Statement]:
 
 
 def changed(server: str, switch: Switch, start: bool) -> m.Statement:
-    """A timer is started or stopped, if it is not yet."""
-    running, stale = m.Name(switch.running), m.Name(switch.stale)
-    sets = m.ExpressionStatement(m.Assign("=", running, m.BoolLiteral(start)))
+    """A timer is started or stopped, if it is not yet.
+
+    One that has gone off once, and for good, still counts as started until it is stopped.
+    """
+    running = m.Name(switch.running)
+    sets = (
+        _set(switch.running, start),
+        *((_set(switch.waiting, start),) if switch.waiting else ()),
+    )
     if start:
         send = m.Call(m.Self(), server, (), m.IntLiteral(switch.period))
-        return m.If(m.Unary("!", running), m.Block((sets, m.ExpressionStatement(send))), None)
-    one_more = m.Assign("=", stale, binary("+", stale, _ONE))
-    return m.If(running, m.Block((sets, m.ExpressionStatement(one_more))), None)
+        return m.If(m.Unary("!", running), m.Block((*sets, m.ExpressionStatement(send))), None)
+    one_more: m.Statement = _counted(switch.stale, "+")
+    if switch.waiting:
+        stops = m.Block((one_more, _set(switch.waiting, False)))
+        one_more = m.If(m.Name(switch.waiting), stops, None)
+    return m.If(running, m.Block((_set(switch.running, False), one_more)), None)
+
+
+def started(switch: Switch) -> tuple[m.Statement, ...]:
+    """A timer runs from here on."""
+    names = (switch.running, *((switch.waiting,) if switch.waiting else ()))
+    return tuple(_set(name, True) for name in names)
+
+
+def _set(name: str, value: bool) -> m.Statement:
+    return m.ExpressionStatement(m.Assign("=", m.Name(name), m.BoolLiteral(value)))
+
+
+def _counted(name: str, operator: str) -> m.Statement:
+    value = binary(operator, m.Name(name), _ONE)
+    return m.ExpressionStatement(m.Assign("=", m.Name(name), value))
 
 
 def without_stale(body: m.Block, switch: Switch) -> m.Block:
     """The body of a timer's server, which does nothing for a stale message."""
-    stale = m.Name(switch.stale)
-    one_less = m.ExpressionStatement(m.Assign("=", stale, binary("-", stale, _ONE)))
-    leaves = m.If(binary(">", stale, _ZERO), m.Block((one_less, m.Return(None))), None)
-    return m.Block((leaves, *body.statements), body.annotations, body.span)
+    leaves = m.Block((_counted(switch.stale, "-"), m.Return(None)))
+    first: list[m.Statement] = [m.If(binary(">", m.Name(switch.stale), _ZERO), leaves, None)]
+    if switch.waiting:
+        first.append(_set(switch.waiting, False))
+    return m.Block((*first, *body.statements), body.annotations, body.span)
 
 
 def stale_messages(switches: Mapping[str, Switch], bodies: Iterable[m.Node]) -> int:

@@ -116,11 +116,15 @@ class Publishes:
 
 @dataclass(frozen=True, slots=True)
 class Switch:
-    """The state variables of a timer that is stopped and started, and its period in units."""
+    """The state variables of a timer that is stopped and started, and its period in units.
+
+    One that goes off once has one more: whether it will.
+    """
 
     running: str
     stale: str
     period: int
+    waiting: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -109,9 +109,10 @@ class NodeClass:
     def _repeated(self, server: m.MessageServer, delays: bool) -> m.MessageServer:
         """The server of a timer with what makes it go on."""
         setup, body = self.bodies.setup, server.body
-        if body is None or server.name not in setup.periodic:
+        if body is None:
             return server
-        body = repeated(body, send(server.name, setup.periodic[server.name]), delays)
+        if server.name in setup.periodic:
+            body = repeated(body, send(server.name, setup.periodic[server.name]), delays)
         if server.name in setup.switches:
             body = without_stale(body, setup.switches[server.name])
         return replace(server, body=body)

@@ -70,7 +70,7 @@ class State:
     initial: list[tuple[Cpp, Stores]] = field(default_factory=list)
     wide: dict[str, Wide] = field(default_factory=dict)
     unset: dict[str, UnsetVariable] = field(default_factory=dict)
-    switches: dict[str, tuple[str, str]] = field(default_factory=dict)
+    switches: dict[str, tuple[str, str, str]] = field(default_factory=dict)
     taken: UsedNames = field(init=False)  # the names that the unit's functions have
     _outlived: dict[tuple[int, frozenset[str], bool], dict[int, tuple[Stores, ...]]] = field(
         default_factory=dict
@@ -122,12 +122,14 @@ class State:
             case _:
                 pass
 
-    def switch(self, timer: str) -> tuple[str, str]:
-        """The variables for whether a timer runs, and how many of its messages do not count."""
+    def switch(self, timer: str, once: bool) -> tuple[str, str, str]:
+        """Whether a timer runs, how many of its messages are stale, whether it goes off `once`."""
         if timer not in self.switches:
             wish = timer.rstrip("_")
             running = self._new([f"{wish}_running"], BOOLEAN)
-            self.switches[timer] = running, self._new([f"{wish}_stale"], INT)
+            stale = self._new([f"{wish}_stale"], INT)
+            waiting = self._new([f"{wish}_waiting"], BOOLEAN) if once else ""
+            self.switches[timer] = running, stale, waiting
         return self.switches[timer]
 
     def zeros(self, meaning: Member | None) -> tuple[Stores, ...]:

@@ -204,7 +204,9 @@ def _are_before(bindings: list[Binding], holder: str, node: Node) -> bool:
     if node.type != "identifier" or not _is_below(holder, text_of(node)):
         return False
     around = ancestors(node, lambda n: n.type in _FUNCTIONS)
-    return not any(n.type in _LOOPS for n in around) and all(b.node.end_byte <= node.start_byte for b in bindings)
+    return not any(n.type in _LOOPS for n in around) and all(
+        b.node.end_byte <= node.start_byte for b in bindings
+    )
 
 
 def _is_new(reading: Reading, frame: Frame, scope: Scope, holder: str) -> bool:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies.cpp_timers import started
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import ParameterFact, RateFact, SubscriptionFact, TimerFact
 from rebsync.reverse.libraries import python as libraries
@@ -73,7 +74,7 @@ def _fact(
             body_timers.made(reader, fact)
             switch = body_timers.switch_of(reader.reading, number)
             if switch is not None:
-                yield from body_timers.running(switch)
+                yield from started(switch)
             yield send(server.name, period, call, reader)
         case SubscriptionFact(single=True):
             raise Unread(span, "it waits here for one message")

@@ -67,11 +67,6 @@ def switch_of(reading: Reading, number: int) -> Switch | None:
     return _switch(reading, number, found[1])
 
 
-def running(switch: Switch) -> Iterator[m.Statement]:
-    """A timer that is stopped at times runs from here on."""
-    yield m.ExpressionStatement(m.Assign("=", m.Name(switch.running), m.BoolLiteral(True)))
-
-
 def _number(reading: Reading, holder: Node, frame: Frame) -> int | None:
     """The number of the timer that an expression is; calling a method of None raises."""
     ways = [w for w in reading.values.ways(holder, frame.scope) if not isinstance(w, NoneValue)]
