@@ -103,4 +103,5 @@ def stale_messages(switches: Mapping[str, Switch], bodies: Iterable[m.Node]) -> 
     """How many stale messages may wait, if each place that starts a timer runs once in a unit."""
     calls = (n for body in bodies for n in m.walk(body) if isinstance(n, m.Call))
     sent = [call.name for call in calls if isinstance(call.target, m.Self)]
-    return sum(max(sent.count(n) - 1, 0) * each.period for n, each in switches.items())
+    starts = {n: sent.count(n) - (not each.waiting) for n, each in switches.items()}
+    return sum(max(starts[n], 0) * each.period for n, each in switches.items())

@@ -76,8 +76,7 @@ class Record:
 
     Fields that are not named here are outside. `type` is `package/Type` where it is known.
     A `constant` one cannot be changed through its name; a `pointer` is copied by its name alone.
-    `there` is the variable that says whether a pointer that is a member points to a message; what
-    is `shared` may be changed by another pointer to it.
+    `there` says whether a member points to a message; `shared` ones other pointers may change.
     """
 
     fields: Mapping[str, Variable]

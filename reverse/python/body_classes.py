@@ -141,11 +141,13 @@ class PyClass:
         ranges = dict(self._ranges(server, carried))
         period = reading.periods.get(number)
         fact = server.timers[0] if server.timers else None
+        body = m.Block(statements)
         if fact is not None and fact.one_shot is not True and period is not None:
-            body, again = m.Block(statements), send(server.name, period)
-            body = repeated(body, again, takes_time(body))
-            switch = switch_of(reading, number)
-            statements = (body if switch is None else without_stale(body, switch)).statements
+            body = repeated(body, send(server.name, period), takes_time(body))
+        switch = switch_of(reading, number)
+        if switch is not None:
+            body = without_stale(body, switch)
+        statements = body.statements
         return ReadServer(server.name, statements, carried, ranges, scope.node)
 
     def _body(self, reader: PyStatements, scope: Scope) -> tuple[m.Statement, ...]:

@@ -16,7 +16,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.python import body_messages
+from rebsync.reverse.python import body_messages, body_timers
 from rebsync.reverse.python.body_reading import Reading, field_key
 from rebsync.reverse.python.body_scope import OTHER, TRUTH, Frame, Key, Message, Value, Var
 from rebsync.reverse.python.interfaces import interface_of
@@ -125,35 +125,46 @@ def presence_key(key: Key) -> Key:
 
 
 def presence(
-    reader: BodyStatementReader, message: Message, is_there: bool
+    reader: BodyStatementReader, variable: Var | Message, is_there_: bool
 ) -> Iterator[m.Statement]:
-    """A variable holds a message, or None."""
-    key = presence_key(message.key)
+    """A variable holds a message or timer, or None."""
+    key = presence_key(variable.key)
     learnt = reader.reading.learnt
     if learnt.kind(key) is not None and learnt.is_wanted(key):
-        name = m.Name(reader.reading.state_name(key, f"{message.name}_is_there"))
-        yield m.ExpressionStatement(m.Assign("=", name, m.BoolLiteral(is_there)))
+        name = m.Name(reader.reading.state_name(key, f"{variable.name}_is_there"))
+        yield m.ExpressionStatement(m.Assign("=", name, m.BoolLiteral(is_there_)))
+
+
+def made(reader: BodyStatementReader, target: Node) -> Iterator[m.Statement]:
+    """A variable gets a timer."""
+    if target.type in ("identifier", "attribute"):
+        meaning, path = reader.expressions.meaning(target)
+        if isinstance(meaning, Var) and not path and meaning.is_state:
+            yield from presence(reader, meaning, True)
 
 
 def none(reader: BodyStatementReader, variable: Var | Message) -> Iterator[m.Statement] | None:
-    """A state variable gets None; None for one that never holds a message."""
+    """A state variable gets None; None for one that holds values of the model."""
     learnt = reader.reading.learnt
     if not variable.is_state or (isinstance(variable, Var) and learnt.kind(variable.key)):
         return None
     learnt.join(presence_key(variable.key), TRUTH)
-    return presence(reader, variable, False) if isinstance(variable, Message) else iter(())
+    return presence(reader, variable, False)
 
 
 def is_there(reader: BodyExpressionReader, node: Node) -> m.Expression | None:
-    """Whether a variable holds a message, and not None; None for other expressions."""
+    """Whether a variable holds a message or timer, and not None; None for other expressions."""
     if node.type not in ("identifier", "attribute"):
         return None
     meaning, path = reader.meaning(node)
-    if not isinstance(meaning, Message) or path:
+    if path or not isinstance(meaning, Message | Var):
+        return None
+    if isinstance(meaning, Var) and not (meaning.is_state and body_timers.is_timer(reader, node)):
         return None
     key = presence_key(meaning.key)
     reader.reading.learnt.want(key)
-    if meaning.server or reader.reading.learnt.kind(key) is None:
+    is_server = isinstance(meaning, Message) and bool(meaning.server)
+    if is_server or reader.reading.learnt.kind(key) is None:
         return m.BoolLiteral(True)
     name = reader.reading.state_name(key, f"{meaning.name}_is_there")
     return m.Name(name, reader.frame.span(node))

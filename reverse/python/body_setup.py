@@ -71,7 +71,7 @@ def _fact(
                 raise Unread(span, "a timer that is started later is not read")
             if reader.frame.depth:
                 raise Unread(span, "whether there is this timer depends on a condition")
-            body_timers.made(reader, fact)
+            body_timers.made(reader, fact, call)
             switch = body_timers.switch_of(reader.reading, number)
             if switch is not None:
                 yield from started(switch)
