@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -88,6 +89,10 @@ def _started(reader: BodyStatementReader, call: Node, name: str) -> Iterator[m.S
     """What only starts the node, or lets it run."""
     function = field(call, "function")
     last = last_name(function)
+    if (method := _of_new_object(reader, function)) is not None:
+        return chain(*method)
+    if last != "__init__" and reader.reading.function(function, reader.frame) is not None:
+        return None
     asked_ = libraries.function(name)
     kind = asked_.kind if asked_ is not None else None
     if kind is Kind.SPIN or (last == "spin" and not name):
@@ -115,6 +120,23 @@ def _started(reader: BodyStatementReader, call: Node, name: str) -> Iterator[m.S
     if any(isinstance(w, Class) and w.scope.kind == CLASS for w in ways):
         return iter(())
     return None
+
+
+def _of_new_object(
+    reader: BodyStatementReader, function: Node
+) -> tuple[Iterator[m.Statement], Iterator[m.Statement]] | None:
+    """`Node().spin()`: the object is made, then its method runs; None for all else."""
+    made = field(function, "object") if function.type == "attribute" else function
+    lineage = reader.reading.unit.lineage
+    if made.type != "call" or not lineage:
+        return None
+    ways = reader.reading.values.ways(field(made, "function"), reader.frame.scope)
+    own = reader.reading.method(last_name(function), 0)
+    if own is None or not any(isinstance(w, Class) and w.scope is lineage[0] for w in ways):
+        return None
+    call = function.parent
+    first = _started(reader, made, "")
+    return (first or iter(()), body_methods.inlined(reader, own, call or made))
 
 
 def _exit(reader: BodyStatementReader, given: list[Node]) -> Iterator[m.Statement]:
