@@ -99,7 +99,7 @@ def topic_of(fact: SubscriptionFact) -> str:
     return fact.topic if isinstance(fact.topic, str) else ""
 
 
-def beside_topic(name: str, fact: Asking) -> tuple[str, ...]:
+def beside_topic(name: str, fact: Fact) -> tuple[str, ...]:
     """What a server is called whose name another one of the same callback has."""
     topic = topic_of(fact) if isinstance(fact, SubscriptionFact) else ""
     return (model_word(f"{name}_{topic.strip('/')}"),) if topic else ()
