@@ -211,7 +211,8 @@ class State:
         tested = any(is_tested(name, text) for text in texts)
         there = self._new([f"{wish}_is_there"], BOOLEAN) if tested else ""
         known = self.types.fields(message) or {}
-        shared = "Const" not in text_of(node) and any(is_changed(known, text) for text in texts)
+        constant = "Const" in text_of(node) or "<const" in text_of(node)
+        shared = not constant and any(is_changed(known, text) for text in texts)
         return Record(fields, message, there=there, shared=shared)
 
     def _array(
