@@ -210,9 +210,8 @@ class State:
         texts = [text_of(f.node) for f in self.unit.functions]
         tested = any(is_tested(name, text) for text in texts)
         there = self._new([f"{wish}_is_there"], BOOLEAN) if tested else ""
-        known = self.types.fields(message) or {}
         constant = "Const" in text_of(node) or "<const" in text_of(node)
-        shared = not constant and any(is_changed(known, text) for text in texts)
+        shared = not constant and any(is_changed(fields, text) for text in texts)
         return Record(fields, message, there=there, shared=shared)
 
     def _array(
