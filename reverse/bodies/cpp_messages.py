@@ -235,7 +235,7 @@ def _copied(
         return
     source, fresh = given(reader, value)
     if not fresh:
-        check_shared(reader, record, target, value)
+        check_shared(reader.cpp, record, target, value)
     if record.there and target.type != "pointer_expression":
         other = pointed(reader.scope, value)
         is_there = m.Name(other.there) if other is not None else m.BoolLiteral(True)

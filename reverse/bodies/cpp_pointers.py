@@ -13,12 +13,11 @@ from rebsync import model as m
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.scope import Record, Scope
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.source import Span
 
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _CHANGE = re.compile(
     r"\b(\w+)\s*->\s*(\w+)[\w.\s]*(?:[-+*/|&^%]?=(?!=)|\+\+|--)"
@@ -85,13 +84,13 @@ def _is_read(text: str, found: re.Match[str]) -> bool:
     return is_copied or re.search(r"publish\(\s*$", before) is not None
 
 
-def check_shared(reader: CppStatementReader, record: Record, target: Node, value: Node) -> None:
+def check_shared(cpp: Cpp, record: Record, target: Node, value: Node) -> None:
     """Raises `Unread` where a pointer gets to a message that may be changed by another one."""
     if not record.shared or "pointer_expression" in (target.type, value.type):
         return
     if value.type == "call_expression" and _GIVEN.match(text_of(value)):
         return
-    raise Unread(reader.cpp.span(value), "a message is changed by a pointer, and has several")
+    raise Unread(cpp.span(value), "a message is changed by a pointer, and has several")
 
 
 def is_null(node: Node) -> bool:
@@ -112,15 +111,15 @@ def points(record: Record, is_there: m.Expression, span: Span) -> m.Statement:
     return m.ExpressionStatement(m.Assign("=", m.Name(record.there), is_there, span), (), span)
 
 
-def ended(reader: CppStatementReader, node: Node, function: Node) -> Iterator[m.Statement] | None:
+def ended(cpp: Cpp, scope: Scope, node: Node, function: Node) -> Iterator[m.Statement] | None:
     """`pointer.reset()`; None for a call of something else."""
-    record = pointed(reader.scope, part(function, "argument"))
+    record = pointed(scope, part(function, "argument"))
     is_of_message = any(c.type == "->" for c in function.children)
     if record is None or text_of(part(function, "field")) != "reset" or is_of_message:
         return None
     if named(part(node, "arguments")):
         return None
-    return iter((points(record, m.BoolLiteral(False), reader.cpp.span(node)),))
+    return iter((points(record, m.BoolLiteral(False), cpp.span(node)),))
 
 
 def is_there(reader: CppExpressionReader, node: Node) -> m.Expression | None:

@@ -163,7 +163,7 @@ def _called(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | N
     if (stored := _from_seconds(reader, node)) is not None:
         return _statement(reader, node, stored)
     if function.type == "field_expression" and not is_this(part(function, "argument")):
-        ended = cpp_pointers.ended(reader, node, function)
+        ended = cpp_pointers.ended(reader.cpp, reader.scope, node, function)
         return ended if ended is not None else cpp_timers.switched(reader, node, function)
     return None
 

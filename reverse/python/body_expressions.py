@@ -16,7 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, negated, tight
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.python import body_calls, body_copies
+from rebsync.reverse.python import body_calls, body_presence
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_floats import doubled, is_zero
@@ -78,7 +78,7 @@ class PyExpressions(BodyExpressionReader):
 
     def condition(self, node: Node) -> m.Expression:
         """A condition; one that nobody knows may be true or false, and is listed."""
-        there = body_copies.is_there(self, node)
+        there = body_presence.is_there(self, node)
         if there is not None:
             return there
         try:
@@ -254,7 +254,7 @@ class PyExpressions(BodyExpressionReader):
     def _compared(self, node: Node) -> m.Expression:
         operands = named(node)
         signs = [text_of(c) for c in node.children_by_field_name("operators")]
-        if (there := body_copies.compared_with_none(self, operands, signs)) is not None:
+        if (there := body_presence.compared_with_none(self, operands, signs)) is not None:
             return there.expression
         if signs in (["in"], ["not in"]) and operands[1].type in ("tuple", "list", "set"):
             return self._one_of(operands[0], operands[1], node, signs == ["in"])

@@ -14,7 +14,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import ParameterFact, RateFact, SubscriptionFact, TimerFact
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.python import body_calls, body_loops, body_methods, body_timers
+from rebsync.reverse.python import body_calls, body_loops, body_methods, body_switches, body_timers
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.py_index import CLASS, arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, text_of
@@ -72,7 +72,7 @@ def _fact(
                 raise Unread(span, "a timer that is started later is not read")
             if reader.frame.depth:
                 raise Unread(span, "whether there is this timer depends on a condition")
-            body_timers.made(reader, fact, call)
+            body_switches.made(reader, fact, call)
             switch = body_timers.switch_of(reader.reading, number)
             if switch is not None:
                 yield from started(switch)

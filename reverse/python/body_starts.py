@@ -8,9 +8,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.literals import exact_literal_of
-from rebsync.reverse.python.body_copies import presence_key
 from rebsync.reverse.python.body_methods import kept_names
 from rebsync.reverse.python.body_node_loops import EndlessLoop
+from rebsync.reverse.python.body_presence import presence_key
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
     OTHER,

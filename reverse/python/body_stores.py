@@ -11,7 +11,13 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.python import body_copies, body_messages, body_methods, body_setup, body_timers
+from rebsync.reverse.python import (
+    body_copies,
+    body_messages,
+    body_methods,
+    body_setup,
+    body_switches,
+)
 from rebsync.reverse.python.body_effects import is_harmless, may_be_of_message
 from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_reading import field_key
@@ -121,7 +127,7 @@ def _kept(
 ) -> Iterator[m.Statement] | None:
     """The statements where a variable gets a message that there is, or None; else None."""
     if value.type == "none":
-        body_timers.lost(reader, target)
+        body_switches.lost(reader, target)
         return body_copies.none(reader, variable)
     node = body_copies.original(reader.expressions, value)
     returned = body_methods.returned(reader, node)
