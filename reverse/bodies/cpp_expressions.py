@@ -16,6 +16,7 @@ from rebsync.reverse.bodies import (
     cpp_casts,
     cpp_idioms,
     cpp_mailbox,
+    cpp_pointers,
     cpp_widths,
 )
 from rebsync.reverse.bodies.building import binary, is_calm, is_place, tight
@@ -120,6 +121,8 @@ class CppExpressions(CppExpressionReader):
                 return inner if is_either else m.Unary("!", inner, self.cpp.span(node))
             case "binary_expression" if self._sign(node) in ("&&", "||"):
                 return self.binary(node, self._sign(node), named(node))
+        if (there := cpp_pointers.is_there(self, node)) is not None:
+            return there
         try:
             read = self.read(node)
             cpp_widths.check_truth(self, node)
@@ -221,6 +224,8 @@ class CppExpressions(CppExpressionReader):
                     return m.Member(self_, of_model, span, self.cpp.span(part(node, "field")))
                 return m.Name(of_model, span)
             case Outside():
+                if (number := cpp_pointers.constant_of_message(self.scope, node)) is not None:
+                    return cpp_idioms.whole(number, span)
                 raise Unknown(span, f'the model cannot know "{text_of(node)}"')
             case Runtime() | Record() | Publishes() | TimerOf() | Lambda() | Itself():
                 raise self.unread(node, f'"{text_of(node)}" is no value of the model')

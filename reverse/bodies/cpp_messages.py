@@ -15,6 +15,7 @@ from rebsync.reverse.bodies import cpp_mailbox, overloads
 from rebsync.reverse.bodies.cpp_conversions import converted_to, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_places import field_of, resolve
+from rebsync.reverse.bodies.cpp_pointers import check_shared, is_null, pointed, points
 from rebsync.reverse.bodies.cpp_roots import path_in
 from rebsync.reverse.bodies.cpp_types import wider
 from rebsync.reverse.bodies.cpp_unknowns import HINT, Demote, Unknown, choice, domain_near
@@ -228,8 +229,17 @@ def _copied(
 ) -> Iterator[m.Statement]:
     if record.pointer and target.type != "pointer_expression":
         raise Unread(reader.cpp.span(target), "a pointer to a message gets another message")
-    source, fresh = given(reader, value)
     span = reader.cpp.span(target)
+    if record.there and is_null(value):
+        yield points(record, m.BoolLiteral(False), span)
+        return
+    source, fresh = given(reader, value)
+    if not fresh:
+        check_shared(reader.cpp, record, target, value)
+    if record.there and target.type != "pointer_expression":
+        other = pointed(reader.scope, value)
+        is_there = m.Name(other.there) if other is not None else m.BoolLiteral(True)
+        yield points(record, is_there, span)
     for path, variable in record.fields.items():
         right: m.Expression | None = None
         if fresh and variable.type is not None:

@@ -90,4 +90,4 @@ def field_of(record: Record, name: str) -> Meaning:
         for path, variable in record.fields.items()
         if path.startswith(f"{name}.")
     }
-    return replace(record, fields=inner, type="") if inner else Outside()
+    return replace(record, fields=inner, type="", there="") if inner else Outside()

@@ -14,6 +14,7 @@ from rebsync.reverse.bodies import (
     cpp_mailbox,
     cpp_messages,
     cpp_plain_locals,
+    cpp_pointers,
     cpp_swap,
     cpp_timers,
 )
@@ -162,7 +163,8 @@ def _called(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | N
     if (stored := _from_seconds(reader, node)) is not None:
         return _statement(reader, node, stored)
     if function.type == "field_expression" and not is_this(part(function, "argument")):
-        return cpp_timers.switched(reader, node, function)
+        ended = cpp_pointers.ended(reader.cpp, reader.scope, node, function)
+        return ended if ended is not None else cpp_timers.switched(reader, node, function)
     return None
 
 

@@ -76,12 +76,15 @@ class Record:
 
     Fields that are not named here are outside. `type` is `package/Type` where it is known.
     A `constant` one cannot be changed through its name; a `pointer` is copied by its name alone.
+    `there` says whether a member points to a message; `shared` ones other pointers may change.
     """
 
     fields: Mapping[str, Variable]
     type: str = ""
     constant: bool = False
     pointer: bool = False
+    there: str = ""
+    shared: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,11 +115,15 @@ class Publishes:
 
 @dataclass(frozen=True, slots=True)
 class Switch:
-    """The state variables of a timer that is stopped and started, and its period in units."""
+    """The state variables of a timer that is stopped and started, and its period in units.
+
+    One that goes off once has one more: whether it will.
+    """
 
     running: str
     stale: str
     period: int
+    waiting: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -74,6 +74,10 @@ class MessageTypes:
         """The whole numbers that messages of the package give names, as the code has them."""
         return self._constants
 
+    def constant(self, type_: str, name: str) -> int | None:
+        """The value of a whole number that a message of the package names."""
+        return self._constants.get(f"{type_.replace('/', '::')}::{name}")
+
     def has_field(self, name: str) -> bool:
         """Whether a type of the package, or one that comes with ROS, has a field of this name."""
         own = (field for fields in self.own.values() for field, _, _ in fields)

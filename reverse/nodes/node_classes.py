@@ -10,7 +10,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_conversions import converted_to
 from rebsync.reverse.bodies.cpp_effects import touching
-from rebsync.reverse.bodies.cpp_timers import without_stale
+from rebsync.reverse.bodies.cpp_timers import stale_messages, without_stale
 from rebsync.reverse.bodies.cpp_unknowns import choice
 from rebsync.reverse.bodies.rewriting import STATEMENTS, rewritten
 from rebsync.reverse.findings import Findings, Unread
@@ -81,9 +81,10 @@ class NodeClass:
             members.append(m.StateVars(tuple(_declared(t, n) for n, t in state.items())))
         members.append(m.Constructor(self.name, arguments, constructor))
         members += [*servers, *methods]
+        stale = stale_messages(setup.switches, [*servers, *methods])
         return m.ReactiveClass(
             self.name,
-            self.bodies.unit.queue(len(self.bodies.setup.loops)),
+            bodies.unit.queue(len(setup.loops)) + stale,
             tuple(members),
             span=self._span(),
         )
@@ -108,9 +109,10 @@ class NodeClass:
     def _repeated(self, server: m.MessageServer, delays: bool) -> m.MessageServer:
         """The server of a timer with what makes it go on."""
         setup, body = self.bodies.setup, server.body
-        if body is None or server.name not in setup.periodic:
+        if body is None:
             return server
-        body = repeated(body, send(server.name, setup.periodic[server.name]), delays)
+        if server.name in setup.periodic:
+            body = repeated(body, send(server.name, setup.periodic[server.name]), delays)
         if server.name in setup.switches:
             body = without_stale(body, setup.switches[server.name])
         return replace(server, body=body)

@@ -13,7 +13,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.build.message_types import Fields, MessageTypes
 from rebsync.reverse.graph import Callback, Fact, ServiceFact, SubscriptionFact, TimerFact
-from rebsync.reverse.nodes.node_names import Names
+from rebsync.reverse.nodes.node_names import Names, model_word
 from rebsync.reverse.nodes.node_taken import declared, uses
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.ancestors import climb
@@ -88,10 +88,21 @@ def servers(unit: Unit, types: MessageTypes, names: Names) -> tuple[Server, ...]
 def _kind(fact: Asking, callback: Callback, types: MessageTypes) -> object:
     """What callbacks must have in common to be one server: a timer that goes on is alone."""
     if isinstance(fact, SubscriptionFact):
-        return "message", _type(fact, callback, types)
+        return "message", _type(fact, callback, types), topic_of(fact)
     if isinstance(fact, ServiceFact):
         return "service"
     return "once" if fact.one_shot is True else id(fact)
+
+
+def topic_of(fact: SubscriptionFact) -> str:
+    """The topic of a subscription: one callback for two topics is a server for each of them."""
+    return fact.topic if isinstance(fact.topic, str) else ""
+
+
+def beside_topic(name: str, fact: Fact) -> tuple[str, ...]:
+    """What a server is called whose name another one of the same callback has."""
+    topic = topic_of(fact) if isinstance(fact, SubscriptionFact) else ""
+    return (model_word(f"{name}_{topic.strip('/')}"),) if topic else ()
 
 
 def _body(callback: Callback, code: Code) -> tuple[Cpp, Node] | None:
@@ -112,7 +123,8 @@ def _server(
 ) -> Server:
     wish = callback.name.rpartition("::")[2] or _kept(fact) or "callback"
     message, bound = _arguments(callback, fact)
-    name = names.give(wish if wish != "operator()" else _of_functor(callback.through or ""))
+    wish = wish if wish != "operator()" else _of_functor(callback.through or "")
+    name = names.give(wish, *beside_topic(wish, fact))
     if isinstance(fact, ServiceFact):
         return Server(name, callback, *body, "", (), service=fact)
     if isinstance(fact, TimerFact):

@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_roots import identifiers_in
-from rebsync.reverse.bodies.cpp_timers import SWITCHING
+from rebsync.reverse.bodies.cpp_timers import SWITCHING, again, started
 from rebsync.reverse.bodies.cpp_types import carried
 from rebsync.reverse.bodies.scope import Outside, Stores, Switch, TimerOf, Variable
 from rebsync.reverse.findings import Findings, Unread
@@ -176,40 +176,41 @@ class Setup:
         period = self.times.units(fact, self.instances, self.findings, within)
         if period is not None and periodic:
             self.periodic[server.name] = period
-            if fact.one_shot is False and self._is_switched(fact):
-                self.switches[server.name] = Switch(*self.state.switch(kept), period)
+        at_start = self._is_first(fact) or self._at_once(fact)
+        alone = fact.one_shot is False or server.timers == (fact,)
+        if period is not None and at_start and alone and self._is_switched(fact):
+            variables = self.state.switch(kept, not periodic)
+            self.switches[server.name] = Switch(*variables[:2], period, variables[2])
         statement = enclosing_statement(call)
-        if statement is None or not (self._is_first(fact) or self._at_once(fact)):
+        if statement is None or not at_start:
             if statement is not None:
                 self.instead.pop(statement.id, None)
             return
         self.instead[statement.id] = ()
         others = [f for f in self.facts if isinstance(f, TimerFact) and share_variable(fact, f)]
-        if self._is_again(fact) or any(f not in replaced(self.facts) for f in others):
+        stopped = self.switches.get(server.name)
+        is_again = self._is_again(fact) and stopped is None
+        if is_again or any(f not in replaced(self.facts) for f in others):
             place = fact.site.place
             self.findings.assumed(place.source, place.span, _AGAIN, within=within)
         if fact.autostart is True and period is not None:
-            running = self._running(server.name)
-            self.instead[statement.id] = (*running, send(server.name, period))
+            starts: tuple[m.Statement, ...] = (send(server.name, period),)
+            if stopped is not None:
+                remade = tuple(again(server.name, stopped))
+                starts = remade if self._is_again(fact) else (*started(stopped), *starts)
+            self.instead[statement.id] = starts
         elif fact.autostart not in (True, False):
             self._listed(fact, "it is not known whether the timer starts at once")
 
     def _is_switched(self, fact: TimerFact) -> bool:
-        """Whether bodies stop or start a timer that alone has its variable."""
+        """Whether bodies stop or start a timer that alone has its variable, or make it anew."""
         kept = fact.site.kept.removeprefix("this->")
         others = [f for f in self.facts if isinstance(f, TimerFact) and share_variable(fact, f)]
         if not kept.isidentifier() or any(f not in replaced(self.facts) for f in others):
             return False
         calls = (c for f in self.state.unit.functions for c in self.code.calls_of(f))
         own = (c for c in calls if c.on.removeprefix("this->") == kept and not c.arguments)
-        return any(c.name in SWITCHING for c in own)
-
-    def _running(self, server: str) -> tuple[m.Statement, ...]:
-        """What says that a timer runs that is stopped at times."""
-        if server not in self.switches:
-            return ()
-        running = m.Name(self.switches[server].running)
-        return (m.ExpressionStatement(m.Assign("=", running, m.BoolLiteral(True))),)
+        return self._is_again(fact) or any(c.name in SWITCHING for c in own)
 
     def _is_again(self, fact: TimerFact) -> bool:
         """Whether a timer may be made while it is still running: by what a server calls."""

@@ -9,7 +9,8 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_messages import zero_of
+from rebsync.reverse.bodies.cpp_messages import is_pointer, zero_of
+from rebsync.reverse.bodies.cpp_pointers import is_changed, is_null, is_tested
 from rebsync.reverse.bodies.cpp_types import Carried, carried, is_time, wider
 from rebsync.reverse.bodies.cpp_unknowns import domain_near
 from rebsync.reverse.bodies.cpp_widths import place_of
@@ -69,7 +70,7 @@ class State:
     initial: list[tuple[Cpp, Stores]] = field(default_factory=list)
     wide: dict[str, Wide] = field(default_factory=dict)
     unset: dict[str, UnsetVariable] = field(default_factory=dict)
-    switches: dict[str, tuple[str, str]] = field(default_factory=dict)
+    switches: dict[str, tuple[str, str, str]] = field(default_factory=dict)
     taken: UsedNames = field(init=False)  # the names that the unit's functions have
     _outlived: dict[tuple[int, frozenset[str], bool], dict[int, tuple[Stores, ...]]] = field(
         default_factory=dict
@@ -100,7 +101,7 @@ class State:
         meaning = self.meaning(member.name, member.type, declarator, member.cpp, self.taken)
         self.members[member.name] = meaning
         given = outside if outside is not None else member
-        if given.value is not None:
+        if given.value is not None and not is_null(given.value):
             braces = given.value.type == "initializer_list"
             values = named(given.value) if braces else [given.value]
             stores = self.stored(meaning, values)
@@ -121,12 +122,14 @@ class State:
             case _:
                 pass
 
-    def switch(self, timer: str) -> tuple[str, str]:
-        """The variables for whether a timer runs, and how many of its messages do not count."""
+    def switch(self, timer: str, once: bool) -> tuple[str, str, str]:
+        """Whether a timer runs, how many of its messages are stale, whether it goes off `once`."""
         if timer not in self.switches:
             wish = timer.rstrip("_")
             running = self._new([f"{wish}_running"], BOOLEAN)
-            self.switches[timer] = running, self._new([f"{wish}_stale"], INT)
+            stale = self._new([f"{wish}_stale"], INT)
+            waiting = self._new([f"{wish}_waiting"], BOOLEAN) if once else ""
+            self.switches[timer] = running, stale, waiting
         return self.switches[timer]
 
     def zeros(self, meaning: Member | None) -> tuple[Stores, ...]:
@@ -162,7 +165,7 @@ class State:
         shape = declarator.type if declarator is not None else "identifier"
         message = self.types.named(text_of(type_))
         if message is not None and shape in ("identifier", "field_identifier"):
-            return self._record(message, wish, cpp, type_)
+            return self._record(message, name, wish, cpp, type_)
         if shape == "array_declarator" and declarator is not None:
             return self._array(wish, name, type_, declarator, cpp, taken)
         if shape not in ("identifier", "field_identifier", "init_declarator"):
@@ -193,7 +196,7 @@ class State:
         self.variables[given] = type_
         return given
 
-    def _record(self, message: str, wish: str, cpp: Cpp, node: Node) -> Record:
+    def _record(self, message: str, name: str, wish: str, cpp: Cpp, node: Node) -> Record:
         fields = {}
         for path, type_ in (self.types.fields(message) or {}).items():
             plain = type_ is not None and not type_.dimensions
@@ -202,7 +205,14 @@ class State:
                 fields[path] = self.types.variable(message, path, given, type_)
                 kept = Carried(type_, 0, wider(path), fields[path].wide)
                 self._note_wide(given, kept, cpp, node)
-        return Record(fields, message)
+        if not is_pointer(text_of(node)):
+            return Record(fields, message)
+        texts = [text_of(f.node) for f in self.unit.functions]
+        tested = any(is_tested(name, text) for text in texts)
+        there = self._new([f"{wish}_is_there"], BOOLEAN) if tested else ""
+        constant = "Const" in text_of(node) or "<const" in text_of(node)
+        shared = not constant and any(is_changed(fields, text) for text in texts)
+        return Record(fields, message, there=there, shared=shared)
 
     def _array(
         self, wish: str, name: str, type_: Node, declarator: Node, cpp: Cpp, taken: Container[str]

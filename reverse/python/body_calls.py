@@ -16,6 +16,7 @@ from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import NotWhole, Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.python import body_timers
 from rebsync.reverse.python.body_arguments import arguments
 from rebsync.reverse.python.body_effects import is_harmless, is_still
 from rebsync.reverse.python.body_scope import (
@@ -44,6 +45,9 @@ def called(reader: BodyExpressionReader, node: Node) -> Value:
     own = reader.reading.function(function, reader.frame)
     if own is not None:
         return value_of_method(reader, own, node)
+    stopped = body_timers.is_stopped(reader.reading, node, reader.frame)
+    if stopped is not None:
+        return Value(stopped, TRUTH)
     name = reader.reading.external(function, reader.frame)
     plain, keywords = arguments_of(node)
     if name.startswith("builtins.") and not keywords:

@@ -12,6 +12,7 @@ from rebsync import model as m
 from rebsync.intervals import Interval
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.invariants import Body, BodyStart, Unbounded, unbounded
+from rebsync.reverse.bodies.cpp_timers import stale_messages, without_stale
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Unread
@@ -37,6 +38,7 @@ from rebsync.reverse.python.body_scope import (
 )
 from rebsync.reverse.python.body_starts import constructor, declared
 from rebsync.reverse.python.body_statements import PyStatements
+from rebsync.reverse.python.body_timers import switch_of
 from rebsync.reverse.python.body_units import runs_in_threads
 from rebsync.reverse.python.object_model import decorated_callback
 from rebsync.reverse.python.py_callbacks import body_of
@@ -139,9 +141,13 @@ class PyClass:
         ranges = dict(self._ranges(server, carried))
         period = reading.periods.get(number)
         fact = server.timers[0] if server.timers else None
+        body = m.Block(statements)
         if fact is not None and fact.one_shot is not True and period is not None:
-            body, again = m.Block(statements), send(server.name, period)
-            statements = repeated(body, again, takes_time(body)).statements
+            body = repeated(body, send(server.name, period), takes_time(body))
+        switch = switch_of(reading, number)
+        if switch is not None:
+            body = without_stale(body, switch)
+        statements = body.statements
         return ReadServer(server.name, statements, carried, ranges, scope.node)
 
     def _body(self, reader: PyStatements, scope: Scope) -> tuple[m.Statement, ...]:
@@ -201,9 +207,11 @@ class PyClass:
         members.append(m.Constructor(name, (), body))
         unit = self.reading.unit
         first = unit.lineage[0] if unit.lineage else unit.module
+        stopped = ((s.name, switch_of(self.reading, n)) for n, s in self.reading.servers.items())
+        stale = stale_messages({n: s for n, s in stopped if s is not None}, servers)
         return m.ReactiveClass(
             name,
-            self.reading.unit.unit.queue(len(self.loops)),
+            self.reading.unit.unit.queue(len(self.loops)) + stale,
             (*members, *servers),
             span=first.py.span(first.node),
         )

@@ -24,6 +24,7 @@ from rebsync.reverse.python.body_scope import (
     Value,
     unknown,
 )
+from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.source import Span
 from rebsync.static.types import DOUBLE
@@ -49,11 +50,21 @@ class BodyExpressionReader(ABC):
         if isinstance(meaning, Own) and not path:
             return self.reading.attribute(name, node, self.frame), ""
         if isinstance(meaning, Message):
+            number = self.reading.types.constant(meaning.type, name) if not path else None
+            if number is not None:
+                return Value(exact_literal_of(number), WHOLE), ""
             return meaning, f"{path}.{name}" if path else name
         if self.reading.values.is_stored(name) or not isinstance(meaning, Nobody):
             return Nobody(), ""
         found = self.reading.constant(self.reading.values.ways(node, self.frame.scope))
-        return found or Nobody(), ""
+        return found or self._constant_of_message(node) or Nobody(), ""
+
+    def _constant_of_message(self, node: Node) -> Value | None:
+        """`Mode.RUN`: a constant of a message type of the package."""
+        type_, _, name = self.reading.external(node, self.frame).rpartition(".")
+        of = interface_of(type_) if type_ else None
+        number = self.reading.types.constant(of, name) if of is not None else None
+        return Value(exact_literal_of(number), WHOLE) if number is not None else None
 
     def real(self, value: Value, node: Node, what: str = "real") -> m.Expression:
         """A number where the model is to compute with 64 bits."""

@@ -16,7 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, negated, tight
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.python import body_calls
+from rebsync.reverse.python import body_calls, body_presence
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_floats import doubled, is_zero
@@ -78,6 +78,9 @@ class PyExpressions(BodyExpressionReader):
 
     def condition(self, node: Node) -> m.Expression:
         """A condition; one that nobody knows may be true or false, and is listed."""
+        there = body_presence.is_there(self, node)
+        if there is not None:
+            return there
         try:
             return self.truth(self.read(node), node)
         except Unknown as open_:
@@ -251,6 +254,10 @@ class PyExpressions(BodyExpressionReader):
     def _compared(self, node: Node) -> m.Expression:
         operands = named(node)
         signs = [text_of(c) for c in node.children_by_field_name("operators")]
+        if (there := body_presence.compared_with_none(self, operands, signs)) is not None:
+            return there.expression
+        if signs in (["in"], ["not in"]) and operands[1].type in ("tuple", "list", "set"):
+            return self._one_of(operands[0], operands[1], node, signs == ["in"])
         if len(signs) != len(operands) - 1 or not set(signs) <= _COMPARES:
             raise unknown(self.frame, node, f'"{short(node)}"')
         values = [self.read(o) for o in operands]
@@ -263,6 +270,19 @@ class PyExpressions(BodyExpressionReader):
             found = one if found is None else binary("&&", found, one, self._span(node))
         assert found is not None
         return found
+
+    def _one_of(self, value: Node, of: Node, node: Node, holds: bool) -> m.Expression:
+        """`x in (1, 2)`."""
+        read = self.read(value)
+        if not is_calm(read.expression) or not named(of):
+            raise unknown(self.frame, node, f'"{short(node)}"')
+        found: m.Expression | None = None
+        for number, other in enumerate(named(of)):
+            pair = self._pair(read, self.read(other), node, number)
+            one = binary("==", *pair, self._span(node))
+            found = one if found is None else binary("||", found, one, self._span(node))
+        assert found is not None
+        return found if holds else negated(found)
 
     def _pair(
         self, left: Value, right: Value, node: Node, number: int

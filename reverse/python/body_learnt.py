@@ -21,8 +21,9 @@ class Learnt:
     """What is known of all bodies of a package so far: each round of reading adds to it.
 
     `kinds` are those of variables; `mixed` those of floats that also get whole numbers; `used` are
-    the fields that servers read, `open` those whose values nobody knows; `refused` are expressions
-    that may leave the model's `int`; on `pending` variables something stood in the last reading.
+    the fields that servers read, `wanted` those of messages in variables that something reads;
+    `open` those whose values nobody knows; `refused` are expressions that may leave the model's
+    `int`; on `pending` variables something stood in the last reading.
     Reading a unit asks for these by the methods alone, so that `answers` is all that it depends on:
     while they are the same, it would be read the same again.
     """
@@ -31,6 +32,7 @@ class Learnt:
     mixed: set[Key] = with_default(default_factory=set)
     used: dict[tuple[str, str], set[str]] = with_default(default_factory=dict)
     open: set[tuple[str, str, str]] = with_default(default_factory=set)
+    wanted: set[Key] = with_default(default_factory=set)
     refused: set[Mark] = with_default(default_factory=set)
     pending: set[Key] = with_default(default_factory=set)
     answers: dict[Asked, object] = with_default(default_factory=dict)
@@ -98,6 +100,13 @@ class Learnt:
     def _used_of(self, server: tuple[str, str]) -> frozenset[str]:
         return frozenset(self.used.get(server, ()))
 
+    def is_wanted(self, key: Key) -> bool:
+        """Whether something reads a field of a message in a variable."""
+        return self._noted(self._is_wanted, key, key in self.wanted)
+
+    def _is_wanted(self, key: Key) -> bool:
+        return key in self.wanted
+
     def is_open(self, unit: str, server: str, path: str) -> bool:
         """Whether nobody knows the value of a field that a server gets."""
         about = unit, server, path
@@ -150,6 +159,12 @@ class Learnt:
         fields = self.used.setdefault((unit, server), set())
         if path not in fields:
             fields.add(path)
+            self.changes += 1
+
+    def want(self, key: Key) -> None:
+        """A field of a message in a variable is read."""
+        if key not in self.wanted:
+            self.wanted.add(key)
             self.changes += 1
 
     def leave_open(self, unit: str, server: str, path: str) -> None:

@@ -14,8 +14,9 @@ from rebsync.reverse.build.message_types import Fields
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.python import body_containers, body_methods
 from rebsync.reverse.python.body_effects import is_harmless
-from rebsync.reverse.python.body_reading import field_key, zero
+from rebsync.reverse.python.body_reading import Reading, field_key, zero
 from rebsync.reverse.python.body_scope import (
     OTHER,
     REAL,
@@ -113,7 +114,10 @@ def published(reader: BodyStatementReader, call: Node) -> Iterator[m.Statement] 
         return None
     if text_of(field(function, "attribute")) not in libraries.publishing():
         return None
-    found = reader.reading.made_by(field(function, "object"), reader.frame)
+    holder = field(function, "object")
+    by_key = holder.type == "subscript"
+    asked = body_containers.element if by_key else Reading.made_by
+    found = asked(reader.reading, holder, reader.frame)
     number, fact = found if found is not None else (0, None)
     if not isinstance(fact, PublisherFact):
         raise Unread(reader.frame.span(call), "it is not known what this publishes to")
@@ -128,6 +132,11 @@ def _sends(
     type_ = fact.type if isinstance(fact.type, str) else ""
     given: dict[str, Node] | None = None
     message = plain[0] if len(plain) == 1 and not keywords else None
+    back = body_methods.returned(reader, message) if message is not None else None
+    if back is not None and _is_message(back[1], back[2], type_):
+        first, reader, message = back
+        yield from first
+        plain = [message]
     if message is None or not _is_message(reader, message, type_):
         given = arguments_by_name(
             reader.expressions, call, reader.reading.types.fields(type_) or {}

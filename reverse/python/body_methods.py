@@ -18,8 +18,8 @@ from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import Frame, Message, Nobody, Own, Var
 from rebsync.reverse.python.body_variables import give
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import PyParameter, Scope, has_splat
-from rebsync.reverse.python.py_tree import text_of
+from rebsync.reverse.python.py_index import FUNCTION, PyParameter, Scope, has_splat
+from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.body_statement_reader import BodyStatementReader
@@ -30,6 +30,41 @@ _INNER = frozenset({"function_definition", "lambda"})
 
 def inlined(reader: BodyStatementReader, own: Scope, call: Node) -> Iterator[m.Statement]:
     """A call as a statement: the body of the function, with its parameters as locals."""
+    first, inner = _entered(reader, own, call)
+    found = inner.body(body_of(own))
+    reader.is_over = reader.is_over or (inner.frame.is_start and inner.is_over)
+    plain = without_returns(found)
+    if plain is None:
+        why = "what it calls ends in the middle of a loop, or by cases"
+        raise Unread(reader.frame.span(call), why)
+    yield from first
+    yield from plain
+
+
+def returned(
+    reader: BodyStatementReader, call: Node
+) -> tuple[list[m.Statement], BodyStatementReader, Node] | None:
+    """What a function of the node does and returns at its end, and who reads what it returns.
+
+    None for what is no call of a function that returns a value there and nowhere else.
+    """
+    own = reader.reading.function(field(call, "function"), reader.frame) if _is_call(call) else None
+    nodes = body_of(own) if own is not None and own.kind == FUNCTION else []
+    returns = [n for n in nodes_in(own.node) if n.type == "return_statement"] if own else []
+    if own is None or not nodes or returns != nodes[-1:] or not named(nodes[-1]):
+        return None
+    first, inner = _entered(reader, own, call)
+    return [*first, *inner.body(nodes[:-1])], inner, named(nodes[-1])[0]
+
+
+def _is_call(node: Node) -> bool:
+    return node.type == "call"
+
+
+def _entered(
+    reader: BodyStatementReader, own: Scope, call: Node
+) -> tuple[list[m.Statement], BodyStatementReader]:
+    """What a call puts into the parameters of a function, and who reads its body."""
     span = reader.frame.span(call)
     if own.node.id in reader.running or len(reader.running) > _DEEPEST:
         raise Unread(span, "a function that leads to itself is not read")
@@ -46,13 +81,7 @@ def inlined(reader: BodyStatementReader, own: Scope, call: Node) -> Iterator[m.S
     first: list[m.Statement] = []
     for parameter, node, given in arguments(own, call, span):
         first += _bound(reader, inner, parameter, node, given)
-    found = inner.body(body_of(own))
-    reader.is_over = reader.is_over or (frame.is_start and inner.is_over)
-    plain = without_returns(found)
-    if plain is None:
-        raise Unread(span, "what it calls ends in the middle of a loop, or by cases")
-    yield from first
-    yield from plain
+    return first, inner
 
 
 def kept_names(reading: Reading, own: Scope) -> frozenset[str]:

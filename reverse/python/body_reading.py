@@ -39,7 +39,7 @@ from rebsync.reverse.python.body_scope import (
 )
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
-from rebsync.reverse.python.py_lookup import attribute
+from rebsync.reverse.python.py_lookup import attribute, bound
 from rebsync.reverse.python.py_tree import field, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import External, Function, Made, Module, Ways
@@ -53,7 +53,7 @@ class Reading:
 
     `taken` are the names of the code, which locals that the model gets do not have; `periods` those
     of timers, in units, by the number of their fact; `nodes` are the classes of all units, and
-    `bodies` the functions that were read, by the ids of their nodes.
+    `bodies` the functions that were read and `timers` the calls, by the ids of their nodes.
     """
 
     unit: PyUnit
@@ -76,6 +76,7 @@ class Reading:
     keys: dict[str, Key] = with_default(default_factory=dict)
     made: set[str] = with_default(default_factory=set)
     loop_names: dict[int, str] = with_default(default_factory=dict)
+    timers: set[int] = with_default(default_factory=set)
     places: dict[str, tuple[Source, Span]] = with_default(default_factory=dict)
 
     @property
@@ -126,7 +127,7 @@ class Reading:
         if self.values.is_stored(text, Module):
             return Nobody()
         if len(bindings) == 1 and bindings[0].how == "value":
-            found = self.constant(self.values.ways(bindings[0].value, module))
+            found = self.constant(bound(self.values, bindings[0], text, module))
             if found is not None:
                 return found
         return self._variable(("module", module.node.id, text), text)
@@ -281,6 +282,7 @@ class Reading:
             name = m.Name(self.parameter(path), frame.span(node))
             return Value(name, field_kind(type_), type_.name == "float")
         key = field_key(message, path)
+        self.learnt.want(key)
         match self.learnt.kind(key):
             case None:
                 return zero(field_kind(type_))

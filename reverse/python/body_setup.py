@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies.cpp_timers import started
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import ParameterFact, RateFact, SubscriptionFact, TimerFact
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.python import body_calls, body_loops, body_methods
+from rebsync.reverse.python import body_calls, body_loops, body_methods, body_switches, body_timers
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.py_index import CLASS, arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, text_of
@@ -70,6 +72,10 @@ def _fact(
                 raise Unread(span, "a timer that is started later is not read")
             if reader.frame.depth:
                 raise Unread(span, "whether there is this timer depends on a condition")
+            body_switches.made(reader, fact, call)
+            switch = body_timers.switch_of(reader.reading, number)
+            if switch is not None:
+                yield from started(switch)
             yield send(server.name, period, call, reader)
         case SubscriptionFact(single=True):
             raise Unread(span, "it waits here for one message")
@@ -83,6 +89,10 @@ def _started(reader: BodyStatementReader, call: Node, name: str) -> Iterator[m.S
     """What only starts the node, or lets it run."""
     function = field(call, "function")
     last = last_name(function)
+    if (method := _of_new_object(reader, function)) is not None:
+        return chain(*method)
+    if last != "__init__" and reader.reading.function(function, reader.frame) is not None:
+        return None
     asked_ = libraries.function(name)
     kind = asked_.kind if asked_ is not None else None
     if kind is Kind.SPIN or (last == "spin" and not name):
@@ -110,6 +120,23 @@ def _started(reader: BodyStatementReader, call: Node, name: str) -> Iterator[m.S
     if any(isinstance(w, Class) and w.scope.kind == CLASS for w in ways):
         return iter(())
     return None
+
+
+def _of_new_object(
+    reader: BodyStatementReader, function: Node
+) -> tuple[Iterator[m.Statement], Iterator[m.Statement]] | None:
+    """`Node().spin()`: the object is made, then its method runs; None for all else."""
+    made = field(function, "object") if function.type == "attribute" else function
+    lineage = reader.reading.unit.lineage
+    if made.type != "call" or not lineage:
+        return None
+    ways = reader.reading.values.ways(field(made, "function"), reader.frame.scope)
+    own = reader.reading.method(last_name(function), 0)
+    if own is None or not any(isinstance(w, Class) and w.scope is lineage[0] for w in ways):
+        return None
+    call = function.parent
+    first = _started(reader, made, "")
+    return (first or iter(()), body_methods.inlined(reader, own, call or made))
 
 
 def _exit(reader: BodyStatementReader, given: list[Node]) -> Iterator[m.Statement]:

@@ -10,10 +10,12 @@ from rebsync import model as m
 from rebsync.literals import exact_literal_of
 from rebsync.reverse.python.body_methods import kept_names
 from rebsync.reverse.python.body_node_loops import EndlessLoop
+from rebsync.reverse.python.body_presence import presence_key
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
     OTHER,
     REAL,
+    TRUTH,
     TYPES,
     WHOLE,
     Frame,
@@ -98,6 +100,9 @@ def declared(reading: Reading) -> Iterator[m.Statement]:
         if not bindings:
             continue
         binding, scope = bindings[0]
+        if binding.value.type == "none" and len(bindings) == 1:
+            reading.learnt.join(presence_key(reading.state[name]), TRUTH)
+            continue
         value = reading.constant(reading.values.ways(binding.value, scope))
         kind = value.kind if value is not None and len(bindings) == 1 else OTHER
         reading.learnt.join(reading.state[name], kind)

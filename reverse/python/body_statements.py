@@ -18,6 +18,7 @@ from rebsync.reverse.python import (
     body_methods,
     body_setup,
     body_stores,
+    body_switches,
     body_variables,
 )
 from rebsync.reverse.python.body_effects import (
@@ -172,7 +173,7 @@ class PyStatements(BodyStatementReader):
         if sends is not None:
             yield from sends
             return
-        known = body_setup.asked(self, node)
+        known = body_setup.asked(self, node) or body_switches.switched(self, node)
         if known is not None:
             yield from known
             return

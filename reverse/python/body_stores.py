@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -10,7 +11,13 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.python import body_messages, body_setup
+from rebsync.reverse.python import (
+    body_copies,
+    body_messages,
+    body_methods,
+    body_setup,
+    body_switches,
+)
 from rebsync.reverse.python.body_effects import is_harmless, may_be_of_message
 from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_reading import field_key
@@ -26,6 +33,10 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 
+_CONTAINERS = frozenset({"dictionary", "list", "tuple"})
+_PLACES = frozenset({"identifier", "attribute"})
+
+
 def assignment(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     """`target = value`; several targets get it from left to right."""
     targets = [field(node, "left")]
@@ -39,7 +50,12 @@ def assignment(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]
         known = body_setup.asked(reader, value)
         if known is not None:
             yield from known
+            if len(targets) == 1:
+                yield from body_copies.made(reader, targets[0])
             return
+    if value.type in _CONTAINERS and len(targets) == 1 and targets[0].type in _PLACES:
+        yield from _contained(reader, targets[0], value, node)
+        return
     if len(targets) > 1 and value.type not in ("integer", "float", "true", "false", "none"):
         raise Unread(reader.frame.span(node), "several variables get one value")
     for target in targets:
@@ -59,6 +75,11 @@ def _assigned(
     since = len(learnt.answers)
     meaning, path = reader.expressions.meaning(target)
     type_ = reader.reading.message_type(value, reader.frame)
+    if isinstance(meaning, Var | Message) and not path and not getattr(meaning, "server", ""):
+        known = _kept(reader, meaning, target, value)
+        if known is not None:
+            yield from known
+            return
     if value.type in ("identifier", "attribute") and _is_changed(reader, target, value):
         raise Unread(reader.frame.span(node), "another name for an object that is changed")
     match meaning:
@@ -69,6 +90,7 @@ def _assigned(
             reader.frame.assigned.add(text_of(target))
             if isinstance(meaning, Message):
                 yield from body_messages.made(reader, meaning, value)
+                yield from body_copies.presence(reader, meaning, True)
         case Var():
             yield from _variable(reader, meaning, target, value, node, since)
         case Message(server="") if path:
@@ -84,6 +106,39 @@ def _assigned(
                 why = "this may be a field of a message that has another name as well"
                 raise Unread(reader.frame.span(node), why)
             outside(reader, value, node)
+
+
+def _contained(
+    reader: BodyStatementReader, target: Node, value: Node, node: Node
+) -> Iterator[m.Statement]:
+    """A list, tuple or dictionary, of which the model has nothing but what is made in it."""
+    for each in named(value):
+        inner = field(each, "value") if each.type == "pair" else each
+        made = body_setup.asked(reader, inner) if inner.type == "call" else None
+        if made is not None:
+            yield from made
+        else:
+            outside(reader, each, node)
+    forget(reader, target)
+
+
+def _kept(
+    reader: BodyStatementReader, variable: Var | Message, target: Node, value: Node
+) -> Iterator[m.Statement] | None:
+    """The statements where a variable gets a message that there is, or None; else None."""
+    if value.type == "none":
+        body_switches.lost(reader, target)
+        return body_copies.none(reader, variable)
+    node = body_copies.original(reader.expressions, value)
+    returned = body_methods.returned(reader, node)
+    if returned is not None:
+        first, inner, given = returned
+        if body_copies.type_of(inner.expressions, given) is None:
+            return None
+        return chain(first, body_copies.kept(reader, target, inner, given, value))
+    if node.type == "call" or body_copies.type_of(reader.expressions, node) is None:
+        return None
+    return body_copies.kept(reader, target, reader, node, value)
 
 
 def _is_changed(reader: BodyStatementReader, *names: Node) -> bool:

@@ -21,7 +21,7 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.nodes.node_names import Names
-from rebsync.reverse.nodes.node_servers import Server
+from rebsync.reverse.nodes.node_servers import Server, beside_topic, topic_of
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.py_evaluator import lineage
@@ -164,7 +164,7 @@ def servers_of(code: PyCode, unit: PyUnit, names: Names) -> dict[int, Server]:
 def _kind(fact: Fact) -> object:
     match fact:
         case SubscriptionFact():
-            return "message", str(fact.type)
+            return "message", str(fact.type), topic_of(fact)
         case TimerFact() if fact.one_shot is not True:
             return fact.site.call.id
         case _:
@@ -183,7 +183,8 @@ def _server(fact: Fact, callback: Callback, scope: Scope, names: Names) -> Serve
     parameters = scope.parameters[1:] if scope.self_name is not None else scope.parameters
     first = len(callback.bound)
     message = parameters[first].name if len(parameters) > first else ""
-    plain = Server(names.give(wish), callback, scope.py, scope.node, message, ())
+    name = names.give(wish, *beside_topic(wish, fact))
+    plain = Server(name, callback, scope.py, scope.node, message, ())
     match fact:
         case SubscriptionFact():
             type_ = fact.type if isinstance(fact.type, str) else None

@@ -46,6 +46,9 @@ from rebsync.reverse.python.py_worth import (
     resolved,
 )
 
+_AROUND = frozenset({"parenthesized_expression", "await"})
+_CONTAINERS = frozenset({"dictionary", "pair", "list", "tuple"})
+
 
 def graph_of(code: PyCode) -> Graph:
     """All that some files ask of ROS."""
@@ -238,16 +241,20 @@ def owner_of(scope: Scope) -> str | None:
 
 
 def _kept(call: Node) -> str:
-    above = call.parent
-    node = call
-    while above is not None and above.type in ("parenthesized_expression", "await"):
+    """The variable that the result of a call is put into, or its place in one."""
+    above, node, place = call.parent, call, ""
+    while above is not None and above.type in (*_AROUND, *_CONTAINERS):
+        if above.type == "pair" and field(above, "value") == node:
+            place = f"[{text_of(field(above, 'key'))}]{place}"
+        elif above.type in _CONTAINERS and node.type != "pair":
+            place = f"[{named(above).index(node)}]{place}"
         node, above = above, above.parent
     if (
         above is not None
         and above.type == "assignment"
         and above.child_by_field_name("right") == node
     ):
-        return text_of(field(above, "left"))
+        return text_of(field(above, "left")) + place
     if above is not None and above.type == "argument_list" and above.parent is not None:
         called = field(above.parent, "function")
         if called.type == "attribute" and text_of(field(called, "attribute")) == "append":

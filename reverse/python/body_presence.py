@@ -1,0 +1,52 @@
+"""Whether a variable holds a message or timer, and not None."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.python.body_scope import TRUTH, Key, Message, Value, Var
+from rebsync.reverse.python.body_timers import is_timer
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
+
+
+def presence_key(key: Key) -> Key:
+    """The variable that says whether a variable holds a message, and not None."""
+    where, number, name = key
+    return where, number, f"{name} is there"
+
+
+def is_there(reader: BodyExpressionReader, node: Node) -> m.Expression | None:
+    """Whether a variable holds a message or timer, and not None; None for other expressions."""
+    if node.type not in ("identifier", "attribute"):
+        return None
+    meaning, path = reader.meaning(node)
+    if path or not isinstance(meaning, Message | Var):
+        return None
+    if isinstance(meaning, Var) and not (
+        meaning.is_state and is_timer(reader.reading, node, reader.frame)
+    ):
+        return None
+    key = presence_key(meaning.key)
+    reader.reading.learnt.want(key)
+    is_server = isinstance(meaning, Message) and bool(meaning.server)
+    if is_server or reader.reading.learnt.kind(key) is None:
+        return m.BoolLiteral(True)
+    name = reader.reading.state_name(key, f"{meaning.name}_is_there")
+    return m.Name(name, reader.frame.span(node))
+
+
+def compared_with_none(
+    reader: BodyExpressionReader, operands: list[Node], signs: list[str]
+) -> Value | None:
+    """`message is None`, `message is not None`; None for other comparisons."""
+    if len(operands) != 2 or operands[1].type != "none":
+        return None
+    found = is_there(reader, operands[0])
+    if found is None or signs[0] not in ("is", "==", "is not", "!="):
+        return None
+    return Value(found if "n" in signs[0] or signs[0] == "!=" else m.Unary("!", found), TRUTH)
