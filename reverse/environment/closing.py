@@ -18,6 +18,7 @@ from rebsync.records import dataclass
 from rebsync.reserved import KEEP_LAST, OPEN
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.representatives import representatives
+from rebsync.reverse.environment.scopes import Scope
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.open_ends import OpenEnd
 from rebsync.static.constants import Value
@@ -115,7 +116,7 @@ class _Environment:
         """The fields of a message by their paths, which all its receivers get alike."""
         for path in dict.fromkeys(path for own in parameters for path in own):
             given = [(e, own[path]) for e, own in zip(ends, parameters, strict=True) if path in own]
-            places = {(end.owner, parameter.name) for end, parameter in given}
+            places = {_scope(self.model, end).variable(own.name) for end, own in given}
             type_ = given[0][1].type
             range_ = self.types.range_of(ends[0].type or "", path)
             found = representatives(self.model, places, type_, self.properties, range_)
@@ -154,17 +155,26 @@ class _Environment:
         return replace(self.model, classes=(*classes, environment), main=main)
 
 
+def _server(model: m.Model, end: OpenEnd) -> tuple[m.ReactiveClass, m.MessageServer]:
+    """The server of an open end, and its class."""
+    return next(
+        (owner, member)
+        for owner in model.classes
+        if isinstance(owner, m.ReactiveClass) and owner.name == end.owner
+        for member in owner.members
+        if isinstance(member, m.MessageServer) and member.name == end.server
+    )
+
+
+def _scope(model: m.Model, end: OpenEnd) -> Scope:
+    return Scope.of(*_server(model, end))
+
+
 def _parameters(model: m.Model, end: OpenEnd) -> dict[str, m.Parameter]:
     """The parameters of an open server by the paths of the fields that they get."""
-    server = next(
-        x
-        for c in model.classes
-        if isinstance(c, m.ReactiveClass) and c.name == end.owner
-        for x in c.members
-        if isinstance(x, m.MessageServer) and x.name == end.server
-    )
-    paths = end.fields if len(end.fields) == len(server.parameters) else None
-    return dict(zip(paths or (p.name for p in server.parameters), server.parameters, strict=True))
+    parameters = _server(model, end)[1].parameters
+    paths = end.fields if len(end.fields) == len(parameters) else None
+    return dict(zip(paths or (p.name for p in parameters), parameters, strict=True))
 
 
 def _sent(end: OpenEnd, variables: Iterable[str]) -> m.Statement:

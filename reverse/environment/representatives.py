@@ -16,6 +16,12 @@ from rebsync import model as m
 from rebsync.intervals import INT32, INTEGERS, Interval
 from rebsync.properties import Properties, state_expressions
 from rebsync.records import dataclass
+from rebsync.reverse.environment.constant_variables import (
+    Constants,
+    constant_variables,
+    possible_constants,
+)
+from rebsync.reverse.environment.scopes import Scope, Variable
 from rebsync.static.constants import Value, constant, single
 
 _COMPARISONS = frozenset({"==", "!=", "<", "<=", ">", ">="})
@@ -43,12 +49,12 @@ class Representatives:
 
 def representatives(
     model: m.Model,
-    places: Collection[tuple[str, str]],
+    places: Collection[Variable],
     type_: m.Type,
     properties: Properties,
     within: Interval | None = None,
 ) -> Representatives:
-    """Values for parameters of servers that get the same value, each by its class and name.
+    """Values for parameters of servers that get the same value.
 
     Whole numbers are those of the type, or `within` an interval.
     """
@@ -56,7 +62,8 @@ def representatives(
         return Representatives((), False)
     if type_.name == "boolean":
         return Representatives((False, True), True)
-    flow = DataFlow(type_.name, _constants(model), set(places))
+    env = _constants(model)
+    flow = DataFlow(type_.name, env, constant_variables(model, env), set(places))
     flow.follow(model, properties)
     integer = type_.name in INTEGERS
     range_ = within or INTEGERS.get(type_.name, INT32)
@@ -111,13 +118,14 @@ def _constants(model: m.Model) -> dict[str, Value]:
 class DataFlow:
     """Where a value of a type goes: variables by class and name, and methods that return it.
 
-    `cuts` are the constants that it is compared with. It is no more `is_exact` once something
-    else is done with it than to copy and to compare it so.
+    `cuts` are the constants that it is compared with, also as `settled` variables. It is no more
+    `is_exact` once something else is done with it than to copy and to compare it so.
     """
 
     type: str
     constants: Mapping[str, Value]
-    variables: set[tuple[str, str]]
+    settled: Constants
+    variables: set[Variable]
     methods: set[tuple[str, str]] = field(default_factory=set)
     cuts: set[Value] = field(default_factory=set)
     is_exact: bool = True
@@ -133,10 +141,9 @@ class DataFlow:
             for owner in classes:
                 for member in owner.members:
                     if isinstance(member, _BODIES) and member.body is not None:
-                        _FlowThroughBody(self, classes, owners, owner.name, member.name).visit(
-                            member.body
-                        )
-            outside = _FlowThroughBody(self, classes, owners, _PROPERTIES, "")
+                        scope = Scope.of(owner, member)
+                        _FlowThroughBody(self, classes, owners, scope).visit(member.body)
+            outside = _FlowThroughBody(self, classes, owners, Scope(_PROPERTIES))
             for define in properties.defines:
                 for expression in state_expressions(define.value):
                     if outside.visit(expression):
@@ -153,29 +160,28 @@ class _FlowThroughBody:
     flow: DataFlow
     classes: Collection[m.ReactiveClass]
     owners: Mapping[str, str]  # the classes of the rebecs
-    owner: str
-    name: str
+    scope: Scope
 
     def visit(self, node: m.Node) -> bool:
         """Goes through a part of the body; whether it is the value, or may be."""
         match node:
             case m.Name(name):
-                return (self.owner, name) in self.flow.variables
+                return self.scope.variable(name) in self.flow.variables
             case m.Member(m.Self(), name):
-                return (self.owner, name) in self.flow.variables
-            case m.Member(m.Name(rebec), name) if self.owner == _PROPERTIES:
+                return (self.scope.owner, name) in self.flow.variables
+            case m.Member(m.Name(rebec), name) if self.scope.owner == _PROPERTIES:
                 return (self.owners.get(rebec, ""), name) in self.flow.variables
             case m.Binary(operator, left, right):
                 return self._binary(operator, left, right)
             case m.Assign(operator, target, value):
                 return self._assign(operator, target, value)
             case m.Declarator(name, initial) if initial is not None:
-                return self.visit(initial) and self._flows_to(name)
+                return self.visit(initial) and self._flows_to(self.scope.variable(name))
             case m.Call():
                 return self._call(node)
             case m.Return(value) if value is not None:
                 if self.visit(value):
-                    self.flow.methods.add((self.owner, self.name))
+                    self.flow.methods.add((self.scope.owner, self.scope.body))
                 return False
             case m.Conditional(condition, then, otherwise):
                 self._tested(condition)
@@ -213,9 +219,10 @@ class _FlowThroughBody:
         if operator not in _COMPARISONS:
             return self._inexact(ours or theirs)
         if ours or theirs:
-            other = constant(right if ours else left, lambda n: self.flow.constants.get(n.name))
-            if other is not None and ours != theirs:
-                self.flow.cuts.add(other)
+            flow, other = self.flow, right if ours else left
+            values = possible_constants(other, self.scope, flow.settled, flow.constants)
+            if values is not None and ours != theirs:
+                flow.cuts |= values
             else:
                 self._inexact(True)
         return False
@@ -228,8 +235,13 @@ class _FlowThroughBody:
             self._used(target.index)
         while isinstance(target, m.Index):
             target = target.target
-        if isinstance(target, m.Name | m.Member) and found:
-            self._flows_to(target.name)
+        match target:
+            case m.Name(name) if found:
+                self._flows_to(self.scope.variable(name))
+            case m.Member(_, name) if found:
+                self._flows_to((self.scope.owner, name))
+            case _:
+                pass
         return found
 
     def _call(self, call: m.Call) -> bool:
@@ -240,15 +252,15 @@ class _FlowThroughBody:
         own = call.target is None or isinstance(call.target, m.Self)
         known = False
         for owner in self.classes:
-            for member in owner.members if not own or owner.name == self.owner else ():
+            for member in owner.members if not own or owner.name == self.scope.owner else ():
                 if isinstance(member, m.MessageServer | m.Method) and member.name == call.name:
                     known = True
-                    for parameter, found in zip(member.parameters, given, strict=False):
+                    for taken, found in zip(member.parameters, given, strict=False):
                         if found:
-                            self.flow.variables.add((owner.name, parameter.name))
+                            self._flows_to(Scope.of(owner, member).variable(taken.name))
         if not known:
             self._inexact(any(given))
-        return (self.owner, call.name) in self.flow.methods
+        return (self.scope.owner, call.name) in self.flow.methods
 
     def _switch(self, subject: m.Expression, cases: Iterable[m.Case]) -> bool:
         found = self.visit(subject)
@@ -271,6 +283,6 @@ class _FlowThroughBody:
             self.flow.is_exact = False
         return found
 
-    def _flows_to(self, name: str) -> bool:
-        self.flow.variables.add((self.owner, name))
+    def _flows_to(self, variable: Variable) -> bool:
+        self.flow.variables.add(variable)
         return True

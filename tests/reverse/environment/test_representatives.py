@@ -104,14 +104,14 @@ def _of(body: str, type_: str = "int") -> Representatives:
         Source("a.rebeca", _MODEL.format(body).replace("int v", f"{type_} v"))
     ).model
     empty = parse_properties(Source("a.property", "property {}")).properties
-    return representatives(model, [("A", "v")], m.Type(type_), empty)
+    return representatives(model, [("A.got", "v")], m.Type(type_), empty)
 
 
 @pytest.mark.parametrize(
     "body",
     [
         "x = v + 1;",
-        "if (v > x) b = true;",
+        "if (v > x + y) b = true;",
         "if (-v > 1) b = true;",
         "x += v;",
         "x = (byte) v;",
@@ -148,5 +148,5 @@ def test_there_is_a_value_of_each_region(body: str, type_: str, values: tuple[ob
 def test_an_array_has_no_representatives() -> None:
     model = parse_model(Source("a.rebeca", _MODEL.format("b = v[0] > 1;"))).model
     empty = parse_properties(Source("a.property", "property {}")).properties
-    found = representatives(model, [("A", "v")], replace(m.Type("int"), dimensions=(3,)), empty)
+    found = representatives(model, [("A.got", "v")], replace(m.Type("int"), dimensions=(3,)), empty)
     assert found == Representatives((), False)
