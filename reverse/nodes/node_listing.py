@@ -66,7 +66,7 @@ class FindingList:
             self._fact(unit, fact, id(fact) in served)
             if isinstance(fact, SubscriptionFact | TimerFact) and _is_lost(fact):
                 why = "nothing keeps what this gives: ROS ends it at once, the model does not"
-                self._assumed(fact.site.place, why, unit.name, "keep it in a member")
+                self._unread(fact.site.place, why, unit.name, "keep it in a member")
         for server in servers:
             self._wide(unit, server)
         for cpp, body in bodies(unit):
@@ -231,10 +231,10 @@ class FindingList:
 
     # --- once -----------------------------------------------------------------------------------
 
-    def _unread(self, place: Place, why: str, within: str) -> None:
+    def _unread(self, place: Place, why: str, within: str, hint: str = "") -> None:
         self._look()
         if (id(place.source), place.span) not in self._unreadable:
-            self.findings.unreadable(place.source, Unread(place.span, why), within)
+            self.findings.unreadable(place.source, Unread(place.span, why, hint), within)
 
     def _assumed(self, place: Place, why: str, within: str = "", hint: str = "") -> None:
         self._look()

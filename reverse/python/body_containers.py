@@ -19,7 +19,7 @@ _QUOTED = re.compile(r"""["']""")
 def element(reading: Reading, node: Node, frame: Frame) -> tuple[int, Fact] | None:
     """What an element of a container was asked for with, if that is always the same."""
     container, key = field(node, "value"), field(node, "subscript")
-    if not _is_changed_by_key_alone(reading, container, frame):
+    if not _is_filled_once(reading, container, frame):
         return None
     place = f"{text_of(container)}[{_plain(text_of(key))}]"
     found = [n for n, f in enumerate(reading.unit.unit.facts) if _plain(f.site.kept) == place]
@@ -32,10 +32,10 @@ def _plain(text: str) -> str:
     return _QUOTED.sub('"', text)
 
 
-def _is_changed_by_key_alone(reading: Reading, container: Node, frame: Frame) -> bool:
-    """Whether all that is done with a container is to make it, to read it, and to set elements.
+def _is_filled_once(reading: Reading, container: Node, frame: Frame) -> bool:
+    """Whether all that is done with a container is to make it, to read it, and to fill it.
 
-    The elements that are set have keys that stand in the code.
+    That is to set elements, whose keys stand in the code, to what is asked for there.
     """
     if container.type not in ("identifier", "attribute"):
         return False
@@ -48,7 +48,7 @@ def _is_changed_by_key_alone(reading: Reading, container: Node, frame: Frame) ->
             case "assignment" if above is not None and above.child_by_field_name("left") == node:
                 made += 1
             case "subscript" if above is not None and above.child_by_field_name("value") == node:
-                if _is_changed(above) and field(above, "subscript").type not in _KEYS:
+                if not (_is_only_read(above) or _is_asked_for(reading, above, frame)):
                     return False
             case "attribute" if above is not None and _is_read(above):
                 continue
@@ -59,13 +59,28 @@ def _is_changed_by_key_alone(reading: Reading, container: Node, frame: Frame) ->
     return made == 1
 
 
-def _is_changed(element_: Node) -> bool:
+def _is_only_read(element_: Node) -> bool:
     above = element_.parent
-    if above is None:
+    match above.type if above is not None else "":
+        case "attribute" | "argument_list" | "comparison_operator" | "return_statement":
+            return True
+        case "assignment":
+            return above is not None and above.child_by_field_name("right") == element_
+        case _:
+            return False
+
+
+def _is_asked_for(reading: Reading, element_: Node, frame: Frame) -> bool:
+    """Whether a statement sets an element, by a key that stands here, to what it asks ROS for."""
+    above = element_.parent
+    if (
+        above is None
+        or above.type != "assignment"
+        or field(element_, "subscript").type not in _KEYS
+    ):
         return False
-    if above.type == "delete_statement":
-        return True
-    return "assignment" in above.type and above.child_by_field_name("left") == element_
+    value = above.child_by_field_name("right")
+    return value is not None and (frame.scope.py.source.path, value.id) in reading.unit.calls
 
 
 def _is_read(attribute: Node) -> bool:

@@ -241,7 +241,9 @@ def _seen(
         return before
     if method.name == "__init__" and not elsewhere:
         return before or here
-    return [*before, *elsewhere] or bindings
+    # What the function sets later it finds when it is called again.
+    again = [b for b in here if b not in before] if method.name != "__init__" else []
+    return [*before, *again, *elsewhere] or bindings
 
 
 def _is_sure(before: Sequence[Binding], here: Sequence[Binding], node: Node) -> bool:
