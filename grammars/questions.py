@@ -22,6 +22,7 @@ FORMS = (
 )
 _SECONDS = {"ms": Fraction(1, 1000), "min": Fraction(60), "minute": Fraction(60)}
 _MOST = 9
+_MOST_MESSAGES = 1000
 _LONGEST = 1000
 
 
@@ -78,10 +79,10 @@ class _Builder(Transformer[Token, q.Question]):
         return q.LeadsTo(first, then, within)
 
     def at_most(self, condition: q.Condition, times: Token) -> q.Question:
-        return q.AtMost(condition, _count(times))
+        return q.AtMost(condition, _count(times, _MOST))
 
     def messages(self, most: Token, topic: Token) -> q.Question:
-        return q.Messages(_word(topic), _count(most))
+        return q.Messages(_word(topic), _count(most, _MOST_MESSAGES))
 
     def or_(self, *operands: q.Condition) -> q.Condition:
         return q.Disjunction(operands) if len(operands) > 1 else operands[0]
@@ -108,10 +109,10 @@ class _Builder(Transformer[Token, q.Question]):
         return str(truth) == "true"
 
 
-def _count(token: Token) -> int:
+def _count(token: Token, most: int) -> int:
     """ValueError: it is no number of times that can be asked for."""
-    if token not in map(str, range(_MOST + 1)):
-        raise ValueError(f"it is asked for 0 to {_MOST} times, not for {token}")
+    if not token.isdecimal() or int(token) > most:
+        raise ValueError(f"it is asked for 0 to {most} times, not for {token}")
     return int(token)
 
 

@@ -153,6 +153,8 @@ class TopicVocabulary:
             return f"name a field: {', '.join(fields[:_SHOWN])}"
         names = sorted({n for _, o in self.observations for n in _names(o) if o.path != COUNT})
         plain = [n for n in names if not n.startswith("/")]
+        if not plain:
+            return "no topic of a node that is started is known: `rebsync extract` lists why"
         return did_you_mean(text, names) or f"there are: {', '.join(plain[:_SHOWN])}"
 
     def _mistake(self, code: str, span: Span, message: str, hint: str) -> RebsyncError:

@@ -302,7 +302,8 @@ class Setup:
             mentioned = {text_of(n) for p in parts for n in identifiers_in(p)}
             self.instead |= self.state.outlive(function, mentioned, False, loop.node)
             self.instead[loop.node.id] = ()
-            name = self.names.give("loop" if function.name == "main" else function.name)
+            plain = function.name not in ("main", function.owner)  # no constructor
+            name = self.names.give(function.name if plain else "loop")
             self.loops.append((loop, name))
             period = self._pause(loop) if not loop.first else 0
             self.instead[loop.node.id] = (send(name, period or 0),)
