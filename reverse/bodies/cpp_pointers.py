@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -19,17 +19,6 @@ from rebsync.source import Span
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
-_CHANGE = re.compile(
-    r"\b(\w+)\s*->\s*(\w+)[\w.\s]*(?:[-+*/|&^%]?=(?!=)|\+\+|--)"
-    r"|(?:\+\+|--)\s*(\w+)\s*->\s*(\w+)"
-)
-# A part of a message that something refers to, or that a function gets.
-_PART = re.compile(r"->\s*(\w+)(?:\s*\.\s*\w+)*\s*[,;)]")
-_WHOLE = re.compile(r"(?<=[(=,&|!{;}?:])\s*\*\s*(?:this->)?(\w+)\b|\breturn\s*\*\s*(\w+)\b")
-_FIELD = re.compile(r"\s*\)\s*\.\s*\w+(?:\s*\.\s*\w+)*\s*(?![\w.\s]|[-+*/|&^%]?=(?!=)|\+\+|--|\()")
-_REFERS = re.compile(r"([^;{}]*)&\s*\w+\s*=\s*\(?\*?(?:this->)?\w+\)?\s*(?:->|\.)")
-_COPIES = re.compile(r"(?:^|\s)(?:const\s+)?[\w:]+(?:\s+\w+)?\s*=\s*$")
-_NEW = r"\b{name}\s*(?:=\s*)?[({{]?\s*(?:(?:std|boost)::make_(?:shared|unique)|new)\b"
 _GIVEN = re.compile(r"(?:std::move|(?:(?:std|boost)::)?make_(?:shared|unique)\b)")
 _NULL = ("nullptr", "NULL")
 # Where it counts whether a pointer points to something.
@@ -50,38 +39,6 @@ def _test_of(name: str) -> re.Pattern[str]:
 def is_tested(name: str, text: str) -> bool:
     """Whether code looks at whether a pointer points to something, or lets it point to nothing."""
     return name in text and _test_of(name).search(text) is not None
-
-
-def is_changed(fields: Iterable[str], text: str) -> bool:
-    """Whether code may set fields of a message by a pointer, other than a new message's own.
-
-    By the arrow, or by what refers to the message or a part of it.
-    """
-    paths = list(fields)
-    names = {path.partition(".")[0] for path in paths}
-    parts = {path.partition(".")[0] for path in paths if "." in path}
-    for found in _CHANGE.finditer(text):
-        name, field = found[1] or found[3], found[2] or found[4]
-        is_new = re.search(_NEW.format(name=name), text) is not None
-        if field in names and not is_new:
-            return True
-    if any(found[1] in parts for found in _PART.finditer(text)):
-        return True
-    if any("const" not in found[1] for found in _REFERS.finditer(text)):
-        return True
-    return any(not _is_read(text, found) for found in _WHOLE.finditer(text))
-
-
-def _is_read(text: str, found: re.Match[str]) -> bool:
-    """Whether what a pointer points to is only read: published, copied, or a field of it."""
-    before = re.split(r"[;{}]", text[: found.start()])[-1]
-    after = text[found.end() :]
-    if _FIELD.match(after):
-        return True
-    if "&" in before and "const" not in before:
-        return False
-    is_copied = re.match(r"\s*;", after) is not None and _COPIES.search(before) is not None
-    return is_copied or re.search(r"publish\(\s*$", before) is not None
 
 
 def check_shared(cpp: Cpp, record: Record, target: Node, value: Node) -> None:

@@ -10,7 +10,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_messages import is_pointer, zero_of
-from rebsync.reverse.bodies.cpp_pointers import is_changed, is_null, is_tested
+from rebsync.reverse.bodies.cpp_pointees import is_changed
+from rebsync.reverse.bodies.cpp_pointers import is_null, is_tested
 from rebsync.reverse.bodies.cpp_types import Carried, carried, is_time, wider
 from rebsync.reverse.bodies.cpp_unknowns import domain_near
 from rebsync.reverse.bodies.cpp_widths import place_of
@@ -207,11 +208,10 @@ class State:
                 self._note_wide(given, kept, cpp, node)
         if not is_pointer(text_of(node)):
             return Record(fields, message)
-        texts = [text_of(f.node) for f in self.unit.functions]
-        tested = any(is_tested(name, text) for text in texts)
+        tested = any(is_tested(name, text_of(f.node)) for f in self.unit.functions)
         there = self._new([f"{wish}_is_there"], BOOLEAN) if tested else ""
         constant = "Const" in text_of(node) or "<const" in text_of(node)
-        shared = not constant and any(is_changed(fields, text) for text in texts)
+        shared = not constant and is_changed(fields, self.unit.functions)
         return Record(fields, message, there=there, shared=shared)
 
     def _array(
