@@ -110,6 +110,8 @@ def extract(
     if read or nodes.classes or (python is not None and python.classes):
         at.note_launch(python, is_by_hand=bool(nodes.classes))
     findings.take(listed)
+    if read or (python is not None and python.classes):
+        at.list_launch_effects()
     if python is not None:
         read = (*read, *python.classes)
         nodes = nodes.beside(python.nodes.classes, python.nodes.rebecs)
@@ -169,6 +171,14 @@ class _Reading:
     def launched(self) -> Launch | None:
         """What is started, unless one file of code is asked for."""
         return self.launch if self.only is None else None
+
+    def list_launch_effects(self) -> None:
+        """Lists what launch files in Python do that start generated nodes."""
+        sources = self.launched.sources if self.launched is not None else ()
+        for source in (s for s in sources if s.path.endswith(".py")):
+            from rebsync.reverse.python.import_effects import list_launch_effects
+
+            list_launch_effects(source, self.findings)
 
     def classes(
         self, declared: Mapping[str, Mapping[str, m.Type | None]], in_python: PythonCode | None

@@ -43,6 +43,9 @@ _IN_SETUP = _PLAIN | {
     *("setuptools.find_namespace_packages", "setup", "find_packages", "os.path.splitext"),
     *("open", "readme.read", "f.read", "file.read"),
 }
+# What launch files are made of: they describe what is started, and run before it.
+_LAUNCH = ("launch.", "launch_ros.", "ament_index_python.", "nav2_common.launch.", "xacro.")
+_DESCRIBES = frozenset({"add_action", "add_entity", "append", "extend", "perform"})
 _CLASS_HOOKS = frozenset({"__init_subclass__", "__set_name__"})
 _MAKING = frozenset({"__init__", "__new__", "__post_init__", "__call__"})
 _BINDS = (ast.Import, ast.ImportFrom, ast.Pass, ast.Global, ast.Nonlocal)
@@ -74,6 +77,18 @@ def list_setup_effects(source: Source, findings: Findings) -> None:
     tree = _parsed(source.text)
     if tree is not None:
         _list(source, _ImportedCode(tree, _IN_SETUP).acting(), findings)
+
+
+def list_launch_effects(source: Source, findings: Findings) -> None:
+    """Lists what a launch file does itself besides to describe what is started."""
+    tree = _parsed(source.text)
+    if tree is None:
+        return
+    code = _LaunchCode(tree)
+    functions = (n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef))
+    _list(source, code.acting(), findings)
+    for function in functions:
+        _list(source, code.acting_in(function), findings)
 
 
 def _list(source: Source, nodes: Iterable[ast.stmt], findings: Findings) -> None:
@@ -249,6 +264,27 @@ class _ImportedCode:
         first, _, rest = ast.unparse(node).partition(".")
         whole = self._aliases.get(first, first)
         return f"{whole}.{rest}" if rest else whole
+
+
+class _LaunchCode(_ImportedCode):
+    """A launch file, whose functions run when it is started."""
+
+    def acting_in(self, function: ast.FunctionDef) -> Iterator[ast.stmt]:
+        """The statements of a function that may do more than to describe what is started."""
+        for node in self._acting(function.body):
+            match node:
+                case ast.Return(value=value) if value is None or self._is_plain(value):
+                    pass
+                case ast.AugAssign(target=ast.Name(), value=value) if self._is_plain(value):
+                    pass
+                case _:
+                    yield node
+
+    def _is_plain_call(self, function: ast.expr) -> bool:
+        name = self._name_of(function)
+        if name.startswith(_LAUNCH) or name.rpartition(".")[2] in _DESCRIBES:
+            return True
+        return super()._is_plain_call(function)
 
 
 def _is_name(target: ast.expr) -> bool:
