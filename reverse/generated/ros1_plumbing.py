@@ -40,6 +40,7 @@ _ONCE = frozenset({"construct", "onServed", "start"})
 _CHANGES = ("assignment_expression", "update_expression", "delete_expression", "throw_statement")
 _HANDLE = re.compile(r"const\s+ros::NodeHandle\s+(\w+)\s*(.*)", re.DOTALL)
 _SUBSCRIBES = frozenset({"subscribe", "subscribeOnBridge"})
+_ACTING = ("assignment_expression", "update_expression", "call_expression", "lambda_expression")
 _TELLS = frozenset({"flatten", "publish"})
 
 
@@ -271,11 +272,16 @@ def _odd_in_state(statements: Sequence[Node]) -> Iterator[Node]:
 
 def _tells(statement: Node, messages: Collection[str]) -> bool:
     if statement.type == "declaration":
-        return True
+        return _only_looks(statement)
     expression = named(statement)[0] if named(statement) else statement
     if expression.type == "assignment_expression":
         target, value = part(expression, "left"), part(expression, "right")
         is_field = text_of(target).partition(".")[0] in messages
-        return is_field and next(calls_in(value), None) is None
+        return is_field and _only_looks(value)
     call = call_of(expression)
-    return call is not None and call.name in _TELLS
+    return call is not None and call.name in _TELLS and all(map(_only_looks, call.arguments))
+
+
+def _only_looks(node: Node) -> bool:
+    """Whether to evaluate something changes nothing: it stores nowhere, and calls nothing."""
+    return not inside(node, *_ACTING)

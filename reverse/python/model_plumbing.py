@@ -35,7 +35,7 @@ from rebsync.reverse.python.model_types import (
 from rebsync.reverse.python.named_constants import CodeConstants
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import Py, field, named, text_of
+from rebsync.reverse.python.py_tree import Py, field, named, nodes_in, text_of
 from rebsync.static.types import PRIMITIVES
 
 _MADE = frozenset({"Mailbox", "Drive", "Sensor"})
@@ -65,6 +65,8 @@ _DECORATORS = frozenset({"abstractmethod", "final", "override", "staticmethod", 
 _HOOKS = frozenset(
     {"__del__", "__new__", "__init_subclass__", "__getattribute__", "__setattr__", "__getattr__"}
 )
+_STORING = frozenset({"assignment", "named_expression", "lambda", "await", "yield"})
+_LOOKING = frozenset({"flatten"})
 _WHY = "what this does is not in the model"
 _LOST = "no subscription takes this in: the class only sends it to itself"
 _LATE = "this gives a coroutine, and nobody runs it"
@@ -368,8 +370,18 @@ def _is_of_state(statement: Node) -> bool:
     if inner is None:
         return False
     if inner.type == "assignment":
-        return text_of(field(inner, "left")).partition(".")[0] == "msg"
+        is_told = text_of(field(inner, "left")).partition(".")[0] == "msg"
+        return is_told and _only_looks(field(inner, "right"))
     return text_of(inner) == "self._state_pub.publish(msg)"
+
+
+def _only_looks(value: Node) -> bool:
+    """Whether to evaluate something changes nothing: it stores nowhere, and calls nothing else."""
+    return all(
+        node.type not in _STORING
+        and (node.type != "call" or text_of(field(node, "function")) in _LOOKING)
+        for node in nodes_in(value)
+    )
 
 
 def _inner(statement: Node) -> Node | None:

@@ -17,7 +17,7 @@ from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_conditions import IfSection, alternatives
 from rebsync.reverse.syntax.cpp_declarations import only_braces
 from rebsync.reverse.syntax.cpp_text import has_alternatives, is_split, read_branch
-from rebsync.reverse.syntax.cpp_tree import Cpp
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
 from rebsync.source import Span
 
 NO_CPP = "this is no C++ that can be read"
@@ -25,6 +25,12 @@ NO_PYTHON = "this is no Python that can be read"
 _LONGEST = 120
 _WORD = re.compile(r"\w+")
 _DIRECTIVES = re.compile(r"^[ \t]*#(?:[^\n\\]|\\\r?\n|\\.)*", re.MULTILINE)
+_HEADERS = (".h", ".hh", ".hpp", ".hxx")
+# In these an include is no list of declarations for the file.
+_SCOPES = frozenset(
+    {"compound_statement", "field_declaration_list", "enumerator_list", "initializer_list"}
+    | {"parameter_list", "argument_list", "function_definition", "init_declarator"}
+)
 _HINT = "where only one is ever compiled, take the others out"
 
 
@@ -40,6 +46,25 @@ def unparsed(cpp: Cpp) -> Iterator[Finding]:
         yield from (_error(cpp, node) for node in errors_in(cpp))
     if has_alternatives(cpp.source.text):
         yield from _alternatives(cpp)
+    yield from _included_code(cpp)
+
+
+# --- files that are included --------------------------------------------------------------------
+
+
+def _included_code(cpp: Cpp) -> Iterator[Finding]:
+    """Where a file is included that is not read as a header at that place."""
+    for node in inside(cpp.root, "preproc_include", "preproc_call"):
+        if not text_of(node).startswith("#include"):
+            continue
+        named_ = node.child_by_field_name("path")
+        path = text_of(named_) if named_ is not None else ""
+        is_inner = any(above.type in _SCOPES for above in ancestors(node))
+        is_header = path.startswith("<") or path.strip('"').endswith(_HEADERS)
+        if is_inner or not is_header:
+            why = "what this includes is not read at this place"
+            hint = "include headers at the top of a file" if is_inner else "name it a header: .hpp"
+            yield Finding(Grade.UNREADABLE, cpp.source, _first_line(cpp, cpp.span(node)), why, hint)
 
 
 # --- what is no C++ -----------------------------------------------------------------------------
