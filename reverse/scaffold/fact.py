@@ -17,6 +17,10 @@ _BEARING = {
     "mailbox": ("time_unit", "settle"),
     "drive": ("cell_size", "kind", "heading", "move_time", "odometry"),
 }
+# Programs of ROS by their names, and what they are told to do, that act on what others hear.
+_SPEAKING = frozenset(
+    {"pub", "play", "call", "set", "load", "relay", "mux", "throttle", "drop", "transform", "kill"}
+)
 
 Facts: TypeAlias = "dict[tuple[str, str, str], list[Fact]]"
 
@@ -46,6 +50,11 @@ def numbered(facts: Iterable[Fact]) -> Iterator[Fact]:
         seen[told] += 1
         again = "again " * (seen[told] - 1)
         yield replace(fact, value=f"{again}{fact.value}")
+
+
+def speaks(words: Iterable[str]) -> bool:
+    """Whether a command that is started beside the nodes may publish, call or set for them."""
+    return not _SPEAKING.isdisjoint(words)
 
 
 def has_bearing(name: str) -> bool:

@@ -16,6 +16,7 @@ from rebsync.reverse.scaffold.fact import (
     Fact,
     has_bearing,
     is_of_runtime,
+    speaks,
 )
 from rebsync.reverse.scaffold.prefixes import is_harmless
 from rebsync.reverse.scaffold.texts import is_of_package
@@ -27,6 +28,9 @@ _KEYWORDS = (
     *("additional_env", "env", "condition"),
 )
 _ACTIONS = frozenset({"ComposableNode", "LifecycleNode", "Node"})
+_PROCESSES = frozenset({"ExecuteProcess", "ExecuteLocal"})
+_SETTING_ENVIRONMENT = frozenset({"SetEnvironmentVariable", "AppendEnvironmentVariable"})
+_SHOWN = ("RCUTILS_", "ROS_LOG_DIR")
 _CONFIGURING = frozenset({"DeclareLaunchArgument", "SetLaunchConfiguration"})
 
 
@@ -71,6 +75,7 @@ def _actions(source: Source) -> Iterator[Fact]:
         if _called(call) == "GroupAction" and "condition" in given:
             value = ast.unparse(given["condition"])
             yield Fact("group of nodes", "", value, "there", source, _span(source, call))
+        yield from _around(source, call)
         if _called(call) not in _ACTIONS:
             continue
         name = given.get("name")
@@ -84,6 +89,18 @@ def _actions(source: Source) -> Iterator[Fact]:
         files = _files(given.get("parameters"), names)
         told = " and ".join(files) or "none"
         yield Fact("node", node, "parameter file", told, source, span)
+
+
+def _around(source: Source, call: ast.Call) -> Iterator[Fact]:
+    """Commands that act on what the nodes hear, and what is set in their environment."""
+    texts = [n.value for n in ast.walk(call) if isinstance(n, ast.Constant)]
+    words = [word for text in texts if isinstance(text, str) for word in text.split()]
+    if _called(call) in _PROCESSES and speaks(words):
+        yield Fact("command", "", " ".join(words), "started", source, _span(source, call))
+    if _called(call) in _SETTING_ENVIRONMENT:
+        name = words[0] if words else ""
+        if not name.startswith(_SHOWN):
+            yield Fact("environment", "", name, ast.unparse(call), source, _span(source, call))
 
 
 def _prefixes(tree: ast.Module) -> Iterator[ast.expr]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from rebsync.records import dataclass
 from rebsync.reverse.launch.xml_tree import XmlElement, read_xml
-from rebsync.reverse.scaffold.fact import NOT_GIVEN, OWN, SPACE, TYPE, Fact, has_bearing
+from rebsync.reverse.scaffold.fact import NOT_GIVEN, OWN, SPACE, TYPE, Fact, has_bearing, speaks
 from rebsync.reverse.scaffold.prefixes import is_harmless
 from rebsync.reverse.scaffold.texts import conditions, is_of_package, space, squeezed
 from rebsync.reverse.unknowns import Unknown
@@ -99,6 +99,9 @@ class _Tags:
     def _node(self, element: XmlElement, given: Mapping[str, str]) -> Iterator[Fact]:
         """What a node is, and what else than parameters and remaps it is started with."""
         name, tags = given.get("name", ""), (*self.around, given)
+        command = f"{given.get('pkg', '')} {given.get('type', '')} {given.get('args', '')}".strip()
+        if given.get("pkg") != self.package and speaks(command.split()):
+            yield self._fact("command", "", command, "started", element)
         told = {key: given.get(key, "") for key in ("pkg", "respawn", "args", "launch-prefix")}
         if told["pkg"] == self.package:
             told["pkg"] = OWN

@@ -45,7 +45,7 @@ _JOINING = frozenset(
 # What was not there when the code was generated makes a difference too.
 _UNWANTED = frozenset(
     {
-        *("setting", "compiler option", "step of the build"),
+        *("setting", "compiler option", "step of the build", "command"),
         *("environment", "launch file", "unknown", "parameters"),
     }
 )
