@@ -370,8 +370,10 @@ def _is_of_state(statement: Node) -> bool:
     if inner is None:
         return False
     if inner.type == "assignment":
-        is_told = text_of(field(inner, "left")).partition(".")[0] == "msg"
-        return is_told and _only_looks(field(inner, "right"))
+        target, value = text_of(field(inner, "left")), field(inner, "right")
+        if target == "msg":
+            return value.type == "call" and _only_looks(field(value, "arguments"))
+        return target.startswith("msg.") and _only_looks(value)
     return text_of(inner) == "self._state_pub.publish(msg)"
 
 
