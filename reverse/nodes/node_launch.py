@@ -15,7 +15,7 @@ from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_presence import STAND_IN
 from rebsync.reverse.nodes.node_programs import Program
-from rebsync.source import NOWHERE, Source
+from rebsync.source import NOWHERE, Source, Span
 
 _ELSEWHERE = (
     "no launch file starts a program of these files: the model has one rebec for each object"
@@ -54,7 +54,8 @@ class System:
             findings.assumed(first.source, first.span, _ELSEWHERE)
             return
         for source, launch in self.others:
-            span = launch.nodes[0].span
+            own = (node.span for node in launch.nodes if node.source is source)
+            span = next(own, Span(0, 0))  # it may only include
             path = self.launch.sources[0].path.rpartition("/")[2]
             why = f'this file starts another system than "{path}", which the model is of'
             findings.assumed(source, span, why, _HINT)
@@ -88,7 +89,9 @@ def system_of(
     others = [
         (s, launch)
         for s, launch in read
-        if id(s) not in included and _size(launch, package) and not _is_same(launch, best[1])
+        if id(s) not in included
+        and _size(launch, package)
+        and not _is_same(launch, best[1], package)
     ]
     whole = {id(s) for _, launch in others for s in launch.sources[1:]}
     starts = only is not None or not names or _known(best[1], names) > 0
@@ -100,9 +103,10 @@ def _known(launch: Launch, names: Collection[str]) -> int:
     return sum(not n.test and (n.type in names or n.nodelet is not None) for n in launch.nodes)
 
 
-def _is_same(launch: Launch, other: Launch) -> bool:
-    """Whether two launch files start the same system, be it with another clock."""
-    same = [*map(_started, launch.nodes)], [*map(_started, other.nodes)]
+def _is_same(launch: Launch, other: Launch, package: str) -> bool:
+    """Whether two launch files start the same nodes of a package, be it with another clock."""
+    ours, theirs = ([n for n in each.nodes if n.package == package] for each in (launch, other))
+    same = [*map(_started, ours)], [*map(_started, theirs)]
     return len(same[0]) == len(same[1]) and all(each in same[1] for each in same[0])
 
 
