@@ -29,6 +29,12 @@ _PLAIN_BASES = frozenset({"builtins.object", "abc.ABC", _INTEGERS})
 _FROZEN = frozenset({"dataclass(frozen=True)", "dataclasses.dataclass(frozen=True)"})
 _TUPLES = frozenset({"NamedTuple", "typing.NamedTuple"})
 _FUNCTIONS = frozenset({"function_definition", "decorated_definition"})
+_DATA = frozenset(
+    {"string", "string_start", "string_content", "string_end", "integer", "float"}
+) | {
+    *("true", "false", "none", "dictionary", "pair", "list", "tuple", "set", "unary_operator"),
+    *("concatenated_string", "comment", "parenthesized_expression"),
+}
 _LISTS = frozenset({"list", "tuple"})
 _LARGEST = 2**31 - 1
 _NAMED = re.compile(r"([^\W\d]\w*)((?:\.\w+)*)(?:\[(\d+)\])?")
@@ -99,8 +105,9 @@ class CodeConstants:
         if text_of(left) == "__all__":
             return value.type in _LISTS
         is_many = left.type in ("pattern_list", "tuple_pattern")
-        names = map(text_of, named(left) if is_many else [left])
-        return all(_is_new(scope, n) and _is_known(self.of(scope, n)) for n in names)
+        names = [text_of(n) for n in (named(left) if is_many else [left])]
+        is_data = scope.kind != CLASS and left.type == "identifier" and _is_data(value)
+        return all(_is_new(scope, n) and (is_data or _is_known(self.of(scope, n))) for n in names)
 
     # --- what is bound --------------------------------------------------------------------------
 
@@ -250,6 +257,11 @@ def _is_known(constant: Constant | None) -> bool:
     if isinstance(constant, Items):
         return all(len(ways) == 1 and _is_known(ways[0]) for ways in constant.each)
     return isinstance(constant, Record) or _literal(constant) is not None
+
+
+def _is_data(value: Node) -> bool:
+    """Whether an expression is put together of literals alone."""
+    return all(node.type in _DATA for node in nodes_in(value) if node.is_named)
 
 
 def _is_new(scope: Scope, name: str) -> bool:
