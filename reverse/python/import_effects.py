@@ -22,7 +22,7 @@ _WHY = "this runs when the module is imported: what it does is not in the model"
 _PLAIN = frozenset(
     {"int", "float", "str", "bool", "range", "dict", "list", "tuple", "set", "frozenset", "print"}
     | {"property", "staticmethod", "classmethod", "object", "bytes"}
-    | {"logging.getLogger", "rclpy.logging.get_logger", "re.compile", "os.path.join", "os.getenv"}
+    | {"logging.getLogger", "re.compile", "os.path.join", "os.getenv"}
     | {"os.path.dirname", "os.path.abspath", "os.path.expanduser", "os.environ.get"}
     | {"pathlib.Path", "collections.namedtuple", "collections.defaultdict", "collections.deque"}
     | {"typing.TypeVar", "typing.NewType", "typing.cast", "typing.overload", "typing.final"}
