@@ -16,7 +16,7 @@ from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.source import Source
 
 # `talker = package.talker:main` in the scripts that a package of Python installs
-_SCRIPT = re.compile(r"([\w.-]+)\s*=\s*([\w.]+)\s*:\s*\w+")
+_SCRIPT = re.compile(r"([\w.-]+)\s*=\s*([\w.]+)\s*:\s*(\w+)")
 _LISTED = re.compile(r"console_scripts['\"]?\s*[:=]\s*\[?([^\]\[]*)")
 
 
@@ -25,7 +25,8 @@ class Started:
     """What starts the nodes: a launch file of a `package`, if any.
 
     `scripts` are the modules, with dots, of the programs that the package installs by their names;
-    `others` the names of its programs in other languages.
+    `others` the names of its programs in other languages. `entries` are the functions that its
+    programs start, with their modules.
     """
 
     launch: Launch | None
@@ -33,6 +34,7 @@ class Started:
     scripts: Mapping[str, str]
     others: frozenset[str]
     others_start: bool = False
+    entries: frozenset[tuple[str, str]] = frozenset()
 
     def starts(self, units: Iterable[PyUnit]) -> bool:
         """Whether the launch file starts any of some units."""
@@ -91,8 +93,17 @@ def settings(instance: Instance, asked: Collection[ParameterFact]) -> tuple[obje
 
 def scripts_of(files: Mapping[str, Source]) -> dict[str, str]:
     """The programs that the set-up of a package of Python installs, with their modules."""
+    return {name: module for name, module, _ in _installed(files)}
+
+
+def entries_of(files: Mapping[str, Source]) -> frozenset[tuple[str, str]]:
+    """The functions that these programs start, with their modules."""
+    return frozenset((module, function) for _, module, function in _installed(files))
+
+
+def _installed(files: Mapping[str, Source]) -> list[tuple[str, str, str]]:
     listed = _LISTED.findall(files[SETUP].text) if SETUP in files else []
-    return {name: module for part in listed for name, module in _SCRIPT.findall(part)}
+    return [found for part in listed for found in _SCRIPT.findall(part)]
 
 
 def is_module(path: str, module: str) -> bool:

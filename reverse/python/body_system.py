@@ -36,7 +36,9 @@ from rebsync.reverse.python.body_units import (
     servers_of,
     units_of,
 )
+from rebsync.reverse.python.handle_stores import list_handle_stores
 from rebsync.reverse.python.py_values import PyValues
+from rebsync.reverse.python.spinning import list_unserved
 
 _MOST_ROUNDS = 60
 # Rebecs of a unit that are read alike, by their number.
@@ -99,6 +101,8 @@ class PySystem:
             list_unit(unit, served[unit.name], loops, threads, self.findings)
         readings = {u.name: _of(u, read)[0].reading for u in wanted}
         list_shared(wanted, readings, self.findings)
+        list_handle_stores(wanted, values, self.findings)
+        list_unserved(wanted, values, self.started.entries, served, self.findings)
         list_wiring(joined.wiring, {u.name for u in wanted}, self.findings)
         rebecs = tuple(round_.rebec(i) for i in instances if not i.idle)
         return PyNodes(tuple(found), rebecs, tuple(units), served, round_.said())

@@ -28,7 +28,7 @@ from rebsync.reverse.graph import (
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_joined import Part
 from rebsync.reverse.nodes.node_system import unit_of_time
-from rebsync.reverse.python.body_started import Started, is_module, scripts_of
+from rebsync.reverse.python.body_started import Started, entries_of, is_module, scripts_of
 from rebsync.reverse.python.body_system import PyNodes, PySystem
 from rebsync.reverse.python.import_effects import list_import_effects, list_setup_effects
 from rebsync.reverse.python.model_classes import ModelClasses
@@ -174,7 +174,8 @@ def read_python(
         list_import_effects(python.sources, _read_paths(python), findings)
     is_people = partial(_is_people, own=own)
     scripts = scripts_of(files or {})
-    started = Started(launch, package, scripts, frozenset(programs))
+    entries = entries_of(files or {})
+    started = Started(launch, package, scripts, frozenset(programs), entries=entries)
     system = PySystem(values, graph, known, unit, findings, is_people, path, started)
     system.beside = beside if beside is not None else Part.empty()
     nodes = system.read()
