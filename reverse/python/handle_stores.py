@@ -22,7 +22,7 @@ from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import Bound, Instance, Made, Value, Ways
 
-_BY_NAME = ("setattr", "delattr", "__setattr__", "__delattr__")
+_BY_NAME = ("setattr", "delattr", "__setattr__", "__delattr__", "vars")
 # Attributes of handles in rclpy and rospy: of an object of which nothing is known they count.
 _OF_HANDLES = frozenset(
     {"callback", "_callback", "callbacks", "timer_period_ns", "callback_group", "sleep_dur", "impl"}

@@ -20,6 +20,7 @@ from rebsync.reverse.python.body_node_loops import forever
 from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.body_started import is_module
 from rebsync.reverse.python.body_units import scope_around
+from rebsync.reverse.python.py_asks import is_node
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import CLASS, LAMBDA, MODULE, Scope, arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, nodes_in, text_of
@@ -65,6 +66,8 @@ def list_unserved(
         if unit.lineage and not made:
             continue  # a program of another package makes it
         if unit.library.flat:
+            if not servers[unit.name]:
+                continue  # it only publishes, which needs no executor
             unserved = _UNSPUN if not _is_spun(values, unit, running) else ""
         else:
             callbacks = {s.body.id for s in servers[unit.name].values()}
@@ -99,6 +102,8 @@ def _is_spun(values: PyValues, unit: PyUnit, running: _Running) -> bool:
     spins = list(_spins(values, running))
     if any(_is_of(values, unit, way) for spin in spins for way in spin.nodes):
         return True
+    if spins and not _is_node(values, unit):
+        return True  # a helper, of a node that another unit is
     executors = [spin.executor for spin in spins if spin.executor is not None]
     for call, scope in values.code.by_callee.get("add_node", ()):
         function = field(call, "function")
@@ -110,6 +115,13 @@ def _is_spun(values: PyValues, unit: PyUnit, running: _Running) -> bool:
         if any(_is_of(values, unit, w) for w in given) and any(_meet(to, e) for e in executors):
             return True
     return False
+
+
+def _is_node(values: PyValues, unit: PyUnit) -> bool:
+    """Whether it is known which node a unit is."""
+    if unit.lineage:
+        return is_node(values, unit.lineage[0])
+    return any(isinstance(f, NodeFact) for f in unit.unit.facts)
 
 
 def _spins(values: PyValues, running: _Running) -> Iterator[_Spin]:
