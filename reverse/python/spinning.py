@@ -130,7 +130,9 @@ def _spins(values: PyValues, running: _Running) -> Iterator[_Spin]:
     for name in sorted(names):
         for call, scope in values.code.by_callee.get(name, ()):
             is_once = name in libraries.serving()
-            if running.reaches(scope) and (not is_once or _goes_round(values, call, scope)):
+            if not running.reaches(scope) or _is_optional(call):
+                continue
+            if not is_once or _goes_round(values, call, scope):
                 yield from _spin(values, field(call, "function"), call, scope)
     for call, scope in values.code.calls:
         plain, keywords = arguments_of(call)
@@ -192,6 +194,16 @@ def _meet(one: tuple[Value, ...], other: tuple[Value, ...]) -> bool:
     return -1 in ids[0] | ids[1] or not ids[0].isdisjoint(ids[1])
 
 
+def _is_optional(node: Node) -> bool:
+    """Whether an `if` without an else may skip a node; `__name__` says that a file is run."""
+    return any(
+        above.type == "if_statement"
+        and "__name__" not in text_of(field(above, "condition"))
+        and above.child_by_field_name("alternative") is None
+        for above in ancestors(node, lambda n: n.type in _APART)
+    )
+
+
 # --- rospy --------------------------------------------------------------------------------------
 
 
@@ -214,7 +226,7 @@ def _lives(
             if node.type not in ("call", "while_statement"):
                 continue
             scope = scope_around(values.code, node, module.py.source.path)
-            if not running.reaches(scope) or scope.node.id in callbacks:
+            if not running.reaches(scope) or scope.node.id in callbacks or _is_optional(node):
                 continue
             if forever(node) or (node.type == "call" and _keeps(values, node, scope)):
                 return True
