@@ -12,6 +12,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.graph import ServiceFact, SubscriptionFact, TimerFact
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.nodes.node_bodies import Bodies
@@ -29,13 +30,15 @@ _NAMES = ("identifier", "field_identifier", "type_identifier")
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement", "for_range_loop"})
 _SCOPES = frozenset({"ros", "rclcpp", "std", "boost"})
 _POINTER = ("make_shared", "make_unique", "shared_ptr", "unique_ptr", "Ptr", "new ")
+_SERVED = (SubscriptionFact, TimerFact, ServiceFact)
 Serving: TypeAlias = "tuple[CppFunction, Node]"
 
 
 def note_spinning(bodies: Bodies, start: Start | None) -> None:
     """Lists what keeps the program of a rebec from serving the rebec's messages."""
     main = start.program.main if start is not None and start.program is not None else None
-    if start is None or main is None or main.body is None:
+    serves = any(isinstance(f, _SERVED) for f in bodies.unit.facts)
+    if start is None or main is None or main.body is None or not serves:
         return
     program = _Spun(bodies.code, main, main.body, start.made.variable if start.made else "")
     if (found := _unserved(program, start)) is not None:
@@ -55,7 +58,8 @@ def _unserved(program: _Spun, start: Start) -> tuple[Node, str] | None:
     own = [node for function, node in serving if function is program.main]
     if len(own) == len(serving) and (ended := program.ended(made, own)) is not None:
         return ended, _ENDED
-    return (program.body, _OTHER) if program.spins_others(start.made.owner) else None
+    is_node = any(c.roots for c in start.unit.lineage)  # others are served by a node that they get
+    return (program.body, _OTHER) if is_node and program.spins_others(start.made.owner) else None
 
 
 @dataclass(frozen=True, slots=True)
