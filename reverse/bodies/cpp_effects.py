@@ -33,6 +33,7 @@ from rebsync.reverse.bodies.scope import (
     Variable,
     meant_by,
 )
+from rebsync.reverse.bodies.serving import Serves
 from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.bodies.unknown_names import is_method_of_unknown, is_unknown_function
 from rebsync.reverse.findings import Unread
@@ -63,8 +64,7 @@ class Effects:
 
     def check(self, node: Node) -> None:
         """Raises `Touches` where a piece of code may touch what the model has."""
-        type_ = node.type
-        if type_ not in PLAIN:
+        if (type_ := node.type) not in PLAIN:
             _CHECKS.get(type_, Effects._inside)(self, node)
 
     def _inside(self, node: Node) -> None:
@@ -219,8 +219,8 @@ class Effects:
 
     def _range(self, node: Node) -> None:
         declarator, over = part(node, "declarator"), part(node, "right")
-        constant = "const" in cpp_roots.specifiers_of(node)
-        if declarator.type == "reference_declarator" and not constant:
+        refers = declarator.type == "reference_declarator"
+        if refers and "const" not in cpp_roots.specifiers_of(node):
             self.refers(over)
         else:
             self.check(over)
@@ -329,9 +329,9 @@ class Effects:
                     return
                 if name not in libraries.looking():
                     raise self._touches(call.node, "this sends, or ends that the node can send")
-            case TimerOf():
+            case Serves() | TimerOf():
                 if name not in libraries.looking():
-                    raise self._touches(call.node, "this changes a timer")
+                    raise self._touches(call.node, "this changes a timer, subscription or service")
             case Record() | Variable():
                 if name not in libraries.looking() and is_modelled(target, meaning):
                     self._changes(call.node, of, f'this may change "{of}"')

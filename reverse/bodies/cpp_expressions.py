@@ -48,6 +48,7 @@ from rebsync.reverse.bodies.scope import (
     TimerOf,
     Variable,
 )
+from rebsync.reverse.bodies.serving import Serves
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
@@ -191,7 +192,7 @@ class CppExpressions(CppExpressionReader):
                 raise self.unread(node, f'"{name}" belongs to the run-time part')
             case Outside():
                 raise Unknown(span, f'the model cannot know "{name}"')
-            case Record() | Publishes() | TimerOf() | Lambda() | Itself():
+            case Record() | Publishes() | Serves() | TimerOf() | Lambda() | Itself():
                 raise self.unread(node, f'"{name}" is no value of the model')
             case None:
                 pass
@@ -227,7 +228,9 @@ class CppExpressions(CppExpressionReader):
                 if (number := cpp_pointers.constant_of_message(self.scope, node)) is not None:
                     return cpp_idioms.whole(number, span)
                 raise Unknown(span, f'the model cannot know "{text_of(node)}"')
-            case Runtime() | Record() | Publishes() | TimerOf() | Lambda() | Itself():
+            case Runtime() | Record() | Lambda() | Itself():
+                raise self.unread(node, f'"{text_of(node)}" is no value of the model')
+            case Publishes() | Serves() | TimerOf():
                 raise self.unread(node, f'"{text_of(node)}" is no value of the model')
             case None:
                 raise self.unknown(node, f'"{text_of(node)}" is no variable of the model')
@@ -357,7 +360,9 @@ class CppExpressions(CppExpressionReader):
                 return m.Name(name, self.cpp.span(node))
             case Outside():
                 raise Unknown(self.cpp.span(node), "the model cannot know what this gives")
-            case None | Record() | Runtime() | Publishes() | TimerOf() | Lambda() | Itself():
+            case None | Record() | Runtime() | Lambda() | Itself():
+                raise self.unread(node, "what this gives is no value of the model")
+            case Publishes() | Serves() | TimerOf():
                 raise self.unread(node, "what this gives is no value of the model")
             case expression:
                 return expression

@@ -30,6 +30,7 @@ from rebsync.reverse.bodies.scope import (
     TimerOf,
     Variable,
 )
+from rebsync.reverse.bodies.serving import Serves
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_depth import DEEPEST
@@ -241,7 +242,7 @@ def _bound(
     if isinstance(meaning, Record) and (refers or constant or meaning.constant):
         inside.meaning(name, replace(meaning, constant=constant or meaning.constant))
         return
-    if isinstance(meaning, Publishes | TimerOf):
+    if isinstance(meaning, Publishes | Serves | TimerOf):
         inside.meaning(name, meaning)
         return
     if is_this(argument) or isinstance(meaning, Itself):

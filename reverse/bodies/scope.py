@@ -17,6 +17,7 @@ from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, uncarry_local
 from rebsync.reverse.bodies.calm import Calm
 from rebsync.reverse.bodies.cpp_types import Carried, carried
+from rebsync.reverse.bodies.serving import Serves
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of
@@ -157,7 +158,8 @@ class Itself:
     """The object whose class is read, under the name that `main` has for it."""
 
 
-Member: TypeAlias = Itself | Variable | Runtime | Outside | Record | Publishes | TimerOf | Lambda
+Endpoint: TypeAlias = Publishes | Serves | TimerOf
+Member: TypeAlias = Itself | Variable | Runtime | Outside | Record | Lambda | Endpoint
 Meaning: TypeAlias = Member | Expression
 
 # --- functions ----------------------------------------------------------------------------------
@@ -296,8 +298,7 @@ class Scope:
     # What the model keeps of types that the code names itself, if it does: aliases of this body,
     # and the types that the parameters of a template stand for.
     aliases: Mapping[str, Carried | None] = field(default_factory=dict)
-    # The fields of message types (`std_msgs/Int32`) by their paths; None where the model has no
-    # such type.
+    # The fields of message types by their paths; None where the model has no such type.
     messages: Mapping[str, Mapping[str, Type | None]] = field(default_factory=dict)
     # The widths in bits of their fields where these are not the model's type's: narrow ones wrap
     # sooner, wide ones hold more.
@@ -306,8 +307,7 @@ class Scope:
     overflowing: frozenset[str] = frozenset()
     # What stands for values that nobody knows, of a variable that is only compared.
     regions: Callable[[Variable], tuple[Expression, ...]] | None = None
-    # The servers of callbacks that calls (`createTimer`), by the id of the call's node, set timers
-    # for.
+    # The servers of the callbacks that calls set timers for, by the ids of the calls' nodes.
     timers: Mapping[int, TimerOf] = field(default_factory=dict)
     # What calls (`post`) send the rebec itself, and with which arguments and time.
     posts: Mapping[int, tuple[Sends, tuple[Node, ...]]] = field(default_factory=dict)

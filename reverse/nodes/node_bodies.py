@@ -28,6 +28,7 @@ from rebsync.reverse.bodies.scope import (
     TimerOf,
     Variable,
 )
+from rebsync.reverse.bodies.serving import Serves
 from rebsync.reverse.build.message_types import Fields
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
@@ -52,7 +53,8 @@ from rebsync.reverse.syntax.cpp_enclosing import enclosing_function
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 
-_HANDLES = (SubscriptionFact, TimerFact, ServiceFact, ClientFact)
+_SERVING = (SubscriptionFact, ServiceFact)
+_HANDLES = (TimerFact, ClientFact)
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +164,8 @@ class Bodies:
                 if server is not None:
                     switch = self.setup.switches.get(server.name)
                     members[kept] = TimerOf(server.name, fact.one_shot is not True, switch)
+            elif kept and isinstance(fact, _SERVING):
+                members[kept] = Serves()
             elif kept and isinstance(fact, _HANDLES):
                 members[kept] = Outside()
         return members

@@ -31,6 +31,7 @@ from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.nodes.node_servers import servers
 from rebsync.reverse.nodes.node_setup import Setup
 from rebsync.reverse.nodes.node_signatures import Signatures
+from rebsync.reverse.nodes.node_spinning import note_spinning
 from rebsync.reverse.nodes.node_starts import first_functions, opening
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_taken import declares
@@ -238,6 +239,7 @@ class _ClassReader:
         note_bound(node.bodies)
         note_hidden(node.bodies)
         note_unmodelled(node.bodies)
+        note_spinning(node.bodies, alike[0].start if alike else None)
         note_helpers(node.bodies, self._helpers)
         return read
 

@@ -1,0 +1,220 @@
+"""Programs that never serve the messages of a node that they make, listed.
+
+A node that no executor spins, or that ends before its program spins, serves nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TypeAlias
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.graph import ServiceFact, SubscriptionFact, TimerFact
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.nodes.node_bodies import Bodies
+from rebsync.reverse.nodes.node_loops import later, loops_in
+from rebsync.reverse.nodes.node_units import Start
+from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
+
+_NEVER = "this program never lets messages be served: the model serves them"
+_OTHER = "this program lets only the messages of other nodes be served"
+_ENDED = "the node ends here, before its program lets messages be served"
+_NAMES = ("identifier", "field_identifier", "type_identifier")
+_LOOPS = frozenset({"while_statement", "do_statement", "for_statement", "for_range_loop"})
+_SCOPES = frozenset({"ros", "rclcpp", "std", "boost"})
+_POINTER = ("make_shared", "make_unique", "shared_ptr", "unique_ptr", "Ptr", "new ")
+_SERVED = (SubscriptionFact, TimerFact, ServiceFact)
+Serving: TypeAlias = "tuple[CppFunction, Node]"
+
+
+def note_spinning(bodies: Bodies, start: Start | None) -> None:
+    """Lists what keeps the program of a rebec from serving the rebec's messages."""
+    main = start.program.main if start is not None and start.program is not None else None
+    serves = any(isinstance(f, _SERVED) for f in bodies.unit.facts)
+    if start is None or main is None or main.body is None or not serves:
+        return
+    program = _Spun(bodies.code, main, main.body, start.made.variable if start.made else "")
+    if (found := _unserved(program, start)) is not None:
+        node, why = found
+        unread = Unread(main.cpp.span(node), why)
+        bodies.findings.unreadable(main.cpp.source, unread, bodies.unit.name)
+
+
+def _unserved(program: _Spun, start: Start) -> tuple[Node, str] | None:
+    """The place in `main` that keeps a node from being served, and why."""
+    serving = list(program.serving())
+    if not any(map(program.counts, serving)):
+        return None if program.is_handed_on() else (program.body, _NEVER)
+    made = start.made.statement if start.made is not None else None
+    if start.made is None or made is None:
+        return None
+    own = [node for function, node in serving if function is program.main]
+    if len(own) == len(serving) and (ended := program.ended(made, own)) is not None:
+        return ended, _ENDED
+    is_node = any(c.roots for c in start.unit.lineage)  # others are served by a node that they get
+    return (program.body, _OTHER) if is_node and program.spins_others(start.made.owner) else None
+
+
+@dataclass(frozen=True, slots=True)
+class _Spun:
+    """A `main` with the name that it has for a node."""
+
+    code: Code
+    main: CppFunction
+    body: Node
+    variable: str
+
+    def serving(self) -> Iterator[Serving]:
+        """Where `main`, or what it leads to by the names in it, names what serves messages."""
+        by_name: dict[str, list[CppFunction]] = {}
+        for (_, name), functions in self.code.definitions.items():
+            by_name.setdefault(name, []).extend(functions)
+        for owner in self.code.classes.values():
+            for function in self.code.functions_of(owner):
+                by_name.setdefault(function.name, []).append(function)
+        words = libraries.named(Kind.SPIN, Kind.SERVE)
+        by_name.pop("main", None)  # those of other programs, too
+        seen, waiting = {self.main.node.id}, [self.main]
+        while waiting:
+            function = waiting.pop()
+            for node in inside(function.node, *_NAMES):
+                name = text_of(node)
+                if (name in words or "spin" in name.lower()) and not (
+                    name in by_name and self._is_own(node)
+                ):
+                    yield function, node
+                for each in by_name.get(name, ()):
+                    if each.node.id not in seen:
+                        seen.add(each.node.id)
+                        waiting.append(each)
+
+    def _is_own(self, node: Node) -> bool:
+        """Whether a name is that of a function of the code, not of a library."""
+        above = node.parent
+        if above is None or above.type == "qualified_identifier":
+            return False
+        target = above.child_by_field_name("argument")
+        return target is None or text_of(target) in ("this", self.variable)
+
+    def counts(self, serving: Serving) -> bool:
+        """Whether it may serve again and again: not behind a loop without end, or only once."""
+        function, node = serving
+        if function is not self.main:
+            return True
+        around = [node, *ancestors(node, lambda n: n.id == self.body.id)]
+        once = text_of(node) in libraries.named(Kind.SERVE)
+        if once and not any(n.type in (*_LOOPS, "lambda_expression") for n in around):
+            return False
+        ids = {n.id for n in around}
+        return not any(
+            after.id in ids
+            for loop in loops_in(self.main, ())
+            if not loop.guard and not inside(loop.node, "break_statement", "return_statement")
+            for after in later(loop.node)
+        )
+
+    def is_handed_on(self) -> bool:
+        """Whether something that is not known may let messages be served."""
+        known = {name for _, name in self.code.definitions}
+        known |= {f.name for c in self.code.classes.values() for f in self.code.functions_of(c)}
+        return any(
+            (call.on == self.variable or any(self._has(a) for a in call.arguments))
+            if call.target is not None
+            else call.name.partition("::")[0] not in _SCOPES
+            for call in calls_in(self.body)
+            if call.name.rpartition("::")[2] not in known | self.code.classes.keys()
+            and not call.name.isupper()
+        )
+
+    def _has(self, node: Node) -> bool:
+        return bool(self.variable) and any(
+            text_of(n) == self.variable for n in inside(node, "identifier")
+        )
+
+    def ended(self, made: Node, serving: list[Node]) -> Node | None:
+        """What ends the object before the last place that serves messages."""
+        last = max(node.start_byte for node in serving)
+        block = made.parent
+        if block is not None and block.type == "compound_statement" and block.id != self.body.id:
+            served = any(made.end_byte <= n.start_byte < block.end_byte for n in serving)
+            if made.type == "declaration" and not served and not self._is_kept(made, block):
+                return made
+        if made.type == "expression_statement" and not self.variable:
+            whole = named(made)[0]
+            if whole.type == "call_expression" and "make_" in text_of(whole).partition("(")[0]:
+                return made
+            if whole.type == "compound_literal_expression":
+                return made
+        for node in inside(self.body, "delete_expression", "call_expression", _ASSIGNS):
+            if made.end_byte <= node.start_byte < last and self._drops(node):
+                return node
+        return None
+
+    def _is_kept(self, made: Node, block: Node) -> bool:
+        """Whether others may keep what a pointer in a block points to."""
+        if not any(word in text_of(made) for word in _POINTER):
+            return False
+        return sum(text_of(n) == self.variable for n in inside(block, "identifier")) > 1
+
+    def _drops(self, node: Node) -> bool:
+        """`delete n`, `n.reset()`, `n = nullptr`."""
+        if not self.variable:
+            return False
+        if node.type == "delete_expression":
+            return text_of(named(node)[-1]) == self.variable
+        if node.type == "call_expression":
+            function = node.child_by_field_name("function")
+            return function is not None and text_of(function) == f"{self.variable}.reset"
+        left = node.child_by_field_name("left")
+        return left is not None and text_of(left) == self.variable
+
+    # --- executors --------------------------------------------------------------------------------
+
+    def spins_others(self, owner: str) -> bool:
+        """Whether all that `main` spins, or adds to executors, is certainly not the node."""
+        if not self.variable or "rclcpp" not in text_of(self.main.cpp.root):
+            return False
+        calls = list(calls_in(self.body))
+        spun = [c for c in calls if _is_spinning(c) and c.arguments]
+        if any(self._may_be(c.arguments[0], owner) for c in spun):
+            return False
+        handed = (c for c in calls if not _is_spinning(c))
+        return not any(self._has(a) for c in handed for a in c.arguments) and not self._renamed()
+
+    def _renamed(self) -> bool:
+        """Whether the node gets another name, or a function without a name may spin it."""
+        values = (
+            value
+            for node in inside(self.body, "init_declarator", _ASSIGNS)
+            for field in ("value", "right")
+            if (value := node.child_by_field_name(field)) is not None
+        )
+        return any(self._has(v) for v in values) or any(
+            self._has(n) for n in inside(self.body, "lambda_expression", "for_range_loop")
+        )
+
+    def _may_be(self, node: Node, owner: str) -> bool:
+        """Whether an argument may be the node: all but another object that `main` makes."""
+        if node.type != "identifier":
+            return True
+        for declared in inside(self.body, "init_declarator"):
+            name, value = (declared.child_by_field_name(f) for f in ("declarator", "value"))
+            if name is not None and value is not None and text_of(name) == text_of(node):
+                names = {text_of(n) for n in inside(value, "type_identifier", "identifier")}
+                return "make_shared" not in names or owner in names or self.variable in names
+        return True
+
+
+_ASSIGNS = "assignment_expression"
+
+
+def _is_spinning(call: CppCall) -> bool:
+    name = call.name.rpartition("::")[2]
+    return name == "add_node" or "spin" in name
