@@ -6,7 +6,7 @@ from functools import cache
 from importlib import import_module
 
 _NAMES = {
-    "rebsync.checker.result": "Coverage Result Violation",
+    "rebsync.checker.result": "Coverage Extreme MeasureRange Result Violation",
     "rebsync.checker.steps": "Action",
     "rebsync.checker.trace": "Change ShownMessage ShownRebec Trace TraceStep",
     "rebsync.diagnostics": "Diagnostic Edit Findings Severity",
