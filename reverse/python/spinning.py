@@ -12,7 +12,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.graph import NodeFact
+from rebsync.reverse.graph import NodeFact, ServiceFact, SubscriptionFact, TimerFact
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.nodes.node_servers import Server
@@ -28,6 +28,7 @@ from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import Class, External, Function, Instance, Made, Module, Value
 from rebsync.reverse.syntax.ancestors import ancestors
 
+_SERVED = (SubscriptionFact, TimerFact, ServiceFact)
 _LOOPS = frozenset({"while_statement", "for_statement"})
 _APART = frozenset({"function_definition", "lambda", "class_definition"})
 # What keeps a program of rospy alive beside `spin` and loops: windows, other threads, people.
@@ -65,9 +66,9 @@ def list_unserved(
         made = list(_making(values, unit))
         if unit.lineage and not made:
             continue  # a program of another package makes it
+        if not any(isinstance(fact, _SERVED) for fact in unit.unit.facts):
+            continue  # it only publishes, which nobody has to serve
         if unit.library.flat:
-            if not servers[unit.name]:
-                continue  # it only publishes, which needs no executor
             unserved = _UNSPUN if not _is_spun(values, unit, running) else ""
         else:
             callbacks = {s.body.id for s in servers[unit.name].values()}
