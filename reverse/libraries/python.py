@@ -250,6 +250,13 @@ def serving() -> frozenset[str]:
 
 
 @derived
+def spinning() -> frozenset[str]:
+    """Names of what serves messages until the node ends."""
+    found = ((_last(n), r) for n, r in (*_functions(), *_methods()))
+    return frozenset(n for n, r in found if r.kind is Kind.SPIN)
+
+
+@derived
 def starting() -> frozenset[str]:
     """Methods that start or end what runs a node, or run it."""
     return frozenset(n for n, r in _methods() if r.kind in (Kind.START, Kind.SPIN))

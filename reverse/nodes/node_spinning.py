@@ -28,7 +28,7 @@ _OTHER = "this program lets only the messages of other nodes be served"
 _ENDED = "the node ends here, before its program lets messages be served"
 _NAMES = ("identifier", "field_identifier", "type_identifier")
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement", "for_range_loop"})
-_SCOPES = frozenset({"ros", "rclcpp", "std", "boost"})
+_SCOPES = frozenset({"std", "boost"})
 _POINTER = ("make_shared", "make_unique", "shared_ptr", "unique_ptr", "Ptr", "new ")
 _SERVED = (SubscriptionFact, TimerFact, ServiceFact)
 Serving: TypeAlias = "tuple[CppFunction, Node]"
@@ -127,7 +127,8 @@ class _Spun:
         return any(
             (call.on == self.variable or any(self._has(a) for a in call.arguments))
             if call.target is not None
-            else call.name.partition("::")[0] not in _SCOPES
+            else not call.name.startswith(libraries.scopes())
+            and call.name.partition("::")[0] not in _SCOPES
             for call in calls_in(self.body)
             if call.name.rpartition("::")[2] not in known | self.code.classes.keys()
             and not call.name.isupper()
@@ -179,9 +180,12 @@ class _Spun:
 
     def spins_others(self, owner: str) -> bool:
         """Whether all that `main` spins, or adds to executors, is certainly not the node."""
-        if not self.variable or "rclcpp" not in text_of(self.main.cpp.root):
+        if not self.variable:
             return False
         calls = list(calls_in(self.body))
+        words = libraries.named(Kind.SPIN, Kind.SERVE)
+        if any(c.on == self.variable and c.name in words for c in calls):
+            return False
         spun = [c for c in calls if _is_spinning(c) and c.arguments]
         if any(self._may_be(c.arguments[0], owner) for c in spun):
             return False

@@ -127,7 +127,7 @@ def _is_node(values: PyValues, unit: PyUnit) -> bool:
 
 def _spins(values: PyValues, running: _Running) -> Iterator[_Spin]:
     """All calls that spin, and those that are given a function that does."""
-    names = libraries.serving() | {"spin", "spin_until_future_complete"}
+    names = libraries.serving() | libraries.spinning() | {"spin_until_future_complete"}
     for name in sorted(names):
         for call, scope in values.code.by_callee.get(name, ()):
             is_once = name in libraries.serving()
@@ -155,7 +155,8 @@ def _spin(values: PyValues, function: Node, call: Node, scope: Scope) -> Iterato
     if any(isinstance(w, External) for w in ways):
         yield _Spin(given)
     elif function.type == "attribute":
-        yield _Spin((), values.ways(field(function, "object"), scope))
+        on = values.ways(field(function, "object"), scope)
+        yield _Spin(on, on)  # of a library whose nodes spin themselves, or of an executor
 
 
 def _goes_round(values: PyValues, call: Node, scope: Scope) -> bool:
