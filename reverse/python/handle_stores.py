@@ -40,7 +40,7 @@ _OF_NODES = _PRIVATE.union(
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Store:
+class HandleStore:
     """A store to the attribute `name` of what may be any of `holders`; "" is any attribute."""
 
     scope: Scope
@@ -70,7 +70,7 @@ def _list(unit: PyUnit, scope: Scope, node: Node, why: str, findings: Findings) 
 # --- stores -------------------------------------------------------------------------------------
 
 
-def _stores(values: PyValues) -> Iterator[Store]:
+def _stores(values: PyValues) -> Iterator[HandleStore]:
     """All stores to attributes, deletions and stores by computed names included."""
     for path, module in values.code.modules.items():
         for node in nodes_in(module.node):
@@ -79,7 +79,7 @@ def _stores(values: PyValues) -> Iterator[Store]:
                 if holder is not None:
                     scope = scope_around(values.code, node, path)
                     ways = values.ways(field(holder, "object"), scope)
-                    yield Store(scope, node, ways, text_of(field(holder, "attribute")))
+                    yield HandleStore(scope, node, ways, text_of(field(holder, "attribute")))
     for callee in _BY_NAME:
         for call, scope in values.code.by_callee.get(callee, ()):
             yield from _by_name(values, call, scope)
@@ -103,7 +103,7 @@ def _holder(target: Node) -> Node | None:
     return target if target.type == "attribute" else None
 
 
-def _by_name(values: PyValues, call: Node, scope: Scope) -> Iterator[Store]:
+def _by_name(values: PyValues, call: Node, scope: Scope) -> Iterator[HandleStore]:
     """`setattr(timer, "callback", f)`, and the same as a method."""
     plain, _ = arguments_of(call)
     function = field(call, "function")
@@ -112,13 +112,13 @@ def _by_name(values: PyValues, call: Node, scope: Scope) -> Iterator[Store]:
         holders = [*holders, field(function, "object")]
     known = [t for n in plain[:2] if (t := values.text(n, scope)) is not None]
     for holder in holders:
-        yield Store(scope, call, values.ways(holder, scope), known[0] if known else "")
+        yield HandleStore(scope, call, values.ways(holder, scope), known[0] if known else "")
 
 
 # --- handles ------------------------------------------------------------------------------------
 
 
-def _changes_handle(unit: PyUnit, store: Store) -> bool:
+def _changes_handle(unit: PyUnit, store: HandleStore) -> bool:
     for way in store.holders:
         if isinstance(way, Unresolved) and store.name in _OF_HANDLES:
             return True
@@ -144,7 +144,7 @@ def _root(way: Value) -> Made | None:
 
 
 def _of_node(
-    unit: PyUnit, values: PyValues, stores: Collection[Store]
+    unit: PyUnit, values: PyValues, stores: Collection[HandleStore]
 ) -> Iterator[tuple[Scope, Node, str]]:
     """Where a class, or code beside it, replaces or takes what the library has of a node."""
     for scope in unit.lineage:
