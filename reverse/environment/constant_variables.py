@@ -1,7 +1,7 @@
 """Variables of a model that only get constants, and which: constant propagation without order.
 
 As in a flow-insensitive analysis with sets of constants (Aho, Lam, Sethi, Ullman 2006, chapter 9);
-variables of one name in one class are taken together.
+variables of one name in one body are taken together.
 """
 
 from __future__ import annotations

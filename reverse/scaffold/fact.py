@@ -17,6 +17,8 @@ _BEARING = {
     "mailbox": ("time_unit", "settle"),
     "drive": ("cell_size", "kind", "heading", "move_time", "odometry"),
 }
+# How variables of the environment begin that only decide what is logged, and where.
+SHOWN = ("ROSCONSOLE_", "RCUTILS_", "ROS_LOG_DIR")
 # Programs of ROS by their names, and what they are told to do, that act on what others hear.
 _SPEAKING = frozenset(
     {"pub", "play", "call", "set", "load", "relay", "mux", "throttle", "drop", "transform", "kill"}

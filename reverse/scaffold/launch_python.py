@@ -12,6 +12,7 @@ from rebsync.reverse.scaffold.fact import (
     CLOCK,
     NOT_GIVEN,
     OWN,
+    SHOWN,
     TYPE,
     Fact,
     has_bearing,
@@ -30,7 +31,6 @@ _KEYWORDS = (
 _ACTIONS = frozenset({"ComposableNode", "LifecycleNode", "Node"})
 _PROCESSES = frozenset({"ExecuteProcess", "ExecuteLocal"})
 _SETTING_ENVIRONMENT = frozenset({"SetEnvironmentVariable", "AppendEnvironmentVariable"})
-_SHOWN = ("RCUTILS_", "ROS_LOG_DIR")
 _CONFIGURING = frozenset({"DeclareLaunchArgument", "SetLaunchConfiguration"})
 
 
@@ -99,7 +99,7 @@ def _around(source: Source, call: ast.Call) -> Iterator[Fact]:
         yield Fact("command", "", " ".join(words), "started", source, _span(source, call))
     if _called(call) in _SETTING_ENVIRONMENT:
         name = words[0] if words else ""
-        if not name.startswith(_SHOWN):
+        if not name.startswith(SHOWN):
             yield Fact("environment", "", name, ast.unparse(call), source, _span(source, call))
 
 

@@ -7,14 +7,22 @@ from dataclasses import replace
 
 from rebsync.records import dataclass
 from rebsync.reverse.launch.xml_tree import XmlElement, read_xml
-from rebsync.reverse.scaffold.fact import NOT_GIVEN, OWN, SPACE, TYPE, Fact, has_bearing, speaks
+from rebsync.reverse.scaffold.fact import (
+    NOT_GIVEN,
+    OWN,
+    SHOWN,
+    SPACE,
+    TYPE,
+    Fact,
+    has_bearing,
+    speaks,
+)
 from rebsync.reverse.scaffold.prefixes import is_harmless
 from rebsync.reverse.scaffold.texts import conditions, is_of_package, space, squeezed
 from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source
 
 # The environment that has to do with what is shown only.
-_SHOWN = ("ROSCONSOLE_", "RCUTILS_", "ROS_LOG_DIR")
 
 
 def facts_of_launch(source: Source, package: str) -> Iterator[Fact]:
@@ -68,7 +76,7 @@ class _Tags:
         match element.name:
             case "node":
                 yield from self._node(element, given)
-            case "env" if not name.startswith(_SHOWN):
+            case "env" if not name.startswith(SHOWN):
                 yield self._fact("environment", self.node, name, value, element)
             case "include" if not is_of_package(given.get("file", ""), self.package):
                 yield self._fact("launch file", "", given.get("file", ""), "included", element)

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
+from rebsync.reverse.files.packages import HEADERS
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.libraries.cpp import scopes, telling_words
 from rebsync.reverse.syntax.ancestors import ancestors
@@ -25,7 +26,6 @@ NO_PYTHON = "this is no Python that can be read"
 _LONGEST = 120
 _WORD = re.compile(r"\w+")
 _DIRECTIVES = re.compile(r"^[ \t]*#(?:[^\n\\]|\\\r?\n|\\.)*", re.MULTILINE)
-_HEADERS = (".h", ".hh", ".hpp", ".hxx")
 # In these an include is no list of declarations for the file.
 _SCOPES = frozenset(
     {"compound_statement", "field_declaration_list", "enumerator_list", "initializer_list"}
@@ -60,7 +60,7 @@ def _included_code(cpp: Cpp) -> Iterator[Finding]:
         named_ = node.child_by_field_name("path")
         path = text_of(named_) if named_ is not None else ""
         is_inner = any(above.type in _SCOPES for above in ancestors(node))
-        is_header = path.startswith("<") or path.strip('"').endswith(_HEADERS)
+        is_header = path.startswith("<") or path.strip('"').endswith(tuple(HEADERS))
         if is_inner or not is_header:
             why = "what this includes is not read at this place"
             hint = "include headers at the top of a file" if is_inner else "name it a header: .hpp"
