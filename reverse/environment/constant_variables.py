@@ -103,8 +103,6 @@ def possible_constants(
             return None if found is None else _cast(type, found)
         case m.Conditional(_, then, otherwise):
             return _joined((then, otherwise), scope, variables, env)
-        case m.Choice(options):
-            return _joined(options, scope, variables, env)
         case _:
             return None
 
