@@ -110,7 +110,7 @@ def _binary(node: Node, lookup: Lookup) -> int | None:
         return None
     value = whole_result(text_of(operator), left, right)
     # A larger number may be cut off, as its type says, which is not looked at.
-    return value if value in _INT else None
+    return value if value is not None and value in _INT else None
 
 
 def _cast(node: Node, lookup: Lookup) -> int | None:

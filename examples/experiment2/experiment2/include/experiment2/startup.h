@@ -196,7 +196,8 @@ class Startup {
   void receive(const Announcement::ConstPtr& announcement) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (announcement->rebec == self_) {
-      if (announcement->stamp == stamp_) countSilence();
+      // Before time 0 is known announcements follow one another at once.
+      if (announcement->stamp == stamp_ && announcement->zero != 0) countSilence();
     } else if (takesPart(announcement->rebec)) {
       hear(*announcement);
     }
