@@ -10,12 +10,13 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.bodies import cpp_roots
+from rebsync.reverse.bodies.cpp_endings import may_end
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
-from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, is_number, may_end, root
+from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, is_number, root
 from rebsync.reverse.bodies.known_functions import acts, may_change, takes_values, type_takes_values
 from rebsync.reverse.bodies.scope import (
     Called,
@@ -61,6 +62,7 @@ class Effects:
     returning: bool = False
     _inner: set[str] = field(default_factory=set)
     _loops: int = 0
+    _switches: int = 0
 
     def check(self, node: Node) -> None:
         """Raises `Touches` where a piece of code may touch what the model has."""
@@ -80,7 +82,7 @@ class Effects:
             self._inside(node)
 
     def _left(self, node: Node) -> None:
-        if not self._loops:
+        if not self._loops and not (self._switches and node.type == "break_statement"):
             raise self._touches(node, "this leaves the loop")
         self._inside(node)
 
@@ -97,9 +99,10 @@ class Effects:
     def _repeated(self, node: Node) -> None:
         if not may_end(self.scope, node):
             raise self._touches(node, "nothing ends this loop")
-        self._loops += 1
+        loops = node.type != "switch_statement"
+        self._loops, self._switches = self._loops + loops, self._switches + (not loops)
         self._block(node)
-        self._loops -= 1
+        self._loops, self._switches = self._loops - loops, self._switches - (not loops)
 
     def _touches(self, node: Node, why: str, hint: str = "") -> Touches:
         touches = Touches(self.cpp.span(node), why, hint)
@@ -367,12 +370,13 @@ class Effects:
 
     def _handed(self, function: Node) -> None:
         """A function that is handed on: it may run at any time."""
-        outer, loops = self._inner, self._loops
-        self._inner, self._loops = {*outer, *cpp_roots.parameters_of(function)}, 0
+        outer, around = self._inner, (self._loops, self._switches)
+        self._inner = {*outer, *cpp_roots.parameters_of(function)}
+        self._loops = self._switches = 0
         for child in named(part(function, "body")):
             for each in named(child) if child.type == "return_statement" else [child]:
                 self.check(each)
-        self._inner, self._loops = outer, loops
+        self._inner, (self._loops, self._switches) = outer, around
 
 
 _CHECKS: dict[str, Callable[[Effects, Node], None]] = {

@@ -15,6 +15,8 @@ from rebsync.reverse.bodies.cpp_conversions import as_boolean, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
+from rebsync.reverse.bodies.cpp_roots import is_element
+from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import place_of
 from rebsync.reverse.bodies.known_functions import is_matrix
@@ -43,6 +45,9 @@ if TYPE_CHECKING:
 
 _DEEPEST = 8
 _GUARDED = frozenset({"conditional_expression", "while_statement", "for_statement", "do_statement"})
+_PLACES = frozenset(
+    {"subscript_expression", "field_expression", "pointer_expression", "conditional_expression"}
+)
 
 
 def inlined(
@@ -239,35 +244,46 @@ def _bound(
     refers = "&" in text or "*" in text or is_pointer(text_of(parameter.type))
     type_ = message_type(reader.scope, text_of(parameter.type))
     meaning = resolve(reader.scope, argument)
-    if isinstance(meaning, Record) and (refers or constant or meaning.constant):
-        inside.meaning(name, replace(meaning, constant=constant or meaning.constant))
-        return
+    if isinstance(meaning, Record):
+        if refers or (meaning.pointer and argument.type == "identifier"):
+            inside.meaning(name, replace(meaning, constant=constant or meaning.constant))
+            return
+        type_ = type_ or meaning.type
     if isinstance(meaning, Publishes | Serves | TimerOf):
         inside.meaning(name, meaning)
         return
     if is_this(argument) or isinstance(meaning, Itself):
         inside.meaning(name, Itself())
         return
-    if type_ is not None:
+    if type_:
         yield from _copied(reader, inside, name, type_, argument)
         return
-    if refers and not constant and isinstance(meaning, Variable):
+    kept = inside.scope.carried(parameter.type)
+    bound = refers and (not constant or _is_bound(argument, meaning, kept))
+    if bound and isinstance(meaning, Variable):
         inside.meaning(name, meaning)
         return
-    if refers and not constant and argument.type == "subscript_expression":
+    if bound and argument.type == "subscript_expression":
         place = reader.expressions.read(argument)
         if isinstance(place, m.Index) and constant_of(place.index) is not None:
             inside.meaning(name, place)
             return
-    kept = inside.scope.carried(parameter.type)
-    if (refers and not constant) or kept is None:
+    if bound or kept is None:
         effects = Effects(reader.cpp, reader.scope)
         effects.check(argument)
-        if refers and not constant:
+        if bound:
             effects.refers(argument)
         inside.meaning(name, Outside(indexed=is_matrix(text_of(parameter.type))))
         return
     yield from _valued(reader, inside, name, place_of("", kept), argument, once)
+
+
+def _is_bound(argument: Node, meaning: Meaning | None, kept: Carried | None) -> bool:
+    """Whether a `const` reference is one to a place that may change, not to a copy of its value."""
+    if isinstance(meaning, Variable):
+        own = (meaning.type, meaning.bits, meaning.wide)
+        return kept is None or own == (kept.type, kept.bits, kept.wide)
+    return argument.type in _PLACES or is_element(argument)
 
 
 def _left_out(

@@ -11,8 +11,8 @@ LEAVES = {
     "gnu_asm_expression": "the model has no assembly",
     **dict.fromkeys(_COROUTINES, "the model has no coroutines"),
 }
-_LOOPS = frozenset({"for_statement", "while_statement", "do_statement", "for_range_loop"})
-REPEATED = _LOOPS | {"switch_statement"}
+LOOPS = frozenset({"for_statement", "while_statement", "do_statement", "for_range_loop"})
+REPEATED = LOOPS | {"switch_statement"}
 # What touches nothing, whatever it is: not looked into, as most of all nodes are of these.
 PLAIN = frozenset(
     {

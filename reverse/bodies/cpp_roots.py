@@ -7,10 +7,9 @@ from collections.abc import Collection, Iterator
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_kinds import LEAVES
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Scope, Variable
 from rebsync.reverse.syntax.cpp_calls import call_of
-from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 
 def root(scope: Scope, inner: Collection[str], node: Node) -> tuple[str, Meaning | None]:
@@ -122,15 +121,3 @@ def is_element(node: Node) -> bool:
     """Whether a call gives a part of an array, which may be changed there."""
     call = call_of(node)
     return call is not None and call.name in ("at", "front", "back", "get", "move", "ref")
-
-
-def may_end(scope: Scope, loop: Node) -> bool:
-    """Whether a loop that changes nothing of the model asks for more than for that to go on."""
-    if loop.type == "switch_statement" or inside(loop, "break_statement", *LEAVES):
-        return True
-    condition = loop.child_by_field_name("condition")
-    if condition is None or text_of(condition).strip("() ") in ("true", "1"):
-        return False
-    asked = inside(condition, "identifier", "field_identifier", "call_expression")
-    known = (scope.meaning(text_of(node)) for node in asked)
-    return not asked or not all(isinstance(of, Variable) for of in known)

@@ -11,11 +11,11 @@ from collections.abc import Collection, Container, Iterable, Iterator, Mapping, 
 
 from tree_sitter import Node
 
+from rebsync.reverse.bodies.cpp_locks import odd_locks
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros1_descriptors import number_of
 from rebsync.reverse.generated.ros1_idle import working
-from rebsync.reverse.generated.ros1_locks import odd_locks
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_queues import odd_queue
 from rebsync.reverse.generated.ros1_roles import (
@@ -55,14 +55,14 @@ def check_plumbing(
 
     `fields` are those of each message type, in their order.
     """
-    roles = all_roles[owner.name]
+    roles, line = all_roles[owner.name], code.lineage(owner.name)
     for cpp, node, why in (
         *_odd_servers(code, roles),
         *_odd_fields(code, owner),
-        *odd_locks(code, owner),
+        *odd_locks(code, line, [f for c in line for f in code.functions_of(c)]),
     ):
         findings.unreadable(cpp.source, Unread(cpp.span(node), why), owner.name)
-    lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
+    lineage = [all_roles[c.name] for c in line]
     for function in code.functions_of(owner):
         if function.body is None:
             continue

@@ -24,6 +24,7 @@ from rebsync.reverse.nodes.node_hidden import note_hidden
 from rebsync.reverse.nodes.node_joined import Joined, Part
 from rebsync.reverse.nodes.node_lifecycle import note_life_cycle
 from rebsync.reverse.nodes.node_listing import FindingList
+from rebsync.reverse.nodes.node_locks import note_locks
 from rebsync.reverse.nodes.node_names import Names, class_word
 from rebsync.reverse.nodes.node_parameters import ConstructorParameter
 from rebsync.reverse.nodes.node_presence import STAND_IN, makes_generated
@@ -238,6 +239,7 @@ class _ClassReader:
         note_life_cycle(unit, findings)
         note_bound(node.bodies)
         note_hidden(node.bodies)
+        note_locks(node.bodies)
         note_unmodelled(node.bodies)
         note_spinning(node.bodies, alike[0].start if alike else None)
         note_helpers(node.bodies, self._helpers)
