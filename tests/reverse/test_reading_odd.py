@@ -128,3 +128,11 @@ def test_abstract_classes_of_people_are_no_interfaces() -> None:
 )
 def test_nothing_is_missing_in_a_body_of_empty_blocks(body: str) -> None:
     assert list(unparsed(parse(Source("a.cpp", f"void A::f() {body}\nvoid g() {{}}\n")))) == []
+
+
+def test_a_constant_that_no_integer_holds_takes_no_time() -> None:
+    enum = "enum { A = 1 << 31, B = 1 << 99, C = 1 << 2147483648, D = 7 / 0, E = A * A };\n"
+    text = enum + NODE.format(statement="count_ = B;")
+    start = process_time()
+    extract({"n.cpp": Source("n.cpp", text)})
+    assert process_time() - start < 10
