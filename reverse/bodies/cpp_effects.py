@@ -9,15 +9,14 @@ from functools import partial
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.bodies import cpp_roots
+from rebsync.reverse.bodies import cpp_roots, known_functions
 from rebsync.reverse.bodies.cpp_endings import may_end
-from rebsync.reverse.bodies.cpp_kinds import LEAVES, PLAIN, REPEATED
+from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOPS, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this
 from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, is_number, root
-from rebsync.reverse.bodies.known_functions import acts, may_change, takes_values, type_takes_values
 from rebsync.reverse.bodies.scope import (
     Called,
     Ignored,
@@ -48,11 +47,8 @@ from rebsync.reverse.syntax.macros import hides
 
 @dataclass(slots=True)
 class Effects:
-    """Looks through pieces of one body.
-
-    `own` are the locals of the body whose change is only noted, in `written`; with `everything`
-    that of any variable is.
-    """
+    """Looks through pieces of one body; that its `own` locals change is only noted, in `written`,
+    with `everything` that any variable does."""
 
     cpp: Cpp
     scope: Scope
@@ -61,8 +57,7 @@ class Effects:
     everything: bool = False
     returning: bool = False
     _inner: set[str] = field(default_factory=set)
-    _loops: int = 0
-    _switches: int = 0
+    _around: tuple[str, ...] = ()  # the types of the loops and switches
 
     def check(self, node: Node) -> None:
         """Raises `Touches` where a piece of code may touch what the model has."""
@@ -71,9 +66,7 @@ class Effects:
 
     def _inside(self, node: Node) -> None:
         for child in node.named_children:
-            type_ = child.type
-            if type_ not in PLAIN:  # as `check`, which would ask for the type again
-                _CHECKS.get(type_, Effects._inside)(self, child)
+            self.check(child)
 
     def _pointer(self, node: Node) -> None:
         if text_of(node).startswith("&"):
@@ -82,7 +75,7 @@ class Effects:
             self._inside(node)
 
     def _left(self, node: Node) -> None:
-        if not self._loops and not (self._switches and node.type == "break_statement"):
+        if LOOPS.isdisjoint(self._around) and not (self._around and node.type == "break_statement"):
             raise self._touches(node, "this leaves the loop")
         self._inside(node)
 
@@ -99,10 +92,9 @@ class Effects:
     def _repeated(self, node: Node) -> None:
         if not may_end(self.scope, node):
             raise self._touches(node, "nothing ends this loop")
-        loops = node.type != "switch_statement"
-        self._loops, self._switches = self._loops + loops, self._switches + (not loops)
+        self._around = (*self._around, node.type)
         self._block(node)
-        self._loops, self._switches = self._loops - loops, self._switches - (not loops)
+        self._around = self._around[:-1]
 
     def _touches(self, node: Node, why: str, hint: str = "") -> Touches:
         touches = Touches(self.cpp.span(node), why, hint)
@@ -151,6 +143,8 @@ class Effects:
     def _binary(self, node: Node) -> None:
         """An operator; of an object it may be a function: `stream >> count` changes `count`."""
         left, right = part(node, "left"), part(node, "right")
+        if known_functions.reads_input(left):
+            raise self._touches(node, "this waits for what somebody types")
         self.check(left)
         may_act = part(node, "operator").type in (">>", "&")
         is_object = may_act and not is_number(self.scope, self._inner, left)
@@ -201,11 +195,17 @@ class Effects:
             refers = target.type == "reference_declarator"
             if refers and value is None:
                 raise self._touches(node, "this looks like a declaration, but it is none")
-            if target.type == "function_declarator" and not type_takes_values(type_):
+            if target.type == "function_declarator" and not known_functions.type_takes_values(
+                type_
+            ):
                 self._made_from_names(target)
             if refers and value is not None and "const" not in cpp_roots.specifiers_of(node):
                 self.refers(value)
-            elif value is not None and value.type == "argument_list" and type_takes_values(type_):
+            elif (
+                value is not None
+                and value.type == "argument_list"
+                and known_functions.type_takes_values(type_)
+            ):
                 for argument in named(value):
                     self.check(argument)
             elif value is not None:
@@ -223,14 +223,12 @@ class Effects:
     def _range(self, node: Node) -> None:
         declarator, over = part(node, "declarator"), part(node, "right")
         refers = declarator.type == "reference_declarator"
-        if refers and "const" not in cpp_roots.specifiers_of(node):
-            self.refers(over)
-        else:
-            self.check(over)
+        changes = refers and "const" not in cpp_roots.specifiers_of(node)
+        (self.refers if changes else self.check)(over)
         self._inner.update(declared_in(declarator))
-        self._loops += 1
+        self._around = (*self._around, node.type)
         self.check(part(node, "body"))
-        self._loops -= 1
+        self._around = self._around[:-1]
 
     # --- calls ----------------------------------------------------------------------------------
 
@@ -245,9 +243,9 @@ class Effects:
             known = self._is_matrix(node, name, call) or known
         else:
             self._method(call, name, of, meaning)
-        if (does := acts(call, has_mailbox(self.scope))) is not None:
+        if (does := known_functions.acts(self.cpp, call, has_mailbox(self.scope))) is not None:
             raise self._touches(node, f'"{text_of(part(node, "function"))}" {does}')
-        if known or takes_values(call):
+        if known or known_functions.takes_values(call):
             for argument in call.arguments:
                 self.check(argument)
             return
@@ -269,7 +267,7 @@ class Effects:
                 meant = meant_by(known, call.name, len(call.arguments))
         if not meant or not all(map(self._is_calm, meant)):
             raise self._touches(call.node, f'"{name}" may change what the model has')
-        return not any(may_change(p) for f in meant for p in f.parameters)
+        return not any(known_functions.may_change(p) for f in meant for p in f.parameters)
 
     def _is_matrix(self, node: Node, name: str, call: CppCall) -> bool:
         """Whether a matrix is called; a function that somebody has put there may do anything.
@@ -278,10 +276,9 @@ class Effects:
         """
         meaning = None if name in self._inner else self.scope.meaning(name)
         if isinstance(meaning, Outside):
-            if meaning.indexed:
-                return True
-            if len(call.arguments) == 1 and isinstance(self._root(call.arguments[0])[1], Outside):
-                return False
+            only = call.arguments[0] if len(call.arguments) == 1 else None
+            if meaning.indexed or (only and isinstance(self._root(only)[1], Outside)):
+                return meaning.indexed
         if meaning is not None:
             raise self._touches(node, f'"{name}" may change what the model has')
         return False
@@ -345,9 +342,6 @@ class Effects:
                     raise self._touches(call.node, f'this may change "{of}"')
         self.check(target)
 
-    def _elements(self, node: Node) -> None:
-        self._arguments(named(node))
-
     def _arguments(self, arguments: tuple[Node, ...] | list[Node]) -> None:
         """Arguments of a function that is not known: it may keep or change what it gets."""
         for argument in arguments:
@@ -370,13 +364,12 @@ class Effects:
 
     def _handed(self, function: Node) -> None:
         """A function that is handed on: it may run at any time."""
-        outer, around = self._inner, (self._loops, self._switches)
-        self._inner = {*outer, *cpp_roots.parameters_of(function)}
-        self._loops = self._switches = 0
+        outer, around = self._inner, self._around
+        self._inner, self._around = {*outer, *cpp_roots.parameters_of(function)}, ()
         for child in named(part(function, "body")):
             for each in named(child) if child.type == "return_statement" else [child]:
                 self.check(each)
-        self._inner, (self._loops, self._switches) = outer, around
+        self._inner, self._around = outer, around
 
 
 _CHECKS: dict[str, Callable[[Effects, Node], None]] = {
@@ -388,7 +381,10 @@ _CHECKS: dict[str, Callable[[Effects, Node], None]] = {
     "declaration": Effects._declaration,
     "compound_statement": Effects._block,
     **dict.fromkeys(("break_statement", "continue_statement"), Effects._left),
-    **dict.fromkeys(("new_expression", "argument_list", "initializer_list"), Effects._elements),
+    **dict.fromkeys(
+        ("new_expression", "argument_list", "initializer_list"),
+        lambda self, node: self._arguments(named(node)),
+    ),
     **dict.fromkeys(LEAVES, Effects._left_function),
     **dict.fromkeys(REPEATED, Effects._repeated),
     "for_range_loop": Effects._range,

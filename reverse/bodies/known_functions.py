@@ -5,13 +5,15 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
+from tree_sitter import Node
+
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries import effects
 from rebsync.reverse.libraries.routines import Effect, Kind, Language
 from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
-from rebsync.reverse.syntax.cpp_tree import text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, part, text_of
 
 # Functions of the standard library that wait for somebody, start something, or end the program.
 _WAITING = frozenset(
@@ -20,6 +22,9 @@ _WAITING = frozenset(
         *("getline", "async", "call_once", "signal", "atexit", "at_quick_exit", "longjmp"),
     }
 )
+# Those of them that wait for a person, or for another program.
+_TYPED = frozenset({"getchar", "scanf", "gets", "system"})
+_DECLARATIONS = ("declaration", "field_declaration", "parameter_declaration")
 UNUSED = "unused"  # of the run-time part of generated code: says that nothing uses a parameter
 # Types whose objects run what they get, now or later.
 _RUNNING = frozenset(
@@ -47,7 +52,7 @@ def is_matrix(type_: str) -> bool:
     return _MATRIX.match(type_) is not None
 
 
-def acts(call: CppCall, is_generated: bool) -> str | None:
+def acts(cpp: Cpp, call: CppCall, is_generated: bool) -> str | None:
     """What a call does to the node by its name: it takes time, or ends it; None for others.
 
     In generated code, where parameters are constants of the model, to set one acts as well.
@@ -55,9 +60,34 @@ def acts(call: CppCall, is_generated: bool) -> str | None:
     name = call.name.rpartition("::")[2]
     if is_generated and not libraries.setting().isdisjoint((name, call.name.removeprefix("::"))):
         return Effect.SETS.value
-    if call.target is None and name in libraries.named(Kind.POLL):
+    if call.target is None and (name in libraries.named(Kind.POLL) or name in _TYPED):
+        return Effect.WAITS.value
+    if _awaits(cpp, call) or any(map(reads_input, call.arguments)):
         return Effect.WAITS.value
     return libraries.acting().get(name)
+
+
+def _awaits(cpp: Cpp, call: CppCall) -> bool:
+    """Whether a call gets the value of a future, and so waits until something sets it.
+
+    Told by the words of its declaration in the file: `get` of a smart pointer does not wait.
+    """
+    if call.name != "get" or call.arguments or call.target is None:
+        return False
+    words = [text_of(n) for n in inside(call.target, "identifier", "field_identifier")]
+    for declaration in inside(cpp.root, *_DECLARATIONS):
+        if any(
+            text_of(n) == words[-1] for n in inside(declaration, "identifier", "field_identifier")
+        ):
+            words.append(text_of(declaration))
+    return any(word in text.lower() for text in words for word in ("future", "async"))
+
+
+def reads_input(node: Node) -> bool:
+    """Whether an expression is, or begins with, what a person types."""
+    while node.type == "binary_expression":
+        node = part(node, "left")
+    return text_of(node).removeprefix("::").removeprefix("std::") in ("cin", "wcin", "stdin")
 
 
 def is_known(call: CppCall) -> bool:

@@ -157,7 +157,7 @@ def _only_lambda(value: Node) -> bool:
 
 
 def _is_plain_call(code: Code, call: CppCall) -> bool:
-    if acts(call, is_generated=True) is not None:
+    if acts(code.file_of(call.node), call, is_generated=True) is not None:
         return False
     name = call.name.rpartition("::")[2]
     if name in code.all_classes:

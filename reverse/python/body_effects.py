@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection
 
 from tree_sitter import Node
 
 from rebsync.reverse.graph import Unresolved
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.libraries.tables.standard import LOCKS
+from rebsync.reverse.libraries.tables.standard import WAITING_ALONE
 from rebsync.reverse.python.body_reading import Reading, nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.interfaces import interface_of
@@ -19,7 +18,6 @@ from rebsync.reverse.python.py_tree import decorators_of, field, named, nodes_in
 from rebsync.reverse.python.py_worth import Class, Function, Instance, Made, Value, Ways
 from rebsync.reverse.syntax.ancestors import ancestors, climb
 
-_LOCK = re.compile(LOCKS)
 DEFINITIONS = frozenset({"function_definition", "class_definition", "decorated_definition"})
 _DECORATORS = frozenset({"staticmethod", "classmethod", "property"})
 _DEEPEST = 4
@@ -31,15 +29,6 @@ def is_log(call: Node) -> bool:
     """Whether a call only writes to a log."""
     called = text_of(field(call, "function"))
     return libraries.log_calls().match("".join(called.split())) is not None or called == "print"
-
-
-def is_lock(reading: Reading, node: Node, frame: Frame) -> bool:
-    """Whether an object is a lock, which only makes threads wait for each other."""
-    holder = node
-    while holder.type in ("as_pattern", "parenthesized_expression") and holder.named_children:
-        holder = holder.named_children[0]
-    ways = reading.values.ways(holder, frame.scope)
-    return bool(ways) and all(isinstance(w, Made) and _LOCK.fullmatch(w.by) for w in ways)
 
 
 def is_harmless(reading: Reading, node: Node, frame: Frame) -> bool:
@@ -66,9 +55,19 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     ways = reading.values.ways(function, frame.scope)
     if not (all(is_quiet(reading, w) for w in ways) and _are_quiet(reading, name, function, ways)):
         return False
+    if waits_alone(node):
+        return False
     return name in libraries.harmless() or (
         bool(name) and libraries.acting().match(name) is None and _ends(name)
     )
+
+
+def waits_alone(call: Node) -> bool:
+    """Whether a call may wait for another thread: `get()` of a queue, `join()` of a thread."""
+    function = field(call, "function")
+    values = [a for a in named(field(call, "arguments")) if a.type != "keyword_argument"]
+    is_method = function.type == "attribute" and last_name(function) in WAITING_ALONE
+    return is_method and (not values or values[0].type in ("true", "false"))
 
 
 def may_be_of_message(reading: Reading, target: Node, frame: Frame) -> bool:
@@ -181,6 +180,7 @@ def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bo
     name = last_name(field(node, "function"))
     if (
         not name
+        or waits_alone(node)
         or (libraries.acting().match(name) is not None and name not in libraries.harmless())
         or not _ends(name)
     ):

@@ -16,6 +16,7 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import body_calls, body_loops, body_methods, body_switches, body_timers
 from rebsync.reverse.python.body_effects import is_harmless
+from rebsync.reverse.python.body_units import wakes
 from rebsync.reverse.python.py_index import CLASS, arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class
@@ -42,6 +43,9 @@ def asked(reader: BodyStatementReader, call: Node) -> Iterator[m.Statement] | No
             period = reader.reading.periods.get(made[0])
             if period is None:
                 raise Unread(reader.frame.span(call), "how long this waits is not known")
+            if not wakes(reader.reading.unit, reader.reading.code, reader.frame.is_start):
+                why = "only the executor that waits for this could end the sleep of a rate"
+                raise Unread(reader.frame.span(call), why)
             return iter((delay(m.IntLiteral(period), reader, call),))
     return _started(reader, call, name) if reader.frame.is_start else None
 

@@ -25,10 +25,10 @@ from rebsync.reverse.python.body_effects import (
     DEFINITIONS,
     defines_only,
     is_harmless,
-    is_lock,
     is_log,
 )
 from rebsync.reverse.python.body_expressions import short
+from rebsync.reverse.python.body_locks import is_lock, locks_of, waits_for_itself
 from rebsync.reverse.python.body_scope import (
     Pending,
 )
@@ -265,12 +265,12 @@ class PyStatements(BodyStatementReader):
         return is_log(call) or bool(made) or own is not None or publishes or sleeps
 
     def _with(self, node: Node) -> Iterator[m.Statement]:
-        clause = named(node)[0]
-        for item in named(clause):
+        if not all(is_lock(self.reading, lock, self.frame) for lock in locks_of(node)):
+            raise Unread(self.frame.span(node), "what entering and leaving this does is not known")
+        if waits_for_itself(self.reading, node, self.frame):
+            raise Unread(self.frame.span(node), "this may wait for ever for a lock that it holds")
+        for item in named(named(node)[0]):
             value = field(item, "value")
-            if not is_lock(self.reading, value, self.frame):
-                why = "what entering and leaving this does is not known"
-                raise Unread(self.frame.span(node), why)
             if value.type == "as_pattern":
                 body_variables.forget(self, field(value, "alias").named_children[0])
         yield from self.statements(named(field(node, "body")))

@@ -204,6 +204,14 @@ def runs_in_threads(unit: PyUnit, code: PyCode) -> bool:
     return unit.library.threads or several
 
 
+def wakes(unit: PyUnit, code: PyCode, starts: bool) -> bool:
+    """Whether a thread is left that lets the rates of rclpy, which are timers, end their sleep."""
+    texts = (scope.node.text or b"" for scope in code.modules.values())
+    if not unit.library.flat or (starts and any(b"Thread" in text for text in texts)):
+        return True
+    return runs_in_threads(unit, code)
+
+
 def names_of(code: PyCode, unit: PyUnit) -> set[str]:
     """The names of variables in the code of a unit: parameters of servers get others."""
     modules = {s.module for s in unit.lineage} | {unit.module}

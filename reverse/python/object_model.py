@@ -179,12 +179,15 @@ def _private(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
 def _of_subclasses(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
     """Classes below that of the unit, whose objects do what they say."""
     first = reading.unit.lineage[0]
+    whole = lineage(reading.values, first)
     for scope in list(reading.code.scopes.values()):
         if scope.kind != CLASS or scope is first or scope in reading.unit.lineage:
             continue
-        if not (scope.names or scope.attributes) or scope in reading.nodes:
+        if scope in reading.nodes:
             continue
-        if first in lineage(reading.values, scope) and _is_made(reading, scope):
+        above = lineage(reading.values, scope)
+        is_other = scope.names or scope.attributes or above[1:] != whole
+        if first in above and is_other and _is_made(reading, scope):
             why = f'objects of "{scope.name}" do otherwise than those of "{first.name}"'
             yield scope, scope.node, why
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import field as with_default
 from itertools import product
 from types import UnionType
@@ -127,17 +127,27 @@ def each_of(values: PyEvaluator, node: Node, scope: Scope) -> list[Ways]:
 def lineage(
     values: PyEvaluator, owner: Scope, seen: tuple[Scope, ...] = ()
 ) -> list[Scope | External]:
-    """A class and those above it, nearest first; of those that are not in the files the names."""
+    """A class and those above it in the order in which Python looks attributes up (C3: Barrett et
+    al., A Monotonic Superclass Linearization for Dylan); of those not in the files the names."""
     if owner in seen:
         return []
-    found: list[Scope | External] = [owner]
+    above: list[list[Scope | External]] = []
     bases = owner.node.child_by_field_name("superclasses")
     for base in named(bases) if bases is not None else []:
         if base.type == "keyword_argument":
             continue
         for value in values.ways(base, owner.parent or owner):
             if isinstance(value, Class):
-                found += lineage(values, value.scope, (*seen, owner))
+                above.append(lineage(values, value.scope, (*seen, owner)))
             elif isinstance(value, External):
-                found.append(value)
-    return found
+                above.append([value])
+    return [owner, *_merged([*above, [line[0] for line in above if line]])]
+
+
+def _merged(lines: list[list[Scope | External]]) -> Iterator[Scope | External]:
+    """The classes of several lines in an order that is that of each; else those of the first."""
+    while lines := [line for line in lines if line]:
+        later = [each for line in lines for each in line[1:]]
+        first = next((line[0] for line in lines if line[0] not in later), lines[0][0])
+        yield first
+        lines = [[each for each in line if each != first] for line in lines]

@@ -117,6 +117,9 @@ ACTING_WORDS = (
     *("add_(node|call|on_|done|list|wait)", "execute", "getch", "readline", r"read\b", "recv"),
     *("accept", "join", "get_key"),
 )
+# Methods of queues and threads of Python that wait where they get no value: of dictionaries and
+# texts methods of the same names get one.
+WAITING_ALONE = frozenset({"get", "join"})
 # The objects that C++ writes texts to, for people to read.
 STREAMS = frozenset(
     {"std::cout", "std::cerr", "std::clog", "cout", "cerr", "clog", "std::endl", "endl"}

@@ -1,0 +1,25 @@
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+
+class Sleeper(Node):
+    def __init__(self):
+        super().__init__("sleeper")
+        self._rate = self.create_rate(1.0)
+        self._out = self.create_publisher(Int32, "out", 10)
+        self.create_subscription(Int32, "go", self._on, 10)
+
+    def _on(self, message):
+        self._rate.sleep()
+        self._out.publish(Int32(data=1))
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Sleeper())
+    rclpy.shutdown()
+
+
+if __name__ == "__main__":
+    main()
