@@ -202,14 +202,19 @@ def _may_divide_by_zero(reading: Reading, node: Node, frame: Frame) -> bool:
         right = right.named_children[0]
     if _is_never_zero(reading, right, frame):
         return False
-    if right.type == "attribute" and field(right, "object").type == "identifier":
-        holder = field(right, "object")
+    return any(_is_modelled(reading, inner, frame) for inner in nodes_in(right))
+
+
+def _is_modelled(reading: Reading, node: Node, frame: Frame) -> bool:
+    """Whether a name is that of a variable of the model, or of a field of a message."""
+    if node.type == "attribute" and field(node, "object").type == "identifier":
+        holder = field(node, "object")
         meaning = reading.name(text_of(holder), holder, frame)
-        name = text_of(field(right, "attribute"))
-        own = isinstance(meaning, Own) and isinstance(reading.attribute(name, right, frame), Var)
+        name = text_of(field(node, "attribute"))
+        own = isinstance(meaning, Own) and isinstance(reading.attribute(name, node, frame), Var)
         return own or isinstance(meaning, Message)
-    if right.type == "identifier":
-        return isinstance(reading.name(text_of(right), right, frame), Var)
+    if node.type == "identifier":
+        return isinstance(reading.name(text_of(node), node, frame), Var)
     return False
 
 
