@@ -130,6 +130,8 @@ class InclusionSearch:
                 reason = f"more than {self.limit} states of {self.component.name} are possible"
                 return self._ended("cut", reason, widest)
             low, _, hypothesis = heapq.heappop(self._waiting)
+            if self._dead and self._dead[0].progress[0] < hypothesis.progress[0]:
+                self._dead = []  # what follows from this one comes further
             if low > before:
                 self._seen.pop(before, None)
                 before = low
