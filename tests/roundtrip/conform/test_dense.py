@@ -91,10 +91,10 @@ def values(formula: Formula, of: World) -> list[bool]:
             return [a and b for a, b in zip(values(left, of), values(right, of), strict=True)]
         case Or(left, right):
             return [a or b for a, b in zip(values(left, of), values(right, of), strict=True)]
-        case Temporal(operator, operands):
-            bound = None
-        case Timed(operator, bound, operands):
-            operator = operator[1]
+        case Temporal(name, operands):
+            operator, bound = str(name), None
+        case Timed(name, bound, operands):
+            operator = name[1]
     first, last = values(operands[0], of), values(operands[-1], of)
     found = []
     for at in range(count):
