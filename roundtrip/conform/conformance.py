@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import field
 from typing import Literal, TypeAlias
 
@@ -103,7 +104,7 @@ class TopicInterval:
     server: str
     topic: str
     kind: str
-    seconds: tuple[float, ...]
+    seconds: Sequence[float]
 
 
 @dataclass(frozen=True, slots=True)

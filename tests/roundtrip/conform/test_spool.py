@@ -8,6 +8,7 @@ from weakref import WeakSet
 
 import pytest
 
+from rebsync.cli.recorded_topics import TopicBounds
 from rebsync.roundtrip.conform.components import spool
 from rebsync.roundtrip.conform.components.spool import Spool
 from tests.roundtrip.conform.test_topics import FAULTS, of, real
@@ -54,6 +55,7 @@ def test_what_is_said_does_not_depend_on_blocks(
     log = real()
     own = [n for n, message in enumerate(log) if message["topic"] == "/power"]
     logs = log, FAULTS[fault][0](log, own[len(own) // 3])
-    expected = [of("thermostat", each, tmp_path) for each in logs]
+    measuring = TopicBounds(None, True, None, True)
+    expected = [of("thermostat", each, tmp_path, measuring) for each in logs]
     monkeypatch.setattr(spool, "BLOCK", 4)
-    assert [of("thermostat", each, tmp_path) for each in logs] == expected
+    assert [of("thermostat", each, tmp_path, measuring) for each in logs] == expected
