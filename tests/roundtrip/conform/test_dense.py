@@ -20,6 +20,8 @@ FORMULAS: tuple[Formula, ...] = (
     Temporal("G", (Or(Not(P), Timed("AF", ("<=", 2), (Q,))),)),
     Temporal("G", (Or(Not(P), Timed("AG", ("<=", 2), (Q,))),)),
     Temporal("G", (Or(Not(P), Timed("AG", (">=", 2), (Or(P, Q),))),)),
+    Temporal("G", (Or(P, Not(Timed("AF", ("<=", 2), (Q,)))),)),
+    Temporal("F", (And(Not(Q), Timed("AU", ("<=", 2), (P, Q))),)),
     Temporal("G", (Timed("AU", ("<=", 4), (P, Q)),)),
     Temporal("G", (Or(Not(P), Temporal("U", (Not(Q), Timed("AG", ("<=", 1), (P,))))),)),
     Temporal("G", (Temporal("W", (P, Q)),)),
