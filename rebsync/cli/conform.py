@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from rebsync.static.cells import CellOf
 
 FORMATS = ("text", "json", "sarif", "github", "junit")
+_REORDERED = "the messages are not in the order of their stamps, and were compared in that"
 _STATUS = {
     "conforms": Status.CLEAN,
     "deviates": Status.FINDINGS,
@@ -89,6 +90,7 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     from rebsync.cli.recorded_topics import is_by_hand
     from rebsync.roundtrip.calibration.report import calibration_json
     from rebsync.roundtrip.conform.matching import Subject, conform
+    from rebsync.roundtrip.conform.reading import InOrderOfStamps
     from rebsync.roundtrip.conform.reading import recordings as opened
     from rebsync.roundtrip.conform.report.formats import as_text
     from rebsync.roundtrip.conform.search import WIDEST
@@ -109,10 +111,15 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
             refuse_to_overwrite(read, written)
     observable = subject.observable
     topics = Topics.of(observable)
-    recording = opened(recordings, topics, observable.package, given["namespace"])
+    recording: Recording = opened(recordings, topics, observable.package, given["namespace"])
     most, keeps = given["max_states"] or REACHED, given["page"] is not None
     widest = given["max_states"] or WIDEST
     found = conform(subject, recording, most=most, keeps_run=keeps, widest=widest)
+    if found.lateness.goes_back and found.verdict in ("deviates", "undetermined"):
+        by_stamps = InOrderOfStamps(recording)
+        again = conform(subject, by_stamps, most=most, keeps_run=keeps, widest=widest)
+        if again.verdict in ("conforms", "violated") or again.compared > found.compared:
+            found, recording = replace(again, notes=(*again.notes, _REORDERED)), by_stamps
     if package is not None:
         found = _with_code(found, subject, problem, package)
     proposes = given["calibrate"] or given["applies"]

@@ -45,6 +45,7 @@ def read_observed(path: str, property_file: str | None) -> TopicProperties | Non
     from rebsync.checker.lowering import lower
     from rebsync.reverse.environment.observation import observations
     from rebsync.reverse.environment.package import in_fitting_unit, message_types
+    from rebsync.reverse.nodes.node_system import unit_of_time
     from rebsync.roundtrip.conform.components.properties import TopicProperties
 
     chosen = property_file if property_file is not None else _property_in(path)
@@ -56,7 +57,8 @@ def read_observed(path: str, property_file: str | None) -> TopicProperties | Non
     seen = observations(read.extracted.joined, message_types(read.files))
     variables = {(r.name, slot.name) for r in program.rebecs for slot in r.state}
     observed = {(r, o.variable): o for r, o in seen if (r, o.variable) in variables}
-    return TopicProperties(program, formulas, problem.properties, observed)
+    unit = float(unit_of_time(read.files))
+    return TopicProperties(program, formulas, problem.properties, observed, unit)
 
 
 def _property_in(path: str) -> str | None:

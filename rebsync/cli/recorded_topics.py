@@ -83,6 +83,7 @@ class OpenPackage:
         """The answer for a recording. RebsyncError: it cannot be read."""
         from rebsync.roundtrip.conform.components.assembly import Scale, assemble
         from rebsync.roundtrip.conform.components.comparison import Bounds, compare
+        from rebsync.roundtrip.conform.components.properties import Timespan
         from rebsync.roundtrip.conform.search import WIDEST
 
         slack = bounds.slack if bounds.slack is not None else SLACK
@@ -95,7 +96,11 @@ class OpenPackage:
         if properties is None:
             return found
         events = recordings.events(properties.fields())
-        evaluated = properties.evaluated(events, assembly.begin, scale.unit, slack)
+        begin = assembly.begin
+        # Of several files each has topics of its own, and another end.
+        length = assembly.end * scale.unit if len(recordings.paths) == 1 else 0.0
+        times = Timespan(begin, begin + length)
+        evaluated = properties.evaluated(events, times, scale.unit, slack)
         return replace(found, properties=evaluated)
 
 

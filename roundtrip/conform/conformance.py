@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import field
 from typing import Literal, TypeAlias
 
@@ -82,13 +83,14 @@ class Lateness:
     """By how much the clock differs from the model's time, at the end of bodies, in seconds.
 
     `points` are (model time, rebec, seconds), thinned out; `greatest` is the one that is
-    furthest off. `basis`: where time 0 of the clock is from.
+    furthest off. `basis`: where time 0 of the clock is from. `goes_back`: stamps do, by seconds.
     """
 
     basis: Literal["announced", "first", "none"] = "none"
     zero: float = 0.0
     greatest: tuple[int, str, float] | None = None
     points: tuple[tuple[int, str, float], ...] = ()
+    goes_back: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +104,7 @@ class TopicInterval:
     server: str
     topic: str
     kind: str
-    seconds: tuple[float, ...]
+    seconds: Sequence[float]
 
 
 @dataclass(frozen=True, slots=True)

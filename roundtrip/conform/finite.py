@@ -91,6 +91,7 @@ class Progression:
     """
 
     def __init__(self, formula: Formula) -> None:
+        self.formula = formula
         self.rest: Rest = Next(formula)
         self.margin: int | None = None
         self._truth: dict[int, bool] = {}

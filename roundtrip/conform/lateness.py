@@ -37,6 +37,7 @@ class Clocks:
         self._most: Point | None = None
         self._latest = float("-inf")
         self._jumps: list[tuple[float, float]] = []
+        self._goes_back = False
         self._ticks: tuple[float, float] | None = None
         self._publishers: dict[int, dict[str, None]] = {}
 
@@ -57,6 +58,7 @@ class Clocks:
             case Served():
                 self._served(event)
         if event.stamp < self._latest - _JUMP and len(self._jumps) < POINTS:
+            self._goes_back = True
             self._jumps.append((self._latest, event.stamp))
             self._latest = event.stamp
         self._latest = max(self._latest, event.stamp)
@@ -85,7 +87,7 @@ class Clocks:
         points = [(now, node, offset - zero) for now, node, offset in self._points]
         ends = [(p[0], p[1], p[2] - zero) for p in (self._least, self._most)]
         greatest = max(ends, key=lambda p: abs(p[2]))
-        return Lateness(basis, zero, greatest, tuple(points))
+        return Lateness(basis, zero, greatest, tuple(points), self._goes_back)
 
     def _zero(self, least: float, most: float) -> tuple[Literal["announced", "first"], float]:
         """Time 0 as announced; the earliest that fits where it was not, or on another clock."""

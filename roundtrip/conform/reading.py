@@ -11,7 +11,7 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.package import Package
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.bags import OwnTypes
-from rebsync.roundtrip.conform.recording import Event, Served, Truncated
+from rebsync.roundtrip.conform.recording import Event, Recording, Served, Truncated
 from rebsync.roundtrip.conform.topic_filter import TopicChoice, TopicFilter
 from rebsync.roundtrip.conform.topics import Topics
 
@@ -39,6 +39,22 @@ class Recordings:
         if len(streams) == 1:
             return streams[0]
         return _once(heapq.merge(*streams, key=lambda event: event.stamp))
+
+
+@dataclass(frozen=True, slots=True)
+class InOrderOfStamps:
+    """A recording whose files have their messages in another order, as bags put together do."""
+
+    recording: Recording
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """The files."""
+        return self.recording.paths
+
+    def events(self, with_sent: bool = False) -> Iterator[Event]:
+        """What was recorded, by stamps."""
+        return iter(sorted(self.recording.events(with_sent), key=lambda event: event.stamp))
 
 
 def _once(events: Iterator[Event]) -> Iterator[Event]:

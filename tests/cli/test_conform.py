@@ -371,3 +371,21 @@ WIDE = """reactiveclass A(3) {
 }
 main { A a():(); }
 """
+
+
+@pytest.mark.parametrize("status", [0, 1])
+def test_a_bag_whose_messages_are_not_in_the_order_of_stamps(status: int, tmp_path: Path) -> None:
+    """Programs that put bags together write them so; players go by stamps."""
+    from tests.roundtrip.conform.bagging import write_bag
+    from tests.roundtrip.conform.faults import wrong_state
+    from tests.roundtrip.conform.test_recordings import of_bag, steps
+
+    run = list(steps(BAG)) if status == 0 else wrong_state(steps(BAG), robots_step())
+    half = next(n for n, step in enumerate(run) if n > 50 and step.stamp > run[n - 1].stamp + 0.5)
+    path = write_bag(
+        tmp_path / "run.bag", of_bag(BAG).observable, [*run[half:], *run[:half]], "ros1"
+    )
+    done = rebsync("conform", MODEL, str(path), cwd=tmp_path)
+    assert done.status == status, done.out
+    assert "compared in that" in done.out
+    assert ("wrong state: robot" in done.out) is (status == 1)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Sequence
+import heapq
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field
+from itertools import chain
 from math import inf
 
 from rebsync import model as m
@@ -29,6 +31,7 @@ from rebsync.roundtrip.conform.components.interface import (
     interfaces,
     parameter_names,
 )
+from rebsync.roundtrip.conform.components.spool import Spool
 from rebsync.roundtrip.conform.conformance import Deviation
 from rebsync.roundtrip.conform.recording import Heard, Truncated
 from rebsync.statements import UNREADABLE
@@ -87,7 +90,7 @@ class _Assembler:
     found: Assembly = field(default_factory=Assembly)
     begin: float = inf
     end: float = -inf
-    _heard: dict[str, list[Heard]] = field(default_factory=dict)
+    _heard: dict[str, Spool[Heard]] = field(default_factory=dict)
     _links: dict[str, tuple[str, Link]] = field(default_factory=dict)
     _jumps: set[str] = field(default_factory=set)
 
@@ -114,14 +117,16 @@ class _Assembler:
                 self.found.open.append(f"it can be compared up to there: {event.why}")
                 break
             if isinstance(event, Heard):
-                of_topic = self._heard.setdefault(event.topic, [])
+                of_topic = self._heard.setdefault(event.topic, Spool())
                 if of_topic and event.stamp < of_topic[-1].stamp - _JUMP:
                     self._jumps.add(event.topic)
                 of_topic.append(event)
                 self.begin = min(self.begin, event.stamp)
                 self.end = max(self.end, event.stamp)
         for topic in sorted(self._jumps):
-            self.found.open.append(f"the clock jumps back in the messages on {topic}")
+            why = f"the clock jumps back in the messages on {topic}"
+            self.found.open.append(why)
+            self.found.doubts |= {interface.rebec: why for interface in self.interfaces}
         if self._heard:
             self.found.begin = self.begin
             self.found.end = round((self.end - self.begin) / self.scale.unit)
@@ -163,7 +168,7 @@ class _Assembler:
             return None
         first = min(all_[0].stamp for all_ in outputs if all_)
         servers = self._servers(rebec)
-        inputs = [i for each in interface.received for i in self._inputs(each, servers)]
+        inputs = (self._inputs(each, servers) for each in interface.received)
         timing = Timing(self.scale.unit, self.scale.slack, self.begin, self.end, first)
         numbers = self._servers(environment)
         pairs = conflicts(class_)
@@ -172,9 +177,9 @@ class _Assembler:
             rebec,
             ComponentBodies(self.program, rebec, environment),
             timing,
-            tuple(sorted(inputs, key=lambda each: each.stamp)),
+            Spool(heapq.merge(*inputs, key=_stamp)),
             tuple(self._topic(link) for link in heard),
-            tuple(map(tuple, outputs)),
+            tuple(outputs),
             {numbers[link]: k for k, link in enumerate(heard)},
             frozenset((servers[a], servers[b]) for a, b in pairs if {a, b} <= servers.keys()),
             is_bounded=self.closed.depth > 0,
@@ -227,10 +232,11 @@ class _Assembler:
 
     # --- messages
 
-    def _outputs(self, interface: Interface, link: str) -> list[Output]:
-        server, found = self._servers(self._environment())[link], []
+    def _outputs(self, interface: Interface, link: str) -> Spool[Output]:
+        server, found = self._servers(self._environment())[link], Spool[Output]()
+        places = self._places(link)
         for heard in self._own(interface, link):
-            values = self._values(link, heard)
+            values = [heard.values[n] for n in places]
             cells = cells_of(self.program, server, values)
             found.append(Output(heard.stamp, cells, heard.place, tuple(values)))
         self.found.recorded += len(found)
@@ -275,28 +281,52 @@ class _Assembler:
 
     def _inputs(self, received: Received, servers: dict[str, int]) -> Iterator[Input]:
         topic, server = self._topic(received.link), servers[received.server]
-        heard = self._heard.get(topic, [])
-        stamps = sorted(h.stamp for h in heard)
+        heard = self._heard.get(topic, ())
+        depth, slack = self.closed.depth, self.scale.slack
+        of_link = self._places(received.link)
+        places = [of_link[n] for n in received.places]
         inside = sum(received.link in i.published for i in self.interfaces)
         lanes: dict[str, int] = {}
-        for each in heard:
-            values = self._values(received.link, each)
-            cells = cells_of(self.program, server, [values[p] for p in received.places])
+        for each, near in _near(_by_stamp(heard), slack):
+            cells = cells_of(self.program, server, [each.values[n] for n in places])
             lane = UNORDERED
             if each.publisher or inside == 1:
                 lane = lanes.setdefault(each.publisher, self._lane(topic, len(lanes)))
-            yield Input(each.stamp, server, cells, lane, self._may_drop(stamps, each.stamp))
+            yield Input(each.stamp, server, cells, lane, 0 < depth < near)
 
     def _lane(self, topic: str, number: int) -> int:
         return sorted(self._links).index(topic) * 1000 + number
 
-    def _may_drop(self, stamps: Sequence[float], stamp: float) -> bool:
-        """Whether more messages come together than the shortest queue holds."""
-        depth, slack = self.closed.depth, self.scale.slack
-        near = bisect_right(stamps, stamp + slack) - bisect_left(stamps, stamp - slack)
-        return 0 < depth < near
-
-    def _values(self, link: str, heard: Heard) -> list[object]:
-        """The values of a message in the order of the environment's parameters."""
+    def _places(self, link: str) -> list[int]:
+        """Where in a message the values are of the parameters of the environment's server."""
         names = self.closed.links[link].parameters
-        return [heard.values[names.index(name)] for name in parameter_names(self.model, link)]
+        return [names.index(name) for name in parameter_names(self.model, link)]
+
+
+def _stamp(event: Heard | Input) -> float:
+    return event.stamp
+
+
+def _by_stamp(heard: Iterable[Heard]) -> Iterator[Heard]:
+    """The messages by their stamps, which go back a little at most."""
+    waiting: list[tuple[float, int, Heard]] = []
+    for number, each in enumerate(heard):
+        heapq.heappush(waiting, (each.stamp, number, each))
+        while waiting[0][0] < each.stamp - _JUMP:
+            yield heapq.heappop(waiting)[2]
+    while waiting:
+        yield heapq.heappop(waiting)[2]
+
+
+def _near(heard: Iterator[Heard], slack: float) -> Iterator[tuple[Heard, int]]:
+    """Each message with how many there are within the slack of it."""
+    waiting, stamps = deque[Heard](), deque[float]()
+    for each in chain(heard, (None,)):
+        while waiting and (each is None or each.stamp > waiting[0].stamp + slack):
+            first = waiting.popleft()
+            while stamps[0] < first.stamp - slack:
+                stamps.popleft()
+            yield first, len(stamps)
+        if each is not None:
+            waiting.append(each)
+            stamps.append(each.stamp)

@@ -19,7 +19,7 @@ from rebsync.roundtrip.conform.components.component import Component
 from rebsync.roundtrip.conform.components.diagnosis import TopicDiagnosis
 from rebsync.roundtrip.conform.components.environment import Closed
 from rebsync.roundtrip.conform.components.inclusion import Inclusion, InclusionSearch
-from rebsync.roundtrip.conform.components.intervals import intervals, way_to
+from rebsync.roundtrip.conform.components.intervals import intervals
 from rebsync.roundtrip.conform.components.middle import middle, served_before
 from rebsync.roundtrip.conform.components.run import merged, steps_of
 from rebsync.roundtrip.conform.conformance import Conformance, Deviation, TopicInterval
@@ -168,7 +168,7 @@ class _Judge:
         took: tuple[TopicInterval, ...] = ()
         run: tuple[TraceStep, ...] = ()
         if search.keeps and found.last is not None:
-            way = way_to(found.last, search.came_from)
+            way = search.way_to(found.last)
             took, run = intervals(self.component, way), steps_of(self.component, way)
         return Judged(compared, found.widest, None, (why,) if over else (), (), took, run)
 
@@ -184,7 +184,7 @@ class _Judge:
         if found.raced:
             return self._open(search, found, f"{name} does not fit, but {_BESIDE}")
         best = max(found.dead, key=lambda dead: dead.progress)
-        run = steps_of(self.component, way_to(best, search.came_from))
+        run = steps_of(self.component, search.way_to(best))
         return Judged(_compared(found), found.widest, self._deviation(search, found), run=run)
 
     def _open(self, search: InclusionSearch, found: Inclusion, why: str) -> Judged:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from rebsync.checker.program import Cell, Program
@@ -61,9 +62,9 @@ class Component:
     rebec: int
     bodies: ComponentBodies
     timing: Timing
-    inputs: tuple[Input, ...]
+    inputs: Sequence[Input]
     topics: tuple[str, ...]
-    outputs: tuple[tuple[Output, ...], ...]
+    outputs: tuple[Sequence[Output], ...]
     by_server: dict[int, int]
     conflicts: frozenset[tuple[int, int]] = frozenset()
     in_threads: bool = False

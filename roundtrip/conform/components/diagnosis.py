@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import inf
 from typing import NamedTuple
 
@@ -162,7 +162,7 @@ class TopicDiagnosis:
             expected.topic, number, expected.sent
         )
 
-    def _unlike(self, dead: Hypothesis, expected: Expected, recorded: tuple[Output, ...]) -> Reason:
+    def _unlike(self, dead: Hypothesis, expected: Expected, recorded: Sequence[Output]) -> Reason:
         """Another message was recorded when the model publishes."""
         values, first = self._values(expected), recorded[0]
         number = dead.matched[expected.topic]

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice, zip_longest
 
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.bags import OwnTypes
+from rebsync.roundtrip.conform.components.spool import Spool
 from rebsync.roundtrip.conform.reading import check_readable, events_of
 from rebsync.roundtrip.conform.recording import Event, Heard, Place
 from rebsync.roundtrip.conform.topics import Convert, Message, Topic
@@ -90,11 +92,11 @@ class HeardRecordings:
         if len(self.paths) == 1:
             return {}
         spans = self._spans(wanted)
-        shared: dict[str, dict[int, list[tuple[object, ...]]]] = {}
+        shared: dict[str, dict[int, Spool[tuple[object, ...]]]] = {}
         for event in self._merged(wanted):
             if isinstance(event, Heard) and spans.is_shared(event):
                 files = shared.setdefault(event.topic, {})
-                files.setdefault(event.place.file, []).append(event.values)
+                files.setdefault(event.place.file, Spool()).append(event.values)
         return {topic: _agree(list(files.values())) for topic, files in shared.items()}
 
     def _merged(self, wanted: Mapping[str, Sequence[str]]) -> Iterator[Event]:
@@ -110,18 +112,22 @@ class HeardRecordings:
         return spans
 
 
-def _agree(files: Sequence[list[tuple[object, ...]]]) -> bool:
+def _agree(files: Sequence[Spool[tuple[object, ...]]]) -> bool:
     """Whether all have the same values, but for one more at either end of what they share."""
     first, *others = files
     ends = [(begin, end) for begin in (0, 1) for end in (0, 1)]
     return bool(others) and all(
         any(
-            str(first[a : len(first) - b]) == str(other[c : len(other) - d])
+            _is_equal(islice(first, a, len(first) - b), islice(other, c, len(other) - d))
             for a, b in ends
             for c, d in ends
         )
         for other in others
     )
+
+
+def _is_equal(one: Iterable[object], other: Iterable[object]) -> bool:
+    return all(str(a) == str(b) for a, b in zip_longest(one, other, fillvalue=""))
 
 
 class _Spans:

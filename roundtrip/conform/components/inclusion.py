@@ -10,7 +10,7 @@ Errors of time do not add up: each body is counted from what caused it, and from
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import count
 from math import inf
 from typing import Literal, NamedTuple
@@ -21,6 +21,7 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.conform.components.bodies import BodyRun, Publication
 from rebsync.roundtrip.conform.components.component import UNORDERED, Cells, Component
 from rebsync.roundtrip.conform.components.interface import is_same
+from rebsync.roundtrip.conform.components.spool import Spool
 
 CONNECTS = 2.0  # s after a node has shown itself in which its topics may not be connected yet
 BEFORE = 60.0  # s before a recording in which nodes may have begun
@@ -88,8 +89,8 @@ class Inclusion:
 class InclusionSearch:
     """One search; with more than `limit` hypotheses at a time it is cut.
 
-    Inputs up to `served_before` may have been served before the beginnings. `keeps`: `came_from`
-    has for each hypothesis one before it.
+    Inputs up to `served_before` may have been served before the beginnings. `keeps`: the way to
+    a hypothesis can be asked for.
     """
 
     def __init__(self, component: Component, limit: int, served_before: float = -inf) -> None:
@@ -98,7 +99,8 @@ class InclusionSearch:
         self.served_before = served_before
         self.raced = False
         self.keeps = False
-        self.came_from: dict[Hypothesis, Hypothesis] = {}
+        self._came_from: dict[Hypothesis, Hypothesis] = {}
+        self._settled = Spool[Hypothesis]()  # the way up to where only one was possible
         self.failures: dict[Failure, None] = {}
         self._timing = component.timing
         self._dead: list[Hypothesis] = []
@@ -130,9 +132,14 @@ class InclusionSearch:
                 reason = f"more than {self.limit} states of {self.component.name} are possible"
                 return self._ended("cut", reason, widest)
             low, _, hypothesis = heapq.heappop(self._waiting)
+            if self._dead and self._dead[0].progress[0] < hypothesis.progress[0]:
+                self._dead = []  # what follows from this one comes further
             if low > before:
                 self._seen.pop(before, None)
                 before = low
+            if self.keeps and not self._waiting:
+                self.way_to(hypothesis)
+                self._came_from = {}
             if self._is_complete(hypothesis):
                 return self._ended("fits", "", widest, hypothesis)
             try:
@@ -143,10 +150,22 @@ class InclusionSearch:
             for each in after:
                 self._push(each)
                 if self.keeps and each != hypothesis:
-                    self.came_from.setdefault(each, hypothesis)
+                    self._came_from.setdefault(each, hypothesis)
             if not after:
                 self._die(hypothesis)
         return self._ended("refused", "", widest)
+
+    def way_to(self, last: Hypothesis) -> Sequence[Hypothesis]:
+        """The hypotheses up to one, as far as they are known; it is the last to be asked for."""
+        way = [last]
+        while way[-1] in self._came_from:
+            way.append(self._came_from[way[-1]])
+        way.reverse()
+        if self._settled and self._settled[-1] != way[0]:
+            return way
+        for each in way[1 if self._settled else 0 :]:
+            self._settled.append(each)
+        return self._settled
 
     def _ended(
         self,

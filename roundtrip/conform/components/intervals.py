@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from array import array
+from collections.abc import Sequence
 from itertools import pairwise
 
 from rebsync.roundtrip.conform.components.component import Component
@@ -16,7 +17,7 @@ def intervals(component: Component, run: Sequence[Hypothesis]) -> tuple[TopicInt
     The first of servers of messages from outside ("delay"), the second of servers of messages that
     the rebec sends itself, such as timers ("period").
     """
-    found: dict[tuple[str, str, str], list[float]] = {}
+    found: dict[tuple[str, str, str], array[float]] = {}
     last: dict[tuple[int, int], float] = {}
     for before, after in pairwise(run):
         inputs = [component.inputs[n] for n in _newly_taken(before, after)]
@@ -29,27 +30,17 @@ def intervals(component: Component, run: Sequence[Hypothesis]) -> tuple[TopicInt
             name = component.program.servers[after.last].name
             if inputs:
                 key = name, component.topics[topic], "delay"
-                found.setdefault(key, []).append(stamp - inputs[0].stamp)
+                found.setdefault(key, array("d")).append(stamp - inputs[0].stamp)
                 continue
             before_it = last.get((after.last, topic))
             if before_it is not None:
                 key = name, component.topics[topic], "period"
-                found.setdefault(key, []).append(stamp - before_it)
+                found.setdefault(key, array("d")).append(stamp - before_it)
             last[after.last, topic] = stamp
-    return tuple(
-        TopicInterval(component.name, *key, tuple(seconds)) for key, seconds in found.items()
-    )
+    return tuple(TopicInterval(component.name, *key, seconds) for key, seconds in found.items())
 
 
 def _newly_taken(before: Hypothesis, after: Hypothesis) -> list[int]:
     """The inputs that are passed in a step."""
     advanced = {*range(before.base, after.base), *after.taken}
     return sorted(advanced - before.taken)
-
-
-def way_to(last: Hypothesis, before: Mapping[Hypothesis, Hypothesis]) -> list[Hypothesis]:
-    """The hypotheses of a run up to the last one, by which came from which."""
-    way = [last]
-    while way[-1] in before:
-        way.append(before[way[-1]])
-    return way[::-1]

@@ -14,6 +14,7 @@ from rebsync.roundtrip.conform.components.bodies import BodyRun
 from rebsync.roundtrip.conform.components.component import Cells, Component, Timing
 from rebsync.roundtrip.conform.components.inclusion import Hypothesis, Posted
 
+_MOST_INPUTS = 1_000  # different messages that may have come before
 _MOST_WAITING = 8  # messages that a rebec has posted to itself
 
 _Posts = tuple[tuple[int, Cells], ...]
@@ -51,7 +52,9 @@ def middle(component: Component, most: int) -> Middle:
                     work.append(after)
     except EndlessBody:
         return Middle((), False)
-    starts = tuple(_start(component, place) for place in seen)
+    until = served_before(component.timing)
+    passed = tuple(sum(o.stamp <= until for o in outputs) for outputs in component.outputs)
+    starts = tuple(_start(component, place, passed) for place in seen)
     return Middle(starts, is_whole or _is_all(component, seen))
 
 
@@ -70,8 +73,12 @@ def _posts(run: BodyRun) -> _Posts:
 
 def _alphabet(component: Component) -> tuple[list[tuple[int, Cells]], bool]:
     """The inputs that may have come before, and whether there are no others."""
-    found = {(each.server, each.cells): None for each in component.inputs}
+    found: dict[tuple[int, Cells], None] = {}
     is_whole = True
+    for each in component.inputs:
+        found[each.server, each.cells] = None
+        if len(found) > _MOST_INPUTS:
+            return list(found), False
     for server in {server for server, _ in found}:
         kinds = _kinds(component.program, server)
         if all(kind == "boolean" for kind in kinds) and len(kinds) <= 4:
@@ -102,13 +109,11 @@ def _successors(
                 yield run.variables, tuple(sorted([*posts, *_posts(run)]))
 
 
-def _start(component: Component, place: _Place) -> Hypothesis:
+def _start(component: Component, place: _Place, passed: tuple[int, ...]) -> Hypothesis:
     """A state a little after the recording began: what was published until then is not compared."""
     timing = component.timing
     low = timing.begin + timing.slack
     pending = tuple(sorted(Posted(server, cells, low, inf) for server, cells in place[1]))
-    until = served_before(timing)
-    passed = tuple(sum(o.stamp <= until for o in outputs) for outputs in component.outputs)
     return Hypothesis(low, low, (-inf, -inf), place[0], pending, 0, frozenset(), passed)
 
 

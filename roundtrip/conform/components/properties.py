@@ -34,6 +34,8 @@ from rebsync.properties import Formula as PropertyFormula
 from rebsync.properties import Properties, Property, state_expressions
 from rebsync.records import dataclass
 from rebsync.reverse.environment.observation import ANY, COUNT, Observation
+from rebsync.roundtrip.conform.components.dense import MOST, DenseRun, TopicChanges
+from rebsync.roundtrip.conform.components.dense_formulas import is_dense
 from rebsync.roundtrip.conform.components.heard import absolute
 from rebsync.roundtrip.conform.components.interface import Unmodelled, cell_of_field
 from rebsync.roundtrip.conform.finite import Progression, Rest
@@ -42,6 +44,21 @@ from rebsync.roundtrip.conform.recording import Event, Heard, Truncated
 
 Variable = tuple[str, str]
 """A rebec, and a state variable of it."""
+
+_End = tuple[str, str, str]
+"""A rebec, a topic, and the server that gets its messages; empty for who publishes them."""
+
+_JUMP = 1.0  # s that stamps may go back
+_NO_VALUE = "it has no value in a state"
+_BEGINNING = "it depends on the state in which the run began, which was not recorded"
+
+
+@dataclass(frozen=True, slots=True)
+class Timespan:
+    """When a recording began, and up to when at least it has all messages, in seconds."""
+
+    begin: float
+    end: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +72,7 @@ class TopicProperties:
     formulas: tuple[NamedFormula, ...]
     properties: Properties
     observed: Mapping[Variable, Observation]
+    unit: float  # s
 
     def fields(self) -> dict[str, tuple[str, ...]]:
         """The topics that are named, with the paths of their fields."""
@@ -69,9 +87,9 @@ class TopicProperties:
         return {topic: tuple(paths) for topic, paths in found.items()}
 
     def evaluated(
-        self, events: Iterable[Event], begin: float, unit: float, slack: float
+        self, events: Iterable[Event], times: Timespan, unit: float, slack: float
     ) -> tuple[Evaluated, ...]:
-        """The properties on a recording that began at `begin`. RebsyncError: it is not read."""
+        """The properties on a recording. RebsyncError: it is not read."""
         count, fields = len(self.properties.assertions), self.fields()
         runs = [
             _Run(self, fields, property_, formula, "assertion" if n < count else "formula", slack)
@@ -79,13 +97,15 @@ class TopicProperties:
                 zip(self.properties.all, self.formulas, strict=True)
             )
         ]
+        end = times.end
         for event in events:
             if isinstance(event, Truncated):
                 break
             if isinstance(event, Heard):
+                end = max(end, event.stamp)
                 for run in runs:
                     run.hear(event)
-        return tuple(run.result(begin, unit) for run in runs)
+        return tuple(run.result(times.begin, end, unit) for run in runs)
 
 
 def _variables(properties: Properties, property_: Property) -> Iterator[Variable]:
@@ -118,6 +138,7 @@ class _Run:
     since: float = 0.0
     decided: tuple[RunVerdict, float, str] | None = None
     looked: dict[Variable, Observation] = field(init=False)
+    changes: dict[_End, TopicChanges] | None = None  # of a formula that is not of some states
     progression: Progression = field(init=False)
     search: Interpreted = field(init=False)
 
@@ -135,8 +156,13 @@ class _Run:
             self._leave_open(f"no topic shows {', '.join(inside)}")
         elif any(seen.path == COUNT for seen in self.looked.values()):
             self._leave_open("messages before the recording were not counted")
+        elif not is_dense(formula):
+            self._leave_open("on topics X has no meaning, nor U with a bound from below")
         elif not _is_of_some_states(formula):
-            self._leave_open("on topics it has a meaning by G and F without bounds only")
+            self.changes = {
+                _end(variable, seen): TopicChanges(bool(seen.server))
+                for variable, seen in self.looked.items()
+            }
 
     def _leave_open(self, why: str) -> None:
         self.decided = ("undetermined", 0.0, why)
@@ -146,9 +172,9 @@ class _Run:
         looked = [(v, s) for v, s in self.looked.items() if absolute(s.topic) == heard.topic]
         if self.decided is not None or not looked:
             return
-        ends = {(v[0], s.topic, s.server) for v, s in self.looked.items()}
+        ends = {_end(v, s) for v, s in self.looked.items()}
         is_one = len(ends) == 1
-        if not is_one and heard.stamp - self.since > self.slack:
+        if self.changes is None and not is_one and heard.stamp - self.since > self.slack:
             self._count()
         try:
             for variable, seen in looked:
@@ -156,9 +182,27 @@ class _Run:
                     self.values[variable] = self._cells(variable, seen, heard)
         except Unmodelled as why:
             self._leave_open(str(why))
+        if self.changes is not None:
+            self._changed({_end(variable, seen) for variable, seen in looked}, heard.stamp)
+            return
         self.since = max(self.since, heard.stamp)
         if is_one:
             self._count()
+
+    def _changed(self, ends: set[_End], stamp: float) -> None:
+        """Keeps what is on some topics now."""
+        assert self.changes is not None
+        if stamp < self.since - _JUMP:
+            self._leave_open("the clock jumps back")
+        self.since = max(self.since, stamp)
+        for end in ends & {_end(v, self.looked[v]) for v in self.values}:
+            changes = self.changes[end]
+            changes.see(stamp, tuple(self.values[v][0] for v in self._variables_of(end)))
+            if len(changes.changes) > MOST:
+                self._leave_open(f"more than {MOST:,} changes on {end[1]}")
+
+    def _variables_of(self, end: _End) -> list[Variable]:
+        return [v for v, seen in self.looked.items() if _end(v, seen) == end]
 
     def _is_by(self, rebec: str, seen: Observation, heard: Heard) -> bool:
         """Whether a rebec has published a message. Unmodelled: that is not known."""
@@ -188,27 +232,42 @@ class _Run:
             self.decided = ("satisfied" if rest else "violated", self.since, "")
 
     def _progressed(self) -> Rest | None:
-        program = self.whole.program
-        state = [[0] * rebec.cells for rebec in program.rebecs]
-        names = [rebec.name for rebec in program.rebecs]
-        for variable, cells in self.values.items():
-            offset = self._slot(variable).offset
-            state[names.index(variable[0])][offset : offset + len(cells)] = cells
-        locals_ = tuple(Local(tuple(cells), ()) for cells in state)
         try:
-            truth = {p: self.search.holds(locals_, p) for p in atoms(self.formula.formula)}
+            truth = self._truth(self.values)
         except Failed:
-            self._leave_open("it has no value in a state")
+            self._leave_open(_NO_VALUE)
             return None
         return self.progression.see(truth, 1)
 
-    def result(self, begin: float, unit: float) -> Evaluated:
+    def _truth(self, values: Mapping[Variable, tuple[int, ...]]) -> dict[int, bool]:
+        """What holds in a state. Failed: something has no value there."""
+        program = self.whole.program
+        state = [[0] * rebec.cells for rebec in program.rebecs]
+        names = [rebec.name for rebec in program.rebecs]
+        for variable, cells in values.items():
+            offset = self._slot(variable).offset
+            state[names.index(variable[0])][offset : offset + len(cells)] = cells
+        locals_ = tuple(Local(tuple(cells), ()) for cells in state)
+        return {p: self.search.holds(locals_, p) for p in atoms(self.formula.formula)}
+
+    def _dense(self, changes: Mapping[_End, TopicChanges], end: float) -> DenseRun:
+        order = [self._variables_of(each) for each in changes]
+
+        def truth(state: Mapping[int, tuple[int, ...]]) -> Mapping[int, bool]:
+            values = {v: (c,) for n, of in state.items() for v, c in zip(order[n], of, strict=True)}
+            return self._truth(values)
+
+        return DenseRun(tuple(changes.values()), truth, end, self.slack)
+
+    def result(self, begin: float, end: float, unit: float) -> Evaluated:
         """What is known at the end."""
         name = self.formula.name
         if self.decided is None:
             lacking = {s.topic for v, s in self.looked.items() if v not in self.values}
             if lacking:
                 self._leave_open(f"nothing on {', '.join(sorted(lacking))} was recorded")
+        if self.decided is None and self.changes is not None:
+            return self._in_real_time(self._dense(self.changes, end), begin, unit)
         if self.decided is None:
             fulfilled = holds_at_the_end(self.progression.rest)
             return Evaluated(name, self.kind, "open", is_fulfilled=fulfilled)
@@ -216,6 +275,21 @@ class _Run:
         if why:
             return Evaluated(name, self.kind, verdict, reason=why)
         return Evaluated(name, self.kind, verdict, round((stamp - begin) / unit))
+
+    def _in_real_time(self, run: DenseRun, begin: float, unit: float) -> Evaluated:
+        name, formula = self.formula.name, self.progression.formula
+        try:
+            found = run.evaluated(formula, begin, self.whole.unit, unit)
+        except Failed:
+            return Evaluated(name, self.kind, "undetermined", reason=_NO_VALUE)
+        if found.verdict == "undetermined":
+            return Evaluated(name, self.kind, found.verdict, reason=_BEGINNING)
+        time = None if found.verdict == "open" else round((found.time - begin) / unit)
+        return Evaluated(name, self.kind, found.verdict, time, found.margin, found.is_fulfilled)
+
+
+def _end(variable: Variable, seen: Observation) -> _End:
+    return variable[0], seen.topic, seen.server
 
 
 def _is_of_some_states(formula: Formula, is_inside: bool = False) -> bool:

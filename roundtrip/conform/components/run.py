@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
@@ -18,13 +19,16 @@ SHOWN = 40  # steps
 
 def steps_of(component: Component, run: Sequence[Hypothesis]) -> tuple[TraceStep, ...]:
     """The last steps of a run in which something was published; times are those of the model."""
-    found = [
-        step
-        for before, after in pairwise(run)
-        if before.matched != after.matched and after.last >= 0
-        for step in _step(component, before, after)
-    ]
-    return tuple(found[-SHOWN:])
+    found = deque(
+        (
+            step
+            for before, after in pairwise(run)
+            if before.matched != after.matched and after.last >= 0
+            for step in _step(component, before, after)
+        ),
+        maxlen=SHOWN,
+    )
+    return tuple(found)
 
 
 def _step(component: Component, before: Hypothesis, after: Hypothesis) -> Iterator[TraceStep]:

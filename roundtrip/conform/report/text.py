@@ -79,7 +79,8 @@ def property_line(evaluated: Evaluated) -> str:
     if evaluated.verdict == "open":
         about.append("holds so far" if evaluated.is_fulfilled else "not fulfilled yet")
     if evaluated.margin is not None:
-        about.append(f"bounds met by at least {evaluated.margin}")
+        how = "met by at least" if evaluated.margin >= 0 else "missed by"
+        about.append(f"bounds {how} {abs(evaluated.margin)}")
     if evaluated.reason:
         about.append(evaluated.reason)
     remarks = f" ({', '.join(about)})" if about else ""

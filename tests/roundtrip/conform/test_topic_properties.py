@@ -10,7 +10,7 @@ import pytest
 from rebsync.cli.packages import read_observed
 from rebsync.roundtrip.conform.bags import OwnTypes
 from rebsync.roundtrip.conform.components.heard import HeardRecordings
-from rebsync.roundtrip.conform.components.properties import TopicProperties
+from rebsync.roundtrip.conform.components.properties import Timespan, TopicProperties
 from tests.roundtrip.conform.test_topics import PACKAGES
 
 PROPERTIES = """property {
@@ -34,6 +34,10 @@ PROPERTIES = """property {
   }
   TCTL {
     Soon: AG(AF(time <= 5, strong));
+    Cools: AG(hot -> AF(time <= 2, !heating));
+    Holds: AG(hot -> AG(time <= 2, !heating));
+    Until: AU(time <= 5, !strong, strong);
+    Always: AG(AU(time <= 5, true, strong));
   }
 }
 """
@@ -53,7 +57,29 @@ CASES = [
     ("Once", [(0.0, P, 0), (1.0, P, 4)], ("satisfied", 1000)),
     ("First", [(0.0, H, False), (9.0, H, False)], ("undetermined", None)),
     ("Then", [(0.0, H, False), (9.0, H, False)], ("undetermined", None)),
-    ("Soon", [(0.0, P, 0), (90.0, P, 0)], ("undetermined", None)),
+    # Bounds are in seconds, the unit that the package has; times and margins in milliseconds.
+    ("Soon", [(0.0, P, 0), (90.0, P, 0)], ("violated", 5000, -85000)),  # not by the end
+    ("Soon", [(0.0, P, 4), (1.0, P, 0), (5.0, P, 4), (9.0, P, 4)], ("open", None, 1000)),
+    ("Soon", [(0.0, P, 4), (1.0, P, 0), (6.05, P, 4), (9.0, P, 4)], ("open", None, -50)),  # late
+    ("Soon", [(0.0, P, 4), (1.0, P, 0), (6.3, P, 4), (9.0, P, 4)], ("violated", 6000, -300)),
+    ("Soon", [(0.0, P, 4), (1.0, P, 0), (4.0, P, 1), (6.3, P, 4)], ("violated", 6000, -300)),
+    ("Soon", [(0.0, P, 4), (9.0, P, 4)], ("open", None, 5000)),  # at once
+    ("Cools", [*SLOWLY, (9.0, T, 20)], ("violated", 2100, -3000)),
+    ("Cools", [*QUICKLY, (9.0, T, 20)], ("open", None, 1990)),
+    ("Cools", [(0.0, T, 20), (0.01, H, True), (9.0, T, 20)], ("open", None, None)),  # never hot
+    (
+        "Holds",
+        [(0, T, 23), (0, H, False), (1, T, 20), (4, H, True), (9, T, 20)],
+        ("open", None, 1000),
+    ),
+    (
+        "Holds",
+        [(0, T, 23), (0, H, False), (1, T, 20), (2.5, H, True), (9, T, 20)],
+        ("violated", 2500, -500),
+    ),
+    ("Until", [(0.0, P, 0), (3.0, P, 1), (4.0, P, 4), (9.0, P, 0)], ("undetermined", None)),
+    ("Always", [(0.0, P, 0), (3.0, P, 4), (7.0, P, 0), (9.0, P, 0)], ("open", None, 2000)),
+    ("Always", [(0.0, P, 0), (6.0, P, 4), (7.0, P, 0), (9.0, P, 0)], ("violated", 5000, -1000)),
 ]
 
 
@@ -69,7 +95,7 @@ def properties(tmp_path_factory: pytest.TempPathFactory) -> TopicProperties:
 
 def said(
     properties: TopicProperties, log: list[tuple[float, str, int]], path: Path, node: str | None
-) -> dict[str, tuple[str, int | None]]:
+) -> dict[str, tuple[str, int | None, int | None]]:
     """What is said of a log; messages on topics of nodes are from those, or from `node`."""
     names = {T: "/sensor", H: "/thermostat", P: "/heater"}
     lines = [
@@ -78,21 +104,24 @@ def said(
     ]
     path.write_text("".join(f"{json.dumps(line)}\n" for line in lines))
     recording = HeardRecordings.of([str(path)], OwnTypes("", {}))
-    found = properties.evaluated(recording.events(properties.fields()), 100.0, 0.001, 0.1)
-    return {each.name: (each.verdict, each.time) for each in found}
+    found = properties.evaluated(
+        recording.events(properties.fields()), Timespan(100.0, 100.0), 0.001, 0.1
+    )
+    return {each.name: (each.verdict, each.time, each.margin) for each in found}
 
 
 @pytest.mark.parametrize(("name", "log", "expected"), CASES)
 def test_properties_are_evaluated(
     name: str,
     log: list[tuple[float, str, int]],
-    expected: tuple[str, int | None],
+    expected: tuple[str, int | None] | tuple[str, int | None, int | None],
     properties: TopicProperties,
     tmp_path: Path,
 ) -> None:
-    assert said(properties, log, tmp_path / "run.jsonl", None)[name] == expected
+    found = said(properties, log, tmp_path / "run.jsonl", None)[name]
+    assert found[: len(expected)] == expected
 
 
 def test_messages_of_strangers_are_not_counted(properties: TopicProperties, tmp_path: Path) -> None:
     log = [(0.0, P, 4), (1.0, P, 4)]
-    assert said(properties, log, tmp_path / "run.jsonl", "/other")["Weak"] == ("undetermined", None)
+    assert said(properties, log, tmp_path / "run.jsonl", "/other")["Weak"][0] == "undetermined"
