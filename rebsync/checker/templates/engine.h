@@ -68,7 +68,7 @@ struct actor {
     struct vector components, bytes;
     uint64_t *table; /* half of the hash above the number, which counts from 1; 0 is free */
     uint64_t mask;
-    struct memo received, passed;
+    struct memo received, passed, renamed;
     uint32_t largest;
 };
 
@@ -106,7 +106,7 @@ enum { PREDICATE = 8, DEADLOCK = 9 };
 struct pending {
     uint64_t hash;
     int64_t time;
-    uint32_t parent, ordinal;
+    uint32_t parent, code; /* of a step: its ordinal, and its turn */
     int32_t event, deadlock;
 };
 
@@ -118,6 +118,20 @@ struct graph {
     int32_t *actor;
     int64_t *time;
     uint64_t *labels;
+    uint16_t *turn; /* of a quotient: by which permutation the target is canonical */
+};
+
+/* What is known of symmetries, see orbits.h; `order` is 1 when there are none. */
+struct symmetries {
+    uint32_t order, movable, references;
+};
+
+/* A cell that holds a rebec: a variable of a rebec, an argument of a server, or a cell of a frame
+ * that goes on at an instruction, which is the `key`. */
+enum reference_kind { OF_VARIABLE, OF_ARGUMENT, OF_FRAME };
+
+struct reference {
+    int32_t kind, key, cell;
 };
 
 /* The variables of some components of a rebec that predicates read, unpacked. */
@@ -160,7 +174,7 @@ struct engine {
     struct field *fields;
     uint32_t words;
     int wide; /* a number does not fit its field any more */
-    struct vector states, parents, ordinals, times;
+    struct vector states, parents, codes, times;
     uint64_t count, forgotten, expanded, transitions, dropped, level_end, initials;
     uint64_t depth;
     uint32_t *table;
@@ -180,6 +194,12 @@ struct engine {
     int64_t wanted, found; /* of a path: the state sought, and the ordinal */
     uint64_t edges;
     struct graph graph;
+
+    struct symmetries symmetries;
+    int32_t *names, *origins, *positions, *orbit; /* see orbits.h */
+    struct reference *references;
+    uint64_t *colours;
+    uint32_t *turned, turn;
 
     int32_t *invariants, *alone; /* predicates; rebecs that act alone when they can */
     uint32_t invariant_count, alone_count;

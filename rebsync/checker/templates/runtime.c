@@ -83,6 +83,7 @@ void rebsync_free(struct engine *e)
         free(a->table);
         free(a->received.entries);
         free(a->passed.entries);
+        free(a->renamed.entries);
     }
     for (uint32_t r = 0; e->observed && r < e->rebecs; r++)
         free(e->observed[r].variables);
@@ -93,8 +94,9 @@ void rebsync_free(struct engine *e)
         e->result.message, e->result.frames, e->machine.stack, e->machine.frames,
         e->machine.choices, e->machine.options, e->machine.sends, e->text.data, e->messages.data,
         e->outcomes.data, e->sends.data, e->events.data, e->message_table, e->states.data,
-        e->parents.data, e->ordinals.data, e->times.data, e->table, e->prints, e->invariants,
-        e->alone, e->faults, e->measured, e->watch.cells.data, e->watch.frames.data};
+        e->parents.data, e->codes.data, e->times.data, e->table, e->prints, e->invariants,
+        e->alone, e->names, e->origins,
+        e->positions, e->orbit, e->references, e->colours, e->turned, e->faults, e->measured, e->watch.cells.data, e->watch.frames.data};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
     free(e);
@@ -125,6 +127,7 @@ struct engine *rebsync_new(const struct model *model, int semantics, int compact
     e->semantics = semantics;
     e->compact = compact;
     e->until = NEVER;
+    e->symmetries.order = 1;
     if (setjmp(e->escape)) {
         rebsync_free(e);
         return NULL;
@@ -139,6 +142,27 @@ struct engine *rebsync_new(const struct model *model, int semantics, int compact
     e->alone = copied(e, alone, (size_t)alone_count);
     e->alone_count = (uint32_t)alone_count;
     return e;
+}
+
+/* Lets the search reduce states to canonical ones, with the tables of orbits.h; 0 without memory. */
+int rebsync_symmetry(struct engine *e, struct symmetries found, const int32_t *names,
+                     const int32_t *origins, const int32_t *positions, const int32_t *orbit,
+                     const int32_t *references)
+{
+    size_t rebecs = e->rebecs;
+    if (setjmp(e->escape))
+        return 0;
+    e->names = copied(e, names, rebecs * (found.order + found.movable));
+    e->origins = copied(e, origins, rebecs * found.order);
+    e->positions = copied(e, positions, rebecs);
+    e->orbit = copied(e, orbit, rebecs);
+    e->references = (struct reference *)copied(e, references, 3 * (size_t)found.references);
+    e->colours = zeroed(e, rebecs, sizeof *e->colours);
+    e->turned = zeroed(e, rebecs, sizeof *e->turned);
+    for (uint32_t r = 0; r < e->rebecs; r++)
+        enlarge_memo(e, &e->actors[r].renamed, 1);
+    e->symmetries = found;
+    return 1;
 }
 
 /* --- searching */
@@ -167,7 +191,7 @@ static void begin(struct engine *e)
 static void undo(struct engine *e)
 {
     e->count = e->pending = e->dropped = 0;
-    e->parents.count = e->ordinals.count = e->times.count = e->events.count = 0;
+    e->parents.count = e->codes.count = e->times.count = e->events.count = 0;
     e->slots = 0;
     measure_nothing(e);
 }
@@ -327,17 +351,17 @@ void rebsync_covered(struct engine *e, unsigned char *served, unsigned char *cov
         largest[r] = e->actors[r].largest;
 }
 
-/* The state before one on its shortest way, or -1; `ordinal` is that of the step between. It is -2
+/* The state before one on its shortest way, or -1; `code` is that of the step between. It is -2
  * when there is no memory to find out. */
-int64_t rebsync_before(struct engine *e, uint64_t state, int64_t *ordinal)
+int64_t rebsync_before(struct engine *e, uint64_t state, int64_t *code)
 {
     uint32_t parent = ((uint32_t *)e->parents.data)[state];
     if (state < e->initials) {
-        *ordinal = parent;
+        *code = parent;
         return -1;
     }
     if (e->compact) {
-        *ordinal = ((uint32_t *)e->ordinals.data)[state];
+        *code = ((uint32_t *)e->codes.data)[state];
         return parent;
     }
     if (setjmp(e->escape)) {
@@ -351,7 +375,7 @@ int64_t rebsync_before(struct engine *e, uint64_t state, int64_t *ordinal)
     unpack(e, words_of(e, parent), e->ids);
     expand(e);
     e->purpose = SEARCH;
-    *ordinal = e->found;
+    *code = e->found;
     return parent;
 }
 

@@ -130,7 +130,7 @@ static void add_state(struct engine *e, const struct pending *p, const uint64_t 
     memcpy((char *)room_for(e, &e->states, (place + 1) * size, 1) + place * size, words, size);
     *(uint32_t *)added(e, &e->parents, sizeof(uint32_t)) = p->parent;
     if (e->compact)
-        *(uint32_t *)added(e, &e->ordinals, sizeof(uint32_t)) = p->ordinal;
+        *(uint32_t *)added(e, &e->codes, sizeof(uint32_t)) = p->code;
     if (e->until != NEVER)
         *(int64_t *)added(e, &e->times, sizeof(int64_t)) = p->time;
     e->count++;
@@ -173,8 +173,10 @@ static void flush(struct engine *e)
     }
 }
 
-static struct pending *gather(struct engine *e, uint64_t ordinal)
+static struct pending *gather(struct engine *e, uint64_t code)
 {
+    if (code > UINT32_MAX)
+        give_up(e);
     if (e->pending == BATCH)
         flush(e);
     if (e->wide) {
@@ -182,15 +184,15 @@ static struct pending *gather(struct engine *e, uint64_t ordinal)
         repack(e);
     }
     struct pending *p = e->batch + e->pending;
-    p->parent = e->purpose == START ? (uint32_t)ordinal : (uint32_t)e->current;
-    p->ordinal = (uint32_t)ordinal;
+    p->parent = e->purpose == START ? (uint32_t)code : (uint32_t)e->current;
+    p->code = (uint32_t)code;
     p->event = -1;
     e->transitions += e->purpose == SEARCH;
     return p;
 }
 
-/* The state e->next has been reached by a step. */
-static void store(struct engine *e, uint64_t ordinal, int64_t time, int deadlock)
+/* The state e->next has been reached by the step of a code. */
+static void store(struct engine *e, uint64_t code, int64_t time, int deadlock)
 {
     if (e->until != NEVER) {
         time += e->purpose == START ? 0 : ((int64_t *)e->times.data)[e->current];
@@ -199,7 +201,7 @@ static void store(struct engine *e, uint64_t ordinal, int64_t time, int deadlock
             return;
         }
     }
-    struct pending *p = gather(e, ordinal);
+    struct pending *p = gather(e, code);
     uint64_t *words = e->batch_words + (size_t)e->pending++ * e->words;
     pack(e, e->next, words);
     p->time = time;
