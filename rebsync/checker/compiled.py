@@ -98,7 +98,7 @@ class CompiledSearch:
             len(first),
         )
         if not self._engine or not self._reduce():
-            raise Unavailable("there is no memory for a search")
+            raise Unavailable("there is no memory for a search, or no place for its temporary file")
         self.build_seconds = time.perf_counter() - started
 
     def __del__(self) -> None:
@@ -284,7 +284,8 @@ class CompiledSearch:
     def _notes(self, states: int) -> tuple[str, ...]:
         if not self.hash_compaction:
             return ()
-        risk = states**2 / 2**65
+        hashes = len(self.program.rebecs) + 2  # of local states, and to put these together
+        risk = hashes * states**2 / 2**65
         return (
             "only 64 bits of each state were kept: the chance that a state was left out "
             f"is at most {risk:.1e}",

@@ -16,6 +16,7 @@ PARTS = (
     "endless.h",
     "outcomes.h",
     "visited.h",
+    "compaction.h",
     "storing.h",
     "orbits.h",
     "expansion.h",

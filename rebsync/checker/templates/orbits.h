@@ -2,8 +2,8 @@
  *
  * `names` has for each permutation of the group, and then for each movable rebec its blind, what
  * each rebec becomes; `origins` the inverses of the group. The canonical state of an orbit has the
- * least colours, then the least numbers of local states, in the order of `positions`, where the
- * movable rebecs come first.
+ * least colours, then the least contents of local states (by their hashes), in the order of
+ * `positions`, where the movable rebecs come first.
  */
 #ifndef REBSYNC_ORBITS_H
 #define REBSYNC_ORBITS_H
@@ -111,8 +111,10 @@ static int is_less(struct engine *e, uint32_t one, uint32_t other)
         uint32_t rebec = (uint32_t)e->positions[i];
         uint32_t from = origin(e, one, rebec), to = origin(e, other, rebec);
         uint32_t a = renamed(e, from, e->next[from], one), b = renamed(e, to, e->next[to], other);
-        if (a != b)
-            return a < b;
+        uint64_t first = a == b ? 0 : content_hash(e, rebec, a);
+        uint64_t second = a == b ? 0 : content_hash(e, rebec, b);
+        if (first != second)
+            return first < second;
     }
     return 0;
 }

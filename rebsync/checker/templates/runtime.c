@@ -80,6 +80,7 @@ void rebsync_free(struct engine *e)
         struct actor *a = e->actors + r;
         free(a->components.data);
         free(a->bytes.data);
+        free(a->hashes.data);
         free(a->table);
         free(a->received.entries);
         free(a->passed.entries);
@@ -94,11 +95,14 @@ void rebsync_free(struct engine *e)
         e->result.message, e->result.frames, e->machine.stack, e->machine.frames,
         e->machine.choices, e->machine.options, e->machine.sends, e->text.data, e->messages.data,
         e->outcomes.data, e->sends.data, e->events.data, e->message_table, e->states.data,
-        e->parents.data, e->codes.data, e->times.data, e->table, e->prints, e->invariants,
+        e->parents.data, e->times.data, e->table, e->invariants,
         e->alone, e->names, e->origins,
         e->positions, e->orbit, e->references, e->colours, e->turned, e->faults, e->measured, e->watch.cells.data, e->watch.frames.data};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
+    free_prints(e);
+    if (e->steps)
+        fclose(e->steps);
     free(e);
 }
 
@@ -132,6 +136,9 @@ struct engine *rebsync_new(const struct model *model, int semantics, int compact
         rebsync_free(e);
         return NULL;
     }
+    e->collect_at = COLLECT;
+    if (compact && !(e->steps = tmpfile()))
+        give_up(e);
     make_actors(e);
     make_machine(e);
     make_observed(e);
@@ -191,20 +198,12 @@ static void begin(struct engine *e)
 static void undo(struct engine *e)
 {
     e->count = e->pending = e->dropped = 0;
-    e->parents.count = e->codes.count = e->times.count = e->events.count = 0;
+    e->parents.count = e->times.count = e->events.count = 0;
+    free_prints(e);
+    if (e->compact)
+        rewind(e->steps);
     e->slots = 0;
     measure_nothing(e);
-}
-
-/* Gives up the states that have been expanded: only fingerprints of them are needed. */
-static void forget(struct engine *e)
-{
-    uint64_t gone = e->expanded - e->forgotten, left = e->count - e->expanded;
-    if (!e->compact || gone < GONE || gone < left)
-        return;
-    uint64_t size = e->words * sizeof(uint64_t);
-    memmove(e->states.data, e->states.data + gone * size, left * size);
-    e->forgotten = e->expanded;
 }
 
 /* Enters the next level, when the last one is expanded; 0 when there is none. */
@@ -237,8 +236,10 @@ static int search_on(struct engine *e, uint64_t states, int64_t due)
             return UNENDING;
         }
         e->expanded++;
-        if (turn % TURNS == 0)
-            forget(e);
+        if (e->compact && turn % TURNS == 0) {
+            flush(e);
+            tidy(e);
+        }
     }
 }
 
@@ -247,6 +248,7 @@ static void exhaust(struct engine *e)
 {
     free(e->table);
     e->table = NULL;
+    free_prints(e);
     e->pending = 0;
     e->exhausted = 1;
     if (e->purpose == START)
@@ -352,17 +354,20 @@ void rebsync_covered(struct engine *e, unsigned char *served, unsigned char *cov
 }
 
 /* The state before one on its shortest way, or -1; `code` is that of the step between. It is -2
- * when there is no memory to find out. */
+ * when there is no memory to find out, or the file of steps cannot be read. */
 int64_t rebsync_before(struct engine *e, uint64_t state, int64_t *code)
 {
+    if (e->compact) {
+        struct step step;
+        if (!read_step(e, state, &step))
+            return -2;
+        *code = step.code;
+        return step.parent == NONE ? -1 : (int64_t)step.parent;
+    }
     uint32_t parent = ((uint32_t *)e->parents.data)[state];
     if (state < e->initials) {
         *code = parent;
         return -1;
-    }
-    if (e->compact) {
-        *code = ((uint32_t *)e->codes.data)[state];
-        return parent;
     }
     if (setjmp(e->escape)) {
         e->purpose = SEARCH;
