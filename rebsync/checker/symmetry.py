@@ -137,7 +137,8 @@ def _largest_group(program: Program) -> tuple[Permutation, ...]:
                 break
         else:
             return tuple(group)
-        fixed |= {next(r for r in range(len(program.rebecs)) if any(p[r] != r for p in group))}
+        moved = next(r for r in range(len(program.rebecs)) if any(p[r] != r for p in group))
+        fixed = frozenset(range(moved + 1))  # the group is found from its last rebecs on
 
 
 def _automorphisms(program: Program, fixed: frozenset[int]) -> Iterator[Permutation]:
