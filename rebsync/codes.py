@@ -251,6 +251,7 @@ RUNS = {
     "RS927": "an array, or the state of a rebec, that is too large to check",
     "RS928": "a constant that the model does not have, or not with one value",
     "RS931": "no C compiler for the compiled engine, or one that fails",
+    "RS932": "a model without the symmetries that are to reduce its states",
 }
 
 CONFORMANCE = {

@@ -95,6 +95,22 @@ def bodies(program: Program) -> tuple[BodyText, ...]:
     return tuple(_Writer(program, body, numbers).text() for body in program.bodies)
 
 
+def stack_change(program: Program, i: Instruction) -> int:
+    """By how many operands an instruction changes their number."""
+    match i.op:
+        case "SEND":
+            return -2 - i.b
+        case "SENDBY":
+            return -3 - i.b
+        case "CALL":
+            called = program.bodies[i.a]
+            code = program.code[called.entry : called.end]
+            results = next(i.a for i in reversed(code) if i.op == "RET")
+            return results - sum(p.size for p in called.parameters)
+        case _:
+            return _CHANGES.get(i.op, 0)
+
+
 class _Writer:
     """Writes one body."""
 
@@ -119,31 +135,15 @@ class _Writer:
                 continue
             depths[pc] = depth
             i = self.program.code[pc]
-            depth += self._change(i)
+            depth += stack_change(self.program, i)
             if i.op in _JUMPS:
                 waiting.append((i.a, depth))
             if i.op not in _ENDS:
                 waiting.append((pc + 1, depth))
         return depths
 
-    def _change(self, i: Instruction) -> int:
-        match i.op:
-            case "SEND":
-                return -2 - i.b
-            case "SENDBY":
-                return -3 - i.b
-            case "CALL":
-                return self._results(i.a) - self._arguments(i.a)
-            case _:
-                return _CHANGES.get(i.op, 0)
-
     def _arguments(self, body: int) -> int:
         return sum(p.size for p in self.program.bodies[body].parameters)
-
-    def _results(self, body: int) -> int:
-        called = self.program.bodies[body]
-        code = self.program.code[called.entry : called.end]
-        return next(i.a for i in reversed(code) if i.op == "RET")
 
     # --- the text
 

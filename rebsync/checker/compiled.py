@@ -38,6 +38,7 @@ from rebsync.checker.memory import used_memory
 from rebsync.checker.program import Program
 from rebsync.checker.search import FIRST, NO_MEMORY
 from rebsync.checker.steps import Failure, Semantics
+from rebsync.checker.symmetry import Symmetry
 from rebsync.records import dataclass
 
 _SLICE = 50_000_000  # nanoseconds between two looks at the bounds
@@ -56,8 +57,10 @@ class CompiledSearch:
     """A search of a program made native. `invariants` are the predicates whose failure is an event.
 
     Of the rebecs in `first` one that can act without failing acts alone. With `hash_compaction`
-    only 64 bits of each state are remembered. Raises Unavailable when it cannot be built, or
-    `build` is false and it has not been built before, or is not `wanted` any more meanwhile.
+    only 64 bits of each state are remembered; with a `symmetry` only canonical states are.
+
+    Raises Unavailable when it cannot be built, or `build` is false and it has not been built
+    before, or is not `wanted` any more meanwhile.
     """
 
     def __init__(
@@ -66,6 +69,7 @@ class CompiledSearch:
         semantics: Semantics,
         invariants: tuple[int, ...] = (),
         first: frozenset[int] = frozenset(),
+        symmetry: Symmetry | None = None,
         *,
         hash_compaction: bool = False,
         build: bool = True,
@@ -76,6 +80,7 @@ class CompiledSearch:
         self.semantics: Semantics = semantics
         self.invariants = invariants
         self.first = first
+        self.symmetry = symmetry or Symmetry()
         self.hash_compaction = hash_compaction
         self._until: int | None = None
         self._instructions = INSTRUCTIONS
@@ -92,13 +97,20 @@ class CompiledSearch:
             native.numbers(sorted(first)),
             len(first),
         )
-        if not self._engine:
-            raise Unavailable("there is no memory for a search")
+        if not self._engine or not self._reduce():
+            raise Unavailable("there is no memory for a search, or no place for its temporary file")
         self.build_seconds = time.perf_counter() - started
 
     def __del__(self) -> None:
         if self._engine:
             self._library.rebsync_free(self._engine)
+
+    def _reduce(self) -> bool:
+        """Tells C the symmetries; false without memory."""
+        if self.symmetry.order == 1:
+            return True
+        tables = native.symmetry_tables(self.symmetry)
+        return bool(self._library.rebsync_symmetry(self._engine, *tables))
 
     # --- searching
 
@@ -272,7 +284,8 @@ class CompiledSearch:
     def _notes(self, states: int) -> tuple[str, ...]:
         if not self.hash_compaction:
             return ()
-        risk = states**2 / 2**65
+        hashes = len(self.program.rebecs) + 2  # of local states, and to put these together
+        risk = hashes * states**2 / 2**65
         return (
             "only 64 bits of each state were kept: the chance that a state was left out "
             f"is at most {risk:.1e}",
@@ -281,16 +294,16 @@ class CompiledSearch:
     # --- afterwards
 
     def path(self, state: int) -> tuple[int, ...]:
-        """A shortest way to a state: the ordinal of the initial state, then one for each step."""
-        ordinals = []
-        ordinal = ctypes.c_int64()
+        """A shortest way to a state: the code of the initial state, then one for each step."""
+        codes = []
+        code = ctypes.c_int64()
         while state >= 0:
             with self._asking(unwatched):
-                state = self._library.rebsync_before(self._engine, state, ctypes.byref(ordinal))
+                state = self._library.rebsync_before(self._engine, state, ctypes.byref(code))
             if state == native.NOT_FOUND:
                 raise MemoryError
-            ordinals.append(ordinal.value)
-        return tuple(reversed(ordinals))
+            codes.append(code.value)
+        return tuple(reversed(codes))
 
     def graph(self, look: Look = unwatched) -> Graph:
         """The state space that was seen; steps to states that were not seen are left out.
@@ -299,7 +312,7 @@ class CompiledSearch:
         """
         figures = self._figures()
         if self.hash_compaction:
-            exact = CompiledSearch(self.program, self.semantics, (), self.first)
+            exact = CompiledSearch(self.program, self.semantics, (), self.first, self.symmetry)
             stopped = figures.states if figures.expanded < figures.states else None
             limits = Limits(stopped, until=self._until, instructions=self._instructions)
             exact.run(limits)
@@ -308,7 +321,9 @@ class CompiledSearch:
         most = figures.transitions + figures.dropped
         first, labels = _zeros("Q", figures.states + 1), _zeros("Q", figures.states * words)
         target, actor, times = _zeros("q", most), _zeros("i", most), _zeros("q", most)
-        arrays = native.Arrays(*(a.buffer_info()[0] for a in (first, target, actor, times, labels)))
+        turn = _zeros("H", most if self.symmetry.order > 1 else 0)
+        parts = first, target, actor, times, labels, turn
+        arrays = native.Arrays(*(part.buffer_info()[0] for part in parts))
         edges = 0
         for start in range(0, figures.states, native.STATES_AT_ONCE):
             look()
@@ -317,10 +332,10 @@ class CompiledSearch:
                 edges = self._library.rebsync_graph(self._engine, arrays, start, end, edges)
             if edges < 0:
                 raise MemoryError
-        for each in (target, actor, times):
+        for each in (target, actor, times, turn):
             del each[edges:]
-        initial = tuple(range(figures.initials))
-        return Graph(first, target, actor, times, labels, words, initial)
+        initial, order = tuple(range(figures.initials)), self.symmetry.order
+        return Graph(first, target, actor, times, labels, words, initial, turn, order)
 
     def marks(self, graph: Graph) -> bytearray:
         """Which states of a graph go on for ever without time, and which can leave: as in C."""

@@ -13,6 +13,7 @@ from rebsync.checker.problem import Options
 from rebsync.checker.program import Program
 from rebsync.checker.search import PAUSED, Interpreted, Pause
 from rebsync.checker.steps import Semantics
+from rebsync.checker.symmetry import Symmetry
 
 GLANCE = 0.05  # seconds after which it pays to look whether a model was compiled before
 PATIENCE = 0.25  # seconds after which a search counts as large
@@ -24,23 +25,25 @@ def explore(
     semantics: Semantics,
     invariants: tuple[int, ...],
     first: frozenset[int],
+    symmetry: Symmetry,
     options: Options,
     report: Report | None = None,
 ) -> tuple[Search, Exploration]:
     """Searches with the engine that was asked for.
 
-    `first` are the rebecs of which one acts alone when it can.
+    `first` are the rebecs of which one acts alone when it can; states are canonical under the
+    `symmetry`.
 
     Raises Unavailable when the compiled engine was asked for and cannot be built.
     """
     if options.engine == "interpreted":
-        interpreted = Interpreted(program, semantics, invariants, first)
+        interpreted = Interpreted(program, semantics, invariants, first, symmetry)
         return interpreted, interpreted.run(options.limits, report)
     if options.engine == "compiled":
-        known = program, semantics, invariants, first
+        known = program, semantics, invariants, first, symmetry
         compiled = _compiled(*known, options, wanted=_in_time(options.limits))
         return compiled, compiled.run(options.limits, report)
-    return _auto(program, semantics, invariants, first, options, report)
+    return _auto(program, semantics, invariants, first, symmetry, options, report)
 
 
 def _compiled(
@@ -48,6 +51,7 @@ def _compiled(
     semantics: Semantics,
     invariants: tuple[int, ...],
     first: frozenset[int],
+    symmetry: Symmetry,
     options: Options,
     build: bool = True,
     wanted: Callable[[], bool] = lambda: True,
@@ -59,6 +63,7 @@ def _compiled(
         semantics,
         invariants,
         first,
+        symmetry,
         hash_compaction=options.hash_compaction,
         build=build,
         wanted=wanted,
@@ -81,6 +86,7 @@ def _auto(
     semantics: Semantics,
     invariants: tuple[int, ...],
     first: frozenset[int],
+    symmetry: Symmetry,
     options: Options,
     report: Report | None,
 ) -> tuple[Search, Exploration]:
@@ -88,12 +94,12 @@ def _auto(
 
     What has been compiled before is taken as soon as a model is not tiny.
     """
-    search = Interpreted(program, semantics, invariants, first)
+    search = Interpreted(program, semantics, invariants, first, symmetry)
     found = search.run(options.limits, report, _after(GLANCE))
     if found.reason != PAUSED:
         return search, found
     try:
-        kept = _compiled(program, semantics, invariants, first, options, build=False)
+        kept = _compiled(program, semantics, invariants, first, symmetry, options, build=False)
     except Unavailable:
         found = search.run(options.limits, report, _after(PATIENCE - GLANCE))
     else:
@@ -112,7 +118,7 @@ def _compile_aside(
 
     finished = Event()
     pauses = chain((HEAD_START,), repeat(0.0))
-    known = search.program, search.semantics, search.invariants, search.first
+    known = search.program, search.semantics, search.invariants, search.first, search.symmetry
     with ThreadPoolExecutor(1) as pool:
         waiting = pool.submit(_compiled, *known, options, wanted=lambda: not finished.is_set())
         try:

@@ -169,7 +169,8 @@ class Search(Protocol):
         """Searches until everything is seen or a bound is reached; Ctrl-C ends it cleanly too."""
 
     def path(self, state: int) -> tuple[int, ...]:
-        """A shortest way to a state: first the ordinal of the initial state, then of each step."""
+        """A shortest way to a state: the code of the initial state, then of each step (an
+        ordinal, see `orbits.py` for those of canonical states)."""
 
     def graph(self, look: Look = unwatched) -> Graph:
         """The whole state space that was seen, with its labels; `look` is called now and then."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rebsync.checker.formulas import Atom, NamedFormula, atoms
 from rebsync.checker.program import Program
 
-_MAY_FAIL = ("DIV", "MOD", "OFFSET")  # instructions after which a predicate may have no value
+MAY_FAIL = ("DIV", "MOD", "OFFSET")  # instructions after which a predicate may have no value
 
 
 def invariants_of(
@@ -16,7 +16,7 @@ def invariants_of(
     for formula in formulas[len(assertions) :]:
         for number in predicates_of(formula):
             body = program.bodies[program.predicates[number]]
-            if any(i.op in _MAY_FAIL for i in program.code[body.entry : body.end]):
+            if any(i.op in MAY_FAIL for i in program.code[body.entry : body.end]):
                 everywhere.append(number)
     return tuple(dict.fromkeys(everywhere))
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from typing import Literal
 
 from rebsync.checker.steps import FailureKind, Semantics
+from rebsync.checker.symmetry import Symmetry, inverse
 
 PARTS = (
     "machine.h",
@@ -15,7 +16,9 @@ PARTS = (
     "endless.h",
     "outcomes.h",
     "visited.h",
+    "compaction.h",
     "storing.h",
+    "orbits.h",
     "expansion.h",
     "standstill.h",
 )
@@ -88,7 +91,7 @@ class Arrays(ctypes.Structure):
     """Where the arrays of a graph are."""
 
     _fields_ = tuple(
-        (name, ctypes.c_void_p) for name in ("first", "target", "actor", "time", "labels")
+        (name, ctypes.c_void_p) for name in ("first", "target", "actor", "time", "labels", "turn")
     )
 
 
@@ -112,12 +115,45 @@ def numbers(values: Iterable[int]) -> ctypes.Array[ctypes.c_int32]:
     return (ctypes.c_int32 * max(1, len(listed)))(*listed)
 
 
+class Symmetries(ctypes.Structure):
+    """Symmetries as orbits.h reads them."""
+
+    _fields_ = (
+        ("order", ctypes.c_uint32),
+        ("movable", ctypes.c_uint32),
+        ("references", ctypes.c_uint32),
+    )
+
+
+def symmetry_tables(symmetry: Symmetry) -> tuple[object, ...]:
+    """Symmetries as orbits.h reads them: sizes, what rebecs become, where they come from, the
+    movable ones before the others, their orbits, and which cells hold rebecs."""
+    movable, order = symmetry.movable, symmetry.order
+    rebecs = range(len(symmetry.group[0]))
+    orbit = {r: n for n, each in enumerate(symmetry.orbits) for r in each}
+    found = symmetry.references
+    owners = enumerate(
+        (enumerate(found.variables), enumerate(found.arguments), found.frames.items())
+    )
+    references = [(kind, key, c) for kind, all_ in owners for key, cells in all_ for c in cells]
+    return (
+        Symmetries(order, len(movable), len(references)),
+        numbers(r for names in (*symmetry.group, *symmetry.blinds) for r in names),
+        numbers(r for names in symmetry.group for r in inverse(names)),
+        numbers((*movable, *(r for r in rebecs if r not in movable))),
+        numbers(orbit.get(r, len(rebecs) + r) for r in rebecs),
+        numbers(number for reference in references for number in reference),
+    )
+
+
 def declare(library: ctypes.CDLL) -> None:
     """Says the types of the functions."""
     pointer, number, wide = ctypes.c_void_p, ctypes.c_int, ctypes.c_uint64
     signed, result = ctypes.c_int64, ctypes.POINTER(Event)
     library.rebsync_new.restype = pointer
     library.rebsync_new.argtypes = [pointer, number, number, pointer, number, pointer, number]
+    library.rebsync_symmetry.restype = number
+    library.rebsync_symmetry.argtypes = [pointer, Symmetries, *[pointer] * 5]
     library.rebsync_free.restype = None
     library.rebsync_free.argtypes = [pointer]
     library.rebsync_search.restype = number

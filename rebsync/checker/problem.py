@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Literal, TypeAlias
 
-from rebsync.checker.exploration import Limits
+from rebsync.checker.exploration import Faults, Limits
 from rebsync.checker.steps import Semantics
 from rebsync.properties import Measure, Properties, TimeBetween
 from rebsync.records import dataclass
@@ -70,4 +70,11 @@ class Options:
     allowed: frozenset[str] = frozenset()
     hash_compaction: bool = False
     reduce: bool = False
+    symmetry: bool = False
+
+    def bounded(self, started: float, faults: Faults) -> Options:
+        """With bounds that count what was done before the search, too."""
+        limits = replace(self.limits, began=started, faults=faults, first=self.first)
+        return replace(self, limits=limits)
+
     first: bool = False

@@ -25,10 +25,12 @@ from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, Stopped, unwatched
 from rebsync.checker.machine import Failed, Machine
 from rebsync.checker.memory import used_memory
+from rebsync.checker.orbits import Orbits
 from rebsync.checker.program import NO_DEADLINE, Program
 from rebsync.checker.standstill import marks_of
 from rebsync.checker.state import Message, State
 from rebsync.checker.steps import Failure, Semantics, Step
+from rebsync.checker.symmetry import Symmetry
 from rebsync.checker.views import view_of
 
 PAUSED = "paused"
@@ -48,16 +50,19 @@ class Interpreted:
         semantics: Semantics,
         invariants: tuple[int, ...] = (),
         first: frozenset[int] = frozenset(),
+        symmetry: Symmetry | None = None,
     ) -> None:
         self.program = program
         self.semantics: Semantics = semantics
+        self.symmetry = symmetry or Symmetry()
+        self._orbits = Orbits(semantics, self.symmetry)
         self.view = view_of(program, semantics, first)
         self.invariants = invariants
         self.first = first
         self.states: list[State] = []
         self.numbers: dict[State, int] = {}
         self._parents: list[int] = []  # -1 - ordinal for initial states
-        self._ordinals: list[int] = []
+        self._codes: list[int] = []
         self._depths = array("l")
         self._times: list[int] = []
         self._expanded = 0
@@ -195,15 +200,16 @@ class Interpreted:
         if isinstance(step.result, Failure):
             self._event(step.result, Event(step.result, parent, ordinal))
             return
-        if step.result in self.numbers:
+        state, turn = self._orbits.representative(step.result)
+        if state in self.numbers:
             return
-        number = self.numbers[step.result] = len(self.states)
-        self.states.append(step.result)
+        number = self.numbers[state] = len(self.states)
+        self.states.append(state)
         self._parents.append(parent)
-        self._ordinals.append(ordinal)
+        self._codes.append(ordinal * self.symmetry.order + turn)
         self._depths.append(self._depths[parent] + 1 if parent >= 0 else 0)
         self._times.append(reached)
-        self._judge(step.result, number)
+        self._judge(state, number)
 
     def _judge(self, state: State, number: int) -> None:
         for predicate in self.invariants:
@@ -253,33 +259,43 @@ class Interpreted:
     # --- afterwards
 
     def path(self, state: int) -> tuple[int, ...]:
-        """A shortest way to a state: the ordinal of the initial state, then one for each step."""
-        ordinals = []
+        """A shortest way to a state: the code of the initial state, then one for each step."""
+        codes = []
         while state >= 0:
-            ordinals.append(self._ordinals[state])
+            codes.append(self._codes[state])
             state = self._parents[state]
-        return tuple(reversed(ordinals))
+        return tuple(reversed(codes))
 
     def graph(self, look: Look = unwatched) -> Graph:
         """The state space that was seen; steps to states that were not seen are left out."""
         self._look_at_bounds = look
         words = max(1, -(-len(self.program.predicates) // 64))
         first, target, actor = array("Q", [0]), array("q"), array("i")
-        times, labels = array("q"), array("Q")
+        times, labels, turns = array("q"), array("Q"), array("H")
         for number, state in enumerate(self.states):
             look()
             for step in self.view.steps(state) if number < self._expanded else ():
                 failed = isinstance(step.result, Failure)
-                to = -1 if isinstance(step.result, Failure) else self.numbers.get(step.result, -2)
+                to, turn = self._target(step.result)
                 if to == -2:
                     continue
+                if self.symmetry.order > 1:
+                    turns.append(turn)
                 target.append(to)
                 actor.append(step.action.actor)
                 times.append(0 if failed else step.time)
             first.append(len(target))
             labels.extend(self._labels(state, words))
         initial = tuple(n for n, parent in enumerate(self._parents) if parent < 0)
-        return Graph(first, target, actor, times, labels, words, initial)
+        order = self.symmetry.order
+        return Graph(first, target, actor, times, labels, words, initial, turns, order)
+
+    def _target(self, result: State | Failure) -> tuple[int, int]:
+        """The state that a step leads to, and what made it canonical; -1 none, -2 not seen."""
+        if isinstance(result, Failure):
+            return -1, 0
+        state, turn = self._orbits.representative(result)
+        return self.numbers.get(state, -2), turn
 
     def marks(self, graph: Graph) -> bytearray:
         """Which states of a graph go on for ever without time, and which can leave."""

@@ -6,6 +6,7 @@ from itertools import product
 from typing import NamedTuple
 
 from rebsync.checker.machine import Sent
+from rebsync.checker.orbits import Orbits, run_of
 from rebsync.checker.outcomes import Outcome
 from rebsync.checker.program import KINDS, NO_DEADLINE, Cell, Kind, Slot
 from rebsync.checker.state import Local, Message, State
@@ -29,10 +30,14 @@ class Deed(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Teller:
-    """Tells the steps of one view; `source` is the text of the model."""
+    """Tells the steps of one view; `source` is the text of the model.
+
+    With `orbits` the runs that it is asked for lead through their canonical states.
+    """
 
     view: Views
     source: Source
+    orbits: Orbits | None = None
 
     # --- runs
 
@@ -42,6 +47,8 @@ class Teller:
         With `failing` the run ends in the step of that ordinal, which has no successor. `loop` is
         the number of the step to whose state the run returns.
         """
+        if self.orbits:
+            path, failing, loop, _ = run_of(self.view, self.orbits, path, failing, loop)
         ordinals = (*path, failing) if failing >= 0 else path
         steps: list[TraceStep] = []
         state: State = ()
@@ -58,12 +65,18 @@ class Teller:
     def states(self, path: tuple[int, ...]) -> tuple[State, ...]:
         """The states along ordinals, that after each step."""
         states: list[State] = []
+        if self.orbits:
+            path = run_of(self.view, self.orbits, path).path
         for ordinal in path:
             steps = self.view.steps(states[-1]) if states else self.view.initial_states()
             result = steps[ordinal].result
             assert not isinstance(result, Failure)
             states.append(result)
         return tuple(states)
+
+    def rebec_at(self, path: tuple[int, ...], rebec: int) -> int:
+        """The rebec of the run along ordinals that has this number in the state at its end."""
+        return run_of(self.view, self.orbits, path).names[rebec] if self.orbits else rebec
 
     def deed(self, time: int, before: State, step: Step) -> Deed:
         """What happens in a step, without what it changes."""

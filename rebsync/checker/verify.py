@@ -20,12 +20,14 @@ from rebsync.checker.lowering import lower
 from rebsync.checker.measures import measure_ranges, times_between, unmeasured
 from rebsync.checker.memory import peak_memory, used_memory
 from rebsync.checker.naming import coverage_of, event_name
+from rebsync.checker.orbits import Orbits
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
 from rebsync.checker.reduction import self_driven
 from rebsync.checker.result import Coverage, MeasureRange, Result, Verdict, Violation
 from rebsync.checker.standstill import ENDLESS, LEAVES, cycle_from, may_stand_still
 from rebsync.checker.steps import Failure, Semantics, ViolationKind
+from rebsync.checker.symmetry import over_orbits, symmetry_of
 from rebsync.checker.telling import Teller
 from rebsync.checker.trace import Trace
 from rebsync.checker.views import view_of
@@ -74,25 +76,22 @@ def _searched(
     first: frozenset[int] = frozenset()
     if options.reduce and len(assertions) == len(formulas) and not problem.is_measured:
         first = self_driven(program)
+    symmetry = symmetry_of(program, problem, options)
     faults = Faults(frozenset(asserted(assertions)), "deadlock" not in options.allowed)
-    options = _bounded(options, started, faults)
-    search, exploration = explore(program, semantics, invariants, first, options, report)
+    options = options.bounded(started, faults)
+    search, exploration = explore(program, semantics, invariants, first, symmetry, options, report)
     if exploration.cut:
         reason = endless_reason(program, exploration.cut, problem.source)
         exploration = replace(exploration, reason=reason)
     view = view_of(program, exploration.semantics, first)
     view.limit(options.limits.instructions)
-    teller = Teller(view, problem.source)
+    exploration = over_orbits(exploration, symmetry, program)
+    orbits = Orbits(exploration.semantics, symmetry) if symmetry.order > 1 else None
+    teller = Teller(view, problem.source, orbits)
     watch = _watch(exploration, options, report, started)
     answer = _Answer(problem, options, program, formulas, search, exploration, teller, watch)
     answer.collect()
     return limited(problem, answer.result(time.perf_counter() - started), teller)
-
-
-def _bounded(options: Options, started: float, faults: Faults) -> Options:
-    """The options with bounds that count what was done before the search, too."""
-    limits = replace(options.limits, began=started, faults=faults, first=options.first)
-    return replace(options, limits=limits)
 
 
 def _nothing_found(problem: Problem, options: Options, reason: str, seconds: float) -> Result:
@@ -216,7 +215,7 @@ class _Answer:
     def _trace(self, event: Event) -> Trace:
         key = event.state, event.ordinal
         if key not in self._traces:  # many assertions can be false in one state
-            path = self.search.path(event.state) if event.state >= 0 else ()
+            path = self.search.path(event.state)
             self._traces[key] = self.teller.trace(path, event.ordinal)
         return self._traces[key]
 
@@ -227,6 +226,8 @@ class _Answer:
             return
         trace = self._trace(event)
         line = self.teller.line(self.program.spans[failure.pc])
+        rebec = self.teller.rebec_at(self.search.path(event.state), failure.rebec)
+        failure = replace(failure, rebec=rebec)
         name = event_name(failure, body, line, self.program)
         self._add(failure.kind, name, trace.steps[-1].failure or "", line, trace)
 
@@ -332,8 +333,9 @@ class _Answer:
         self.verdicts[entry.name] = "violated" if found else "satisfied"
         if found:
             run = found.run
-            start = self.search.path(graph.initial[run.prefix[0]])
-            path = (*start, *run.prefix[1:], *(run.cycle or ()))
+            start = graph.initial[run.prefix[0]]
+            way = graph.codes(start, (*run.prefix[1:], *(run.cycle or ())))
+            path = (*self.search.path(start), *way)
             trace = self.teller.trace(path, loop=len(run.prefix) - 1 if run.cycle else None)
             self._property("property", entry, found.message, path, trace)
             if not branching and run.cycle and self.options.fairness == "none":
@@ -344,6 +346,8 @@ class _Answer:
         from rebsync.checker.deciding import HOLDS_FAIRLY, refutation
 
         is_compiled = self.exploration.engine == "compiled"
+        if self.graph().order > 1:  # an orbit may be served where one of its rebecs starves
+            return
         if not refutation(self.graph(), formula.formula, False, "weak", self.watch, is_compiled):
             self.caveats.append(HOLDS_FAIRLY.format(entry.name))
 
@@ -353,8 +357,9 @@ class _Answer:
         marks = self.search.marks(self.graph())
         if ENDLESS in marks:
             state, prefix, cycle = cycle_from(self.graph(), marks)
-            way = (*self.search.path(state), *prefix)
-            trace = self.teller.trace((*way, *cycle), loop=len(way) - 1)
+            start, codes = self.search.path(state), self.graph().codes(state, (*prefix, *cycle))
+            loop = len(start) + len(prefix) - 1
+            trace = self.teller.trace((*start, *codes), loop=loop)
             message = "from here on time advances on no run, and steps go on for ever"
             self._add("zeno", "zeno", message, 0, trace)
         elif ENDLESS | LEAVES in marks:

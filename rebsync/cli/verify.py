@@ -109,6 +109,9 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     "--reduce", is_flag=True, help="Leave out orders of steps that cannot matter to the verdict."
 )
 @click.option(
+    "--symmetry", is_flag=True, help="Count states that differ by an exchange of equal rebecs once."
+)
+@click.option(
     "--format",
     "style",
     type=click.Choice(FORMATS),
@@ -166,6 +169,8 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
         return _swept(model, given, output)
     if given["replay"] is not None and (given["states"] or given["export"]):
         raise click.UsageError("--replay makes one run: leave --states and --export out")
+    if given["symmetry"] and (given["states"] or given["export"]):
+        raise click.UsageError("--states and --export write all states: leave --symmetry out")
     problem = _read(model, given)
     keep_what_is_read(problem, output, given["states"], replayed=given["replay"])
     problem = measured(problem, given["measures"], given["between"])
@@ -246,6 +251,7 @@ def _options(given: dict[str, Any], model: str) -> Options:
         allowed=frozenset({*given["allow"], *_allowed(model)}),
         hash_compaction=given["hash_compaction"],
         reduce=given["reduce"],
+        symmetry=given["symmetry"],
         first=_first(given),
     )
 

@@ -21,6 +21,7 @@ class Features:
     clock: bool = False
     floats: bool = False
     drivers: bool = False  # rebecs to which only they themselves send, and only for later
+    equals: bool = False  # several rebecs of the first class, most of them with equal bindings
 
 
 @dataclass(frozen=True)

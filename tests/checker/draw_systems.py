@@ -21,6 +21,8 @@ UNTIMED = Features(timed=False, delays=False)
 CLOCKED = Features(clock=True)
 REAL = Features(floats=True)
 DRIVEN = Features(drivers=True)
+EQUAL = Features(equals=True)
+EQUAL_UNTIMED = Features(timed=False, delays=False, equals=True)
 
 
 @dataclass(frozen=True)
@@ -50,12 +52,13 @@ def systems(draw: DrawFn, features: Features = TIMED) -> Drawn:
         instances[number:number] = [f"Driver d{i}({driven}):();" for i in range(drawer.up_to(2, 1))]
     main = ["main {", *(f"  {line}" for line in instances), "}"]
     lines = [line for each in (*classes, main) for line in each]
-    return Drawn("\n".join(lines) + "\n", _properties(drawer, rebecs))
+    atoms = _atoms_of_equals if features.equals else _atoms_of_all
+    return Drawn("\n".join(lines) + "\n", _properties(drawer, atoms(drawer, rebecs)))
 
 
 def _ranks(drawer: Drawer) -> str:
     """The annotation that orders servers and instances, if any."""
-    if not drawer.features.timed:
+    if not drawer.features.timed or drawer.features.equals:
         return ""
     if drawer.features.drivers:
         return ""
@@ -156,6 +159,8 @@ def _declared(callee: Callee) -> str:
 
 def _instances(drawer: Drawer) -> list[tuple[Outline, str]]:
     chosen = [*drawer.classes, *(c for c in drawer.classes if drawer.flag(3))]
+    if drawer.features.equals:
+        chosen = drawer.classes[:1] * drawer.up_to(3, least=2) + drawer.classes[1:]
     if len(chosen) == 1:
         chosen *= 2
     return [(each, f"r{number}") for number, each in enumerate(chosen)]
@@ -172,6 +177,9 @@ def _rebec(
     for kind, _ in (k for c in each.line() for k in c.known):
         fitting = [n for c, n in rebecs if any(a.name == kind for a in c.line())]
         others = [n for n in fitting if n != name] or fitting
+        if drawer.features.equals:  # the next in a ring, or one that is none of the equals
+            others = [n for n in fitting if n > name][:1] or fitting[:1]
+            others = fitting[-1:] if drawer.flag(8) else others
         bindings.append(drawer.one(others))
     rank = _ranked(drawer, ranks if ranks == "priority" else "")
     return f"{rank}{each.name} {name}({', '.join(bindings)}):({drawer.up_to(3)});"
@@ -180,8 +188,22 @@ def _rebec(
 # --- properties ----------------------------------------------------------------------------------
 
 
-def _properties(drawer: Drawer, rebecs: list[tuple[Outline, str]]) -> str:
-    atoms = [atom for each, name in rebecs for atom in _atoms(drawer, each, name)]
+def _atoms_of_all(drawer: Drawer, rebecs: list[tuple[Outline, str]]) -> list[str]:
+    return [atom for each, name in rebecs for atom in _atoms(drawer, each, name)]
+
+
+def _atoms_of_equals(drawer: Drawer, rebecs: list[tuple[Outline, str]]) -> list[str]:
+    """What is said of all rebecs of the first class, or of some of them; now and then of one."""
+    equals = [name for each, name in rebecs if each is drawer.classes[0]]
+    if drawer.flag(5):
+        return _atoms_of_all(drawer, rebecs)
+    return [
+        "(" + drawer.one([" && ", " || "]).join(atom.replace("r0.", f"{n}.") for n in equals) + ")"
+        for atom in _atoms(drawer, *rebecs[0])
+    ]
+
+
+def _properties(drawer: Drawer, atoms: list[str]) -> str:
     if not atoms:
         return ""
     entries = []

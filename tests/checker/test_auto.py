@@ -15,6 +15,7 @@ from rebsync.checker.engines import explore
 from rebsync.checker.exploration import Exploration
 from rebsync.checker.problem import Options
 from rebsync.checker.program import Program
+from rebsync.checker.symmetry import Symmetry
 from tests.checker.comparing import System
 
 pytestmark = pytest.mark.skipif(
@@ -40,7 +41,7 @@ def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Program:
 
 
 def _explored(program: Program) -> Exploration:
-    return explore(program, "ftts", (), frozenset(), Options())[1]
+    return explore(program, "ftts", (), frozenset(), Symmetry(), Options())[1]
 
 
 def test_what_was_compiled_before_is_taken_at_once(

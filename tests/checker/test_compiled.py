@@ -131,6 +131,7 @@ def test_many_rebecs_and_wide_states() -> None:
     assert _figures(found) == _figures(again)
     assert many.path(found.states - 1) == compacted.path(found.states - 1)
     assert "64 bits of each state" in again.notes[0]
+    assert f"{5 * again.states**2 / 2**65:.1e}" in again.notes[0]  # three rebecs
 
 
 @pytest.mark.parametrize("compacted", [False, True])

@@ -272,6 +272,16 @@ def test_without_a_compiler(tmp_path: Path) -> None:
     assert any("compiler" in caveat for caveat in result["caveats"])
 
 
+def test_symmetry_is_refused_where_nothing_can_be_exchanged(tmp_path: Path) -> None:
+    (tmp_path / "m.rebeca").write_text(ENDLESS)
+    refused = rebsync("verify", "m.rebeca", "--symmetry", cwd=tmp_path)
+    assert refused.status == 2
+    assert "RS932" in refused.err
+    drawn = rebsync("verify", "m.rebeca", "--symmetry", "--states", "s.dot", cwd=tmp_path)
+    assert drawn.status == 2
+    assert "--states and --export" in drawn.err
+
+
 def test_engines_agree_on_the_examples() -> None:
     model = str(EXAMPLES / "experiment3_unsafe" / "experiment3_unsafe.rebeca")
     results = []

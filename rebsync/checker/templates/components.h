@@ -191,6 +191,12 @@ static size_t length_of(struct actor *a, uint32_t id)
     return (id + 1 < a->components.count ? c[1].at : a->bytes.count) - c->at;
 }
 
+static uint64_t content_hash(struct engine *e, uint32_t rebec, uint32_t id)
+{
+    struct actor *a = e->actors + rebec;
+    return hash_of(a->bytes.data + component(e, rebec, id)->at, length_of(a, id));
+}
+
 static void enlarge_table(struct engine *e, struct actor *a)
 {
     uint64_t size = a->mask ? 2 * (a->mask + 1) : TABLE, *table = zeroed(e, size, sizeof *table);
@@ -215,7 +221,7 @@ static uint32_t number_of(struct engine *e, uint32_t rebec, const struct local *
     if (4 * a->components.count >= 3 * a->mask)
         enlarge_table(e, a);
     size_t length = e->text.count;
-    uint64_t hash = hash_of(e->text.data, length) >> 32, at = hash & a->mask;
+    uint64_t content = hash_of(e->text.data, length), hash = content >> 32, at = hash & a->mask;
     for (; a->table[at]; at = (at + 1) & a->mask) {
         uint32_t id = (uint32_t)a->table[at] - 1;
         if (a->table[at] >> 32 != hash)
@@ -227,6 +233,8 @@ static uint32_t number_of(struct engine *e, uint32_t rebec, const struct local *
     if (a->components.count >= NONE - 1)
         give_up(e);
     room_for(e, &a->bytes, a->bytes.count + length, 1);
+    if (e->compact)
+        *(uint64_t *)added(e, &a->hashes, sizeof content) = content;
     struct component *c = added(e, &a->components, sizeof *c);
     memcpy(a->bytes.data + a->bytes.count, e->text.data, length);
     c->at = a->bytes.count;

@@ -20,9 +20,11 @@
  * little of all that, small systems show whether what is full is handled rightly. */
 #ifdef LITTLE_ROOM
 enum { BATCH = 3, OBSERVED = 2, MEMO = 2, MEMO_AT_MOST = 8, TABLE = 8, SLOTS = 8, TURNS = 2, GONE = 3 };
+enum { SHARDS = 2, SHARD = 1, COLLECT = 500 };
 #else
 enum { BATCH = 64, OBSERVED = 1024, MEMO = 1024, MEMO_AT_MOST = 1 << 18, TABLE = 256 };
 enum { SLOTS = 1 << 14, TURNS = 256, GONE = 4096 };
+enum { SHARDS = 256, SHARD = 64, COLLECT = 1 << 22 };
 #endif
 
 #define NEVER INT64_MAX
@@ -65,10 +67,10 @@ struct memo {
 
 /* All local states of one rebec that occur, by number. */
 struct actor {
-    struct vector components, bytes;
+    struct vector components, bytes, hashes; /* of contents, only for fingerprints */
     uint64_t *table; /* half of the hash above the number, which counts from 1; 0 is free */
     uint64_t mask;
-    struct memo received, passed;
+    struct memo received, passed, renamed;
     uint32_t largest;
 };
 
@@ -106,8 +108,18 @@ enum { PREDICATE = 8, DEADLOCK = 9 };
 struct pending {
     uint64_t hash;
     int64_t time;
-    uint32_t parent, ordinal;
+    uint32_t parent, code; /* of a step: its ordinal, and its turn */
     int32_t event, deadlock;
+};
+
+/* A part of the table of fingerprints; 0 is a free slot. */
+struct shard {
+    uint64_t *prints, count, slots;
+};
+
+/* What has led to a state: a step from its parent, by its code; to an initial one a code alone. */
+struct step {
+    uint32_t parent, code;
 };
 
 enum purpose { SEARCH, START, PATH, GRAPH };
@@ -118,6 +130,20 @@ struct graph {
     int32_t *actor;
     int64_t *time;
     uint64_t *labels;
+    uint16_t *turn; /* of a quotient: by which permutation the target is canonical */
+};
+
+/* What is known of symmetries, see orbits.h; `order` is 1 when there are none. */
+struct symmetries {
+    uint32_t order, movable, references;
+};
+
+/* A cell that holds a rebec: a variable of a rebec, an argument of a server, or a cell of a frame
+ * that goes on at an instruction, which is the `key`. */
+enum reference_kind { OF_VARIABLE, OF_ARGUMENT, OF_FRAME };
+
+struct reference {
+    int32_t kind, key, cell;
 };
 
 /* The variables of some components of a rebec that predicates read, unpacked. */
@@ -160,12 +186,15 @@ struct engine {
     struct field *fields;
     uint32_t words;
     int wide; /* a number does not fit its field any more */
-    struct vector states, parents, ordinals, times;
+    struct vector states, parents, times;
     uint64_t count, forgotten, expanded, transitions, dropped, level_end, initials;
     uint64_t depth;
     uint32_t *table;
-    uint64_t *prints, slots;
+    uint64_t slots;
     uint32_t number_bits;
+    struct shard shards[SHARDS];
+    FILE *steps;
+    size_t collect_at; /* bytes of local states */
     int exhausted; /* there was no more memory: the search does not go on */
 
     struct pending batch[BATCH];
@@ -180,6 +209,12 @@ struct engine {
     int64_t wanted, found; /* of a path: the state sought, and the ordinal */
     uint64_t edges;
     struct graph graph;
+
+    struct symmetries symmetries;
+    int32_t *names, *origins, *positions, *orbit; /* see orbits.h */
+    struct reference *references;
+    uint64_t *colours;
+    uint32_t *turned, turn;
 
     int32_t *invariants, *alone; /* predicates; rebecs that act alone when they can */
     uint32_t invariant_count, alone_count;

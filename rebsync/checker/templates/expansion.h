@@ -2,15 +2,17 @@
 #ifndef REBSYNC_EXPANSION_H
 #define REBSYNC_EXPANSION_H
 
+#include "orbits.h"
 #include "outcomes.h"
-#include "storing.h"
 
 /* A step to the state e->next, after `time`. */
 static void reach(struct engine *e, int32_t actor, int64_t time, int deadlock)
 {
-    uint64_t ordinal = e->ordinal++;
+    uint64_t code = e->ordinal++ * e->symmetries.order;
+    make_canonical(e);
+    code += e->turn;
     if (e->purpose <= START) {
-        store(e, ordinal, time, deadlock);
+        store(e, code, time, deadlock);
         return;
     }
     if (e->purpose == PATH) {
@@ -18,12 +20,14 @@ static void reach(struct engine *e, int32_t actor, int64_t time, int deadlock)
             return;
         int64_t before = e->times.count ? ((int64_t *)e->times.data)[e->current] : 0;
         if (!e->times.count || before + time <= e->until)
-            e->found = (int64_t)ordinal;
+            e->found = (int64_t)code;
         return;
     }
     int64_t target = seen(e, e->next);
     if (target < 0)
         return;
+    if (e->symmetries.order > 1)
+        e->graph.turn[e->edges] = (uint16_t)e->turn;
     e->graph.target[e->edges] = target;
     e->graph.actor[e->edges] = actor;
     e->graph.time[e->edges++] = time;

@@ -80,9 +80,11 @@ void rebsync_free(struct engine *e)
         struct actor *a = e->actors + r;
         free(a->components.data);
         free(a->bytes.data);
+        free(a->hashes.data);
         free(a->table);
         free(a->received.entries);
         free(a->passed.entries);
+        free(a->renamed.entries);
     }
     for (uint32_t r = 0; e->observed && r < e->rebecs; r++)
         free(e->observed[r].variables);
@@ -93,10 +95,14 @@ void rebsync_free(struct engine *e)
         e->result.message, e->result.frames, e->machine.stack, e->machine.frames,
         e->machine.choices, e->machine.options, e->machine.sends, e->text.data, e->messages.data,
         e->outcomes.data, e->sends.data, e->events.data, e->message_table, e->states.data,
-        e->parents.data, e->ordinals.data, e->times.data, e->table, e->prints, e->invariants,
-        e->alone, e->faults, e->measured, e->watch.cells.data, e->watch.frames.data};
+        e->parents.data, e->times.data, e->table, e->invariants,
+        e->alone, e->names, e->origins,
+        e->positions, e->orbit, e->references, e->colours, e->turned, e->faults, e->measured, e->watch.cells.data, e->watch.frames.data};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
+    free_prints(e);
+    if (e->steps)
+        fclose(e->steps);
     free(e);
 }
 
@@ -125,10 +131,14 @@ struct engine *rebsync_new(const struct model *model, int semantics, int compact
     e->semantics = semantics;
     e->compact = compact;
     e->until = NEVER;
+    e->symmetries.order = 1;
     if (setjmp(e->escape)) {
         rebsync_free(e);
         return NULL;
     }
+    e->collect_at = COLLECT;
+    if (compact && !(e->steps = tmpfile()))
+        give_up(e);
     make_actors(e);
     make_machine(e);
     make_observed(e);
@@ -139,6 +149,27 @@ struct engine *rebsync_new(const struct model *model, int semantics, int compact
     e->alone = copied(e, alone, (size_t)alone_count);
     e->alone_count = (uint32_t)alone_count;
     return e;
+}
+
+/* Lets the search reduce states to canonical ones, with the tables of orbits.h; 0 without memory. */
+int rebsync_symmetry(struct engine *e, struct symmetries found, const int32_t *names,
+                     const int32_t *origins, const int32_t *positions, const int32_t *orbit,
+                     const int32_t *references)
+{
+    size_t rebecs = e->rebecs;
+    if (setjmp(e->escape))
+        return 0;
+    e->names = copied(e, names, rebecs * (found.order + found.movable));
+    e->origins = copied(e, origins, rebecs * found.order);
+    e->positions = copied(e, positions, rebecs);
+    e->orbit = copied(e, orbit, rebecs);
+    e->references = (struct reference *)copied(e, references, 3 * (size_t)found.references);
+    e->colours = zeroed(e, rebecs, sizeof *e->colours);
+    e->turned = zeroed(e, rebecs, sizeof *e->turned);
+    for (uint32_t r = 0; r < e->rebecs; r++)
+        enlarge_memo(e, &e->actors[r].renamed, 1);
+    e->symmetries = found;
+    return 1;
 }
 
 /* --- searching */
@@ -167,20 +198,12 @@ static void begin(struct engine *e)
 static void undo(struct engine *e)
 {
     e->count = e->pending = e->dropped = 0;
-    e->parents.count = e->ordinals.count = e->times.count = e->events.count = 0;
+    e->parents.count = e->times.count = e->events.count = 0;
+    free_prints(e);
+    if (e->compact)
+        rewind(e->steps);
     e->slots = 0;
     measure_nothing(e);
-}
-
-/* Gives up the states that have been expanded: only fingerprints of them are needed. */
-static void forget(struct engine *e)
-{
-    uint64_t gone = e->expanded - e->forgotten, left = e->count - e->expanded;
-    if (!e->compact || gone < GONE || gone < left)
-        return;
-    uint64_t size = e->words * sizeof(uint64_t);
-    memmove(e->states.data, e->states.data + gone * size, left * size);
-    e->forgotten = e->expanded;
 }
 
 /* Enters the next level, when the last one is expanded; 0 when there is none. */
@@ -213,8 +236,10 @@ static int search_on(struct engine *e, uint64_t states, int64_t due)
             return UNENDING;
         }
         e->expanded++;
-        if (turn % TURNS == 0)
-            forget(e);
+        if (e->compact && turn % TURNS == 0) {
+            flush(e);
+            tidy(e);
+        }
     }
 }
 
@@ -223,6 +248,7 @@ static void exhaust(struct engine *e)
 {
     free(e->table);
     e->table = NULL;
+    free_prints(e);
     e->pending = 0;
     e->exhausted = 1;
     if (e->purpose == START)
@@ -327,18 +353,21 @@ void rebsync_covered(struct engine *e, unsigned char *served, unsigned char *cov
         largest[r] = e->actors[r].largest;
 }
 
-/* The state before one on its shortest way, or -1; `ordinal` is that of the step between. It is -2
- * when there is no memory to find out. */
-int64_t rebsync_before(struct engine *e, uint64_t state, int64_t *ordinal)
+/* The state before one on its shortest way, or -1; `code` is that of the step between. It is -2
+ * when there is no memory to find out, or the file of steps cannot be read. */
+int64_t rebsync_before(struct engine *e, uint64_t state, int64_t *code)
 {
+    if (e->compact) {
+        struct step step;
+        if (!read_step(e, state, &step))
+            return -2;
+        *code = step.code;
+        return step.parent == NONE ? -1 : (int64_t)step.parent;
+    }
     uint32_t parent = ((uint32_t *)e->parents.data)[state];
     if (state < e->initials) {
-        *ordinal = parent;
+        *code = parent;
         return -1;
-    }
-    if (e->compact) {
-        *ordinal = ((uint32_t *)e->ordinals.data)[state];
-        return parent;
     }
     if (setjmp(e->escape)) {
         e->purpose = SEARCH;
@@ -351,7 +380,7 @@ int64_t rebsync_before(struct engine *e, uint64_t state, int64_t *ordinal)
     unpack(e, words_of(e, parent), e->ids);
     expand(e);
     e->purpose = SEARCH;
-    *ordinal = e->found;
+    *code = e->found;
     return parent;
 }
 

@@ -2,8 +2,8 @@
 #ifndef REBSYNC_STORING_H
 #define REBSYNC_STORING_H
 
+#include "compaction.h"
 #include "outcomes.h"
-#include "visited.h"
 
 /* --- what is wrong */
 
@@ -128,9 +128,10 @@ static void add_state(struct engine *e, const struct pending *p, const uint64_t 
     uint64_t state = e->count, place = state - e->forgotten;
     size_t size = e->words * sizeof *words;
     memcpy((char *)room_for(e, &e->states, (place + 1) * size, 1) + place * size, words, size);
-    *(uint32_t *)added(e, &e->parents, sizeof(uint32_t)) = p->parent;
     if (e->compact)
-        *(uint32_t *)added(e, &e->ordinals, sizeof(uint32_t)) = p->ordinal;
+        write_step(e, (struct step){e->purpose == START ? NONE : p->parent, p->code});
+    else
+        *(uint32_t *)added(e, &e->parents, sizeof(uint32_t)) = p->parent;
     if (e->until != NEVER)
         *(int64_t *)added(e, &e->times, sizeof(int64_t)) = p->time;
     e->count++;
@@ -139,19 +140,16 @@ static void add_state(struct engine *e, const struct pending *p, const uint64_t 
 
 static void settle(struct engine *e, const struct pending *p, const uint64_t *words)
 {
-    uint64_t at;
     if (p->event >= 0) {
         note(e, e->failed[p->event]);
         return;
     }
     room_for_state(e);
     if (e->compact) {
-        at = find_print(e, p->hash);
-        if (e->prints[at])
+        if (!is_new_print(e, p->hash))
             return;
-        e->prints[at] = p->hash;
     } else {
-        at = find(e, words, p->hash);
+        uint64_t at = find(e, words, p->hash);
         if (e->table[at])
             return;
         e->table[at] = tag_of(e, p->hash) | (uint32_t)(e->count + 1);
@@ -173,8 +171,10 @@ static void flush(struct engine *e)
     }
 }
 
-static struct pending *gather(struct engine *e, uint64_t ordinal)
+static struct pending *gather(struct engine *e, uint64_t code)
 {
+    if (code > UINT32_MAX)
+        give_up(e);
     if (e->pending == BATCH)
         flush(e);
     if (e->wide) {
@@ -182,32 +182,31 @@ static struct pending *gather(struct engine *e, uint64_t ordinal)
         repack(e);
     }
     struct pending *p = e->batch + e->pending;
-    p->parent = e->purpose == START ? (uint32_t)ordinal : (uint32_t)e->current;
-    p->ordinal = (uint32_t)ordinal;
+    p->parent = e->purpose == START ? (uint32_t)code : (uint32_t)e->current;
+    p->code = (uint32_t)code;
     p->event = -1;
     e->transitions += e->purpose == SEARCH;
     return p;
 }
 
-/* The state e->next has been reached by a step. */
-static void store(struct engine *e, uint64_t ordinal, int64_t time, int deadlock)
+/* The state e->next has been reached by the step of a code. */
+static void store(struct engine *e, uint64_t code, int64_t time, int deadlock)
 {
     if (e->until != NEVER) {
-        time += e->purpose == START ? 0 : ((int64_t *)e->times.data)[e->current];
+        time += e->purpose == START ? 0 : ((int64_t *)e->times.data)[e->current - e->forgotten];
         if (time > e->until) {
             e->dropped++;
             return;
         }
     }
-    struct pending *p = gather(e, ordinal);
+    struct pending *p = gather(e, code);
     uint64_t *words = e->batch_words + (size_t)e->pending++ * e->words;
     pack(e, e->next, words);
     p->time = time;
     p->deadlock = deadlock;
     if (e->compact) {
         p->hash = print_of(e, e->next);
-        if (e->slots)
-            __builtin_prefetch(e->prints + slot_of(e, p->hash), 1);
+        prefetch_print(e, p->hash);
     } else {
         p->hash = hash_words(e, words);
         if (e->slots)

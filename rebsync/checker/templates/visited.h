@@ -40,16 +40,6 @@ static inline uint64_t hash_words(struct engine *e, const uint64_t *words)
     return hash;
 }
 
-/* A fingerprint, the same however states are packed. */
-static uint64_t print_of(struct engine *e, const uint32_t *ids)
-{
-    uint64_t hash = UINT64_C(0xE7037ED1A0B428DB);
-    for (uint32_t r = 0; r < e->rebecs; r++)
-        hash = mixed(hash, ids[r]);
-    hash = mixed(hash, UINT64_C(0x8EBC6AF09C88C6E3));
-    return hash ? hash : 1;
-}
-
 /* --- the table of those seen: numbers from 1 on, with some bits of the hash above them */
 
 static inline uint64_t slot_of(struct engine *e, uint64_t hash)
@@ -93,32 +83,11 @@ static void fill_table(struct engine *e, uint64_t slots)
     }
 }
 
-static void enlarge_prints(struct engine *e)
-{
-    uint64_t slots = e->slots ? e->slots + e->slots / 2 : SLOTS, old = e->slots;
-    uint64_t *prints = zeroed(e, slots, sizeof *prints), *before = e->prints;
-    e->slots = slots;
-    for (uint64_t i = 0; i < old; i++) {
-        if (!before[i])
-            continue;
-        uint64_t at = slot_of(e, before[i]);
-        while (prints[at])
-            at = at + 1 == slots ? 0 : at + 1;
-        prints[at] = before[i];
-    }
-    free(before);
-    e->prints = prints;
-}
-
 static void room_for_state(struct engine *e)
 {
     if (e->count >= NONE - 2)
         give_up(e);
-    if (10 * (e->count + 1) < 6 * e->slots)
-        return;
-    if (e->compact)
-        enlarge_prints(e);
-    else
+    if (!e->compact && 10 * (e->count + 1) >= 6 * e->slots)
         fill_table(e, e->slots ? 2 * e->slots : SLOTS);
 }
 
@@ -138,14 +107,6 @@ static inline uint64_t find(struct engine *e, const uint64_t *words, uint64_t ha
         if (w == e->words)
             break;
     }
-    return at;
-}
-
-static inline uint64_t find_print(struct engine *e, uint64_t print)
-{
-    uint64_t at = slot_of(e, print);
-    while (e->prints[at] && e->prints[at] != print)
-        at = at + 1 == e->slots ? 0 : at + 1;
     return at;
 }
 
