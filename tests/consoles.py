@@ -49,6 +49,7 @@ def play(page: str, folder: Path) -> Iterator[tuple[Command, str]]:
     home.mkdir()
     for step in steps(page):
         if isinstance(step, File):
+            (home / step.name).parent.mkdir(exist_ok=True)
             (home / step.name).write_text(step.text, encoding="utf-8")
             continue
         done = subprocess.run(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import runpy
 from dataclasses import fields
@@ -81,7 +82,32 @@ def test_the_page_of_properties_has_every_operator() -> None:
     assert all(parse_properties(Source("shown.property", text)).ok for text in shown)
 
 
-def test_the_tutorial_does_what_it_shows(tmp_path: Path) -> None:
-    page = (DOCS / "tutorial.md").read_text(encoding="utf-8")
+def test_the_table_has_each_command() -> None:
+    named = re.findall(r"^\| \[`rebsync (\w+)", REFERENCE, re.MULTILINE)
+    assert set(named) == set(COMMANDS)
+
+
+@pytest.mark.parametrize("name", ["tutorial", "ros", "rebeca", "cookbook"])
+def test_a_page_does_what_it_shows(name: str, tmp_path: Path) -> None:
+    page = (DOCS / f"{name}.md").read_text(encoding="utf-8")
     for command, printed in play(page, tmp_path):
         assert printed == command.output, command.text
+    for picture in re.findall(r"\]\((\w+\.svg)\)", page):
+        assert (tmp_path / "home" / picture).read_text() == (DOCS / picture).read_text(), picture
+
+
+def test_each_page_is_in_the_navigation_of_the_site() -> None:
+    settings = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+    listed = set(re.findall(r"(\w+\.md)$", settings, re.MULTILINE))
+    assert {path.name for path in DOCS.glob("*.md")} <= listed
+
+
+def test_the_page_of_json_outputs_has_every_field() -> None:
+    page = runpy.run_path(str(DOCS / "schemas.py"))["schemas_page"]()
+    for path in DOCS.glob("*.schema.json"):
+        schema = json.loads(path.read_text(encoding="utf-8"))
+        assert f"## {schema['title']}\n" in page
+        assert all(f"| `{name}` | " in page for name in schema["properties"])
+        assert all(
+            f"### {path.name.partition('.')[0]}: {n}\n" in page for n in schema.get("$defs", ())
+        )

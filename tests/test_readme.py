@@ -51,13 +51,6 @@ def test_links_lead_somewhere() -> None:
         assert (ROOT / target).exists(), target
 
 
-def test_each_command_is_in_the_table() -> None:
-    from rebsync.cli.group import COMMANDS
-
-    named = set(re.findall(r"^\| `rebsync (\w+)", README, re.MULTILINE))
-    assert named == set(COMMANDS)
-
-
 @pytest.mark.skipif(os.environ.get("CI") != "true", reason="installs from the network; run in CI")
 def test_the_demo_runs_on_a_fresh_checkout(tmp_path: Path) -> None:
     files = subprocess.run(
