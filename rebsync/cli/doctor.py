@@ -38,6 +38,7 @@ TOOLS = {
         Tool(("z3",), "check proves that edited bodies do the same", "pip install z3-solver", True),
         Tool(("rosbags",), "conform reads bags", "pip install 'rebsync[bags]'", True),
         Tool(("pygls",), "lsp serves editors", "pip install 'rebsync[lsp]'", True),
+        Tool(("watchfiles",), "watch notices saved files", "pip install 'rebsync[watch]'", True),
         Tool(("dot",), "draws what graph --format dot writes", "Graphviz"),
     ),
     "for the packages that it generates": (

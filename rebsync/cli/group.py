@@ -31,6 +31,7 @@ COMMANDS = {
     "simulate": "Make one run of a model, by chance or by hand.",
     "sync": "Bring packages and their models in step.",
     "verify": "Check everything that can go wrong in a model, and its properties.",
+    "watch": "Lint, check and verify what has changed, as files are saved.",
 }
 
 

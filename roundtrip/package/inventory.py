@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 from rebsync.config import Config, config_of_record
@@ -46,6 +47,15 @@ class Inventory:
     models: tuple[ModelFiles, ...]
     packages: tuple[str, ...]
     properties: tuple[str, ...]
+
+    def beside(self, former: Inventory) -> Inventory:
+        """What is there, and what was there before of models and their packages."""
+        models = {each.path: each for each in former.models}
+        for each in self.models:
+            old = models[each.path].packages if each.path in models else ()
+            packages = {package.root: package for package in (*old, *each.packages)}
+            models[each.path] = replace(each, packages=tuple(packages.values()))
+        return replace(self, models=tuple(models.values()))
 
 
 def inventory(root: str) -> Inventory:
