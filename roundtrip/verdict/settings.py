@@ -13,7 +13,8 @@ from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.roundtrip.package.record import Record
 from rebsync.source import NOWHERE, Source, Span
 
-_HINT = "`rebsync generate` takes the setting into the code"
+_HINT = "`rebsync sync` takes the setting into the code"
+_NAME_HINT = "`rebsync generate` writes the new package beside the old one"
 _OFF = {
     "lifecycle": False,
     "monitor": False,
@@ -31,7 +32,12 @@ def changed_settings(model: str, record: Record) -> tuple[Findings, ...]:
     if last != config.package and _name(record, last) == _name(record, config.package):
         now["package"] = last  # said, or after the model: it is the same
     found = tuple(
-        Diagnostic("RS955", _place(source, key), _message(key, options[key], value), _HINT)
+        Diagnostic(
+            "RS955",
+            _place(source, key),
+            _message(key, options[key], value),
+            _NAME_HINT if key == "package" else _HINT,
+        )
         for key, value in now.items()
         if key in options and options[key] != value
     )

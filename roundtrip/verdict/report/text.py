@@ -36,7 +36,7 @@ def _sentence(outcome: Outcome) -> str:
         return "cannot be checked"
     match verdict_of(outcome):
         case "model ahead" if checked.drift is None or not checked.drift.differences:
-            return "the settings are ahead: `rebsync sync` takes them into the code"
+            return "the settings are ahead"
         case "model ahead":
             return f"the model is ahead: `rebsync sync` takes {checked.model} into the code"
         case "code ahead" if any(
