@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, cast
 
+from rebsync.codes import CODES
 from rebsync.diagnostics import Findings, RebsyncError, did_you_mean
 from rebsync.files import read_source
 from rebsync.records import dataclass
@@ -20,7 +21,7 @@ TARGETS = ("ros1-cpp", "ros1-py", "ros2-cpp", "ros2-py")
 DRIVES = ("holonomic", "differential")
 ALLOWED = ("deadlock",)
 # Settings that no code depends on, and that are not recorded.
-APART = frozenset({"allow", "cells"})
+APART = frozenset({"allow", "cells", "ignore"})
 
 Drive: TypeAlias = Literal["holonomic", "differential"]
 
@@ -78,8 +79,8 @@ class RobotCell:
 class Config:
     """The settings of one model; times in seconds, lengths in metres, angles in radians.
 
-    `allow` is what is no mistake to a verification, `cells` where robots are drawn; no code
-    depends on them.
+    `allow` is what is no mistake to a verification, `cells` where robots are drawn, `ignore` which
+    warnings are not told; no code depends on them.
     """
 
     package: str | None = None
@@ -102,6 +103,7 @@ class Config:
     targets: tuple[ClassTarget, ...] = ()
     allow: tuple[str, ...] = ()
     cells: tuple[RobotCell, ...] = ()
+    ignore: tuple[str, ...] = ()
 
     def target_of(self, class_name: str) -> str:
         """The dialect of a class."""
@@ -186,6 +188,7 @@ def _config(table: Table) -> Config:
         targets=_targets(table),
         allow=_allow(table),
         cells=_cells(table),
+        ignore=_ignored(table),
     )
 
 
@@ -288,6 +291,20 @@ def _allow(table: Table) -> tuple[str, ...]:
             hint = did_you_mean(each, ALLOWED) or f"known: {', '.join(ALLOWED)}"
             table.wrong("allow", f'`allow` cannot have "{each}"', hint)
     return given
+
+
+def _ignored(table: Table) -> tuple[str, ...]:
+    """The codes of warnings and notes that are not told: `ignore` of the table `[lint]`."""
+    entry = table.table("lint")
+    if entry is None:
+        return ()
+    codes = entry.strings("ignore")
+    for code in codes:
+        if code not in CODES:
+            hint = did_you_mean(code, CODES) or "codes are like RS501"
+            entry.wrong("ignore", f'`ignore` cannot have "{code}"', hint)
+    entry.finish()
+    return codes
 
 
 def _cells(table: Table) -> tuple[RobotCell, ...]:

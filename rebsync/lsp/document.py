@@ -9,7 +9,7 @@ from lsprotocol import types as lsp
 
 from rebsync.diagnostics import Diagnostic
 from rebsync.grammars.properties import ParsedProperties, parse_properties
-from rebsync.lint import analysed, lint, model_findings, property_findings
+from rebsync.lint import analysed, lint, model_findings, property_findings, unless_ignored
 from rebsync.lsp.occurrences import Occurrence, of_model, of_properties
 from rebsync.lsp.parts import Layout, ParsedParts, in_text, parse_parts
 from rebsync.records import dataclass
@@ -82,7 +82,7 @@ class ModelDocument(Text):
         Around errors of syntax it is near to that: there the parser goes on part by part.
         """
         found = model_findings(self.parts.whole, self.analysis)
-        return tuple(in_text(d, self.layout) for d in found)
+        return unless_ignored(self.source, (in_text(d, self.layout) for d in found))
 
     @cached_property
     def exact_findings(self) -> tuple[Diagnostic, ...]:
@@ -107,7 +107,8 @@ class PropertyDocument(Text):
         """What `rebsync lint` finds, with places in the text."""
         model = self.model
         whole = model.parts.whole if model is not None else None
-        return property_findings(self.parsed, whole, model.analysis if model is not None else None)
+        analysis = model.analysis if model is not None else None
+        return unless_ignored(self.source, property_findings(self.parsed, whole, analysis))
 
     @cached_property
     def occurrences(self) -> tuple[Occurrence, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -81,3 +82,50 @@ def test_a_property_file_is_checked_against_the_model_beside_it(tmp_path: Path) 
     done = rebsync("lint", ".", cwd=tmp_path)
     assert done.status == 1
     assert done.out.startswith('a.property:1:29: RS902 "R" has no state variable "y"\n')
+
+
+MUTED = """\
+env int e = 2;
+reactiveclass A(2) {
+  A() {}
+  msgsrv x() {}
+}
+main { A a():(); }
+"""
+
+
+def codes(folder: Path, text: str) -> list[str]:
+    """The codes that are told of a model."""
+    (folder / "muted.rebeca").write_text(text, encoding="utf-8")
+    return re.findall(r"\b(RS\d+) ", rebsync("lint", "muted.rebeca", cwd=folder).out)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "left"),
+    [
+        ("e = 2;", "e = 2; // rebsync: ignore RS515", ["RS503"]),
+        ("e = 2;", "e = 2; // kept: rebsync: ignore RS515", ["RS515", "RS503"]),
+        ("e = 2;", "e = 2; // rebsync: ignore RS501, RS515: of the next robot", ["RS503"]),
+        ("e = 2;\n", "e = 2;\n// rebsync: ignore RS503\n", ["RS515", "RS503"]),  # another line
+        ("  msgsrv", "  // rebsync: ignore RS503\n  msgsrv", ["RS515"]),
+        ("A() {}\n", "A() {} // rebsync: ignore RS503\n", ["RS515", "RS503"]),  # not alone
+        ("A() {}", "A() { y = 1; } // rebsync: ignore RS203", ["RS203"]),
+    ],
+)
+def test_a_remark_switches_warnings_off(
+    tmp_path: Path, old: str, new: str, left: list[str]
+) -> None:
+    assert codes(tmp_path, MUTED) == ["RS515", "RS503"]
+    assert old in MUTED
+    assert codes(tmp_path, MUTED.replace(old, new)) == left
+
+
+def test_settings_switch_warnings_off(tmp_path: Path) -> None:
+    settings = tmp_path / "rebsync.toml"
+    settings.write_text('[lint]\nignore = ["RS503", "RS203"]\n', encoding="utf-8")
+    assert codes(tmp_path, MUTED.replace("A() {}", "A() { y = 1; }")) == ["RS203"]
+    assert codes(tmp_path, MUTED) == ["RS515"]
+    settings.write_text('[lint]\nignore = ["RS53"]\n', encoding="utf-8")
+    assert codes(tmp_path, MUTED) == ["RS515", "RS503"]
+    said = rebsync("verify", "muted.rebeca", cwd=tmp_path).err
+    assert 'RS809 `ignore` cannot have "RS53"' in said
