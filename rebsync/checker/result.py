@@ -72,8 +72,9 @@ class Coverage:
 class Result:
     """Everything that a verification found.
 
-    `seconds` counts all of it; `search_seconds` is the part in which states were searched, and
-    `build_seconds` the one in which the engine that searched was made.
+    `seconds` counts all of it; `search_seconds` is the part in which states were searched,
+    `build_seconds` the one in which the engine that searched was made, and `temporal_seconds` that
+    of LTL and TCTL, None where there is no such property.
     """
 
     verdict: Verdict
@@ -92,3 +93,4 @@ class Result:
     build_seconds: float
     peak_memory_bytes: int
     measures: tuple[MeasureRange, ...] = ()
+    temporal_seconds: float | None = None

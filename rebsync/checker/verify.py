@@ -147,6 +147,7 @@ class _Answer:
     caveats: list[str] = field(default_factory=list)
     between: tuple[MeasureRange, ...] = ()
     verdicts: dict[str, Verdict] = field(default_factory=dict)
+    temporal_seconds: float | None = None
     _graph: Graph | None = None
     _assertions: dict[int, list[Property]] | None = None
     _traces: dict[tuple[int, int], Trace] = field(default_factory=dict)
@@ -197,7 +198,10 @@ class _Answer:
             elif isinstance(event.cause, Failure):
                 self._failure(event, event.cause)
         self._assertions_that_hold()
+        began = time.perf_counter()
         self._temporal()
+        if self.problem.properties.ltl or self.problem.properties.tctl:
+            self.temporal_seconds = time.perf_counter() - began
         if exploration.semantics != "core" and self.complete and may_stand_still(self.program):
             with self._within_bounds():
                 self._standstill()
@@ -393,6 +397,7 @@ class _Answer:
             found.build_seconds,
             max(peak_memory(), found.memory),
             (*measure_ranges(self.problem.measures, found.measured, self._run_to), *self.between),
+            self.temporal_seconds,
         )
 
     def _run_to(self, state: int) -> Trace:

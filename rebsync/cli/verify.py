@@ -11,8 +11,8 @@ import click
 
 from rebsync.cli.amounts import amount, duration
 from rebsync.cli.options import write_output
-from rebsync.cli.problem import keep_what_is_read, measured, read_problem
-from rebsync.cli.status import STATUS_OF, Status
+from rebsync.cli.problem import keep_what_is_read, measured, named, read_problem
+from rebsync.cli.status import STATUS_OF, Status, worst
 from rebsync.diagnostics import RebsyncError
 
 if TYPE_CHECKING:
@@ -62,6 +62,13 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     "--environment",
     type=click.Choice(["free", "none"]),
     help="Of a package: what comes from outside; free (the default): anything, at any time.",
+)
+@click.option(
+    "--property-name",
+    "names",
+    multiple=True,
+    metavar="NAME",
+    help="Check the properties of these names only.",
 )
 @click.option("--model", "written", metavar="FILE", help="Of a package: write its model to FILE.")
 @click.option(
@@ -146,6 +153,7 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     metavar="env.NAME=VALUES",
     help="Verify once for each of 5..20 or 1,2,5 as value of a constant.",
 )
+@click.option("--full", is_flag=True, help="Show all steps of all runs.")
 @click.option("--states", metavar="FILE", help="Draw the state space: .dot, .svg or .json.")
 @click.option(
     "--export",
@@ -156,7 +164,8 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
 def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Status:
     """Check everything that can go wrong in a model, and its properties.
 
-    Of a package its code is read, with an environment that sends what nobody in it does.
+    Of a package its code is read, with an environment that sends what nobody in it does. Another
+    directory stands for all models below it.
     Always checked: deadlock, missed deadlines, full bags, assertions, array indices, division by
     zero, messages to null, time that cannot advance. Exit status: 0 satisfied, 3 violated,
     4 undetermined.
@@ -165,13 +174,49 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
 
     given = ctx.params
     check_name(given["states"], output)
+    models = _models_in(model)
+    if not models:
+        return _one(model, given, output)
+    if len(models) > 1 and (given["style"], output) != ("text", "-"):
+        raise click.UsageError(f"{len(models)} models are below {model}: name one of them")
+    return worst([_of_several(each, given, output) for each in models])
+
+
+def _of_several(model: str, given: dict[str, Any], output: str) -> Status:
+    """As `_one`; a mistake is told, and is not in the way of other models."""
+    try:
+        return _one(model, given, output)
+    except RebsyncError as error:
+        from rebsync.report import print_report
+
+        sys.stdout.flush()
+        print_report(error.findings, sys.stderr)
+        return Status.UNUSABLE
+
+
+def _models_in(path: str) -> list[str]:
+    """The models below a directory that is no package; none where it is one, or a file."""
+    from rebsync.cli.paths import expand
+    from rebsync.files import MODEL
+    from rebsync.reverse.files.packages import CODE, MANIFEST
+
+    folder = Path(path)
+    if not folder.is_dir() or any(
+        each.name == MANIFEST or each.suffix in CODE | {".py"} for each in folder.iterdir()
+    ):
+        return []
+    return [found for found in expand((path,), (MODEL,)) if isinstance(found, str)]
+
+
+def _one(model: str, given: dict[str, Any], output: str) -> Status:
+    """Verifies a model or a package."""
     if given["swept"]:
         return _swept(model, given, output)
     if given["replay"] is not None and (given["states"] or given["export"]):
         raise click.UsageError("--replay makes one run: leave --states and --export out")
     if given["symmetry"] and (given["states"] or given["export"]):
         raise click.UsageError("--states and --export write all states: leave --symmetry out")
-    problem = _read(model, given)
+    problem = named(_read(model, given), given["names"])
     keep_what_is_read(problem, output, given["states"], replayed=given["replay"])
     problem = measured(problem, given["measures"], given["between"])
     if given["replay"] is not None:
@@ -203,7 +248,7 @@ def _swept(model: str, given: dict[str, Any], output: str) -> Status:
     if any(given[name] for name in ("replay", "states", "export", "violation")):
         raise click.UsageError("--for-all prints a table only, without runs and states")
     asked = given["measures"], given["between"]
-    problem = measured(_read(model, given), *asked)
+    problem = measured(named(_read(model, given), given["names"]), *asked)
     keep_what_is_read(problem, output)
     options = _options({**given, "everything": not given["stop_at"]}, model)
     rows = sweep(problem, asked, parameters, options, untimed=given["language"] == "core")
@@ -312,12 +357,12 @@ def _write(result: Result, problem: Problem, given: dict[str, Any], output: str)
     if style == "text" and output == "-":
         from rebsync.checker.show.text import print_result
 
-        print_result(result, problem.source.path, sys.stdout)
+        print_result(result, problem.source.path, sys.stdout, is_full=given["full"])
         return
-    write_output(output, _text(result, problem, style, given["violation"]))
+    write_output(output, _text(result, problem, style, given))
 
 
-def _text(result: Result, problem: Problem, style: str, wanted: str | None) -> str:
+def _text(result: Result, problem: Problem, style: str, given: dict[str, Any]) -> str:
     match style:
         case "json":
             from rebsync.checker.show.data import result_json
@@ -333,13 +378,13 @@ def _text(result: Result, problem: Problem, style: str, wanted: str | None) -> s
         case "svg":
             from rebsync.checker.show.chart import chart
 
-            violation = _violation(result, wanted)
+            violation = _violation(result, given["violation"])
             return chart(violation.trace, violation.message)
         case _:
             from rebsync.checker.show.pieces import plain
             from rebsync.checker.show.text import result_lines
 
-            return plain(result_lines(result, problem.source.path))
+            return plain(result_lines(result, problem.source.path, is_full=given["full"]))
 
 
 def _violation(result: Result, wanted: str | None) -> Violation:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import signal
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from typing import Any
 
 import pytest
 
+from rebsync.cli import main
 from tests.cli.run import ROOT, environment, rebsync
 
 EXAMPLES = ROOT / "examples"
@@ -440,3 +442,32 @@ def test_a_class_without_instances_is_no_obstacle(tmp_path: Path) -> None:
     idle = "reactiveclass Idle(1) { msgsrv m() { self.m(); } }\n\nreactiveclass Walker(3)"
     text = WALK.replace("reactiveclass Walker(3)", idle)
     assert verified(tmp_path, text, "--allow", "deadlock")["verdict"] == "satisfied"
+
+
+def test_a_directory_stands_for_its_models(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    main(["examples", str(tmp_path), "hello", "experiment3"])
+    (tmp_path / "broken.rebeca").write_text("reactiveclass A(2) {", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    capsys.readouterr()
+    assert main(["verify", ".", "--allow", "deadlock"]) == 2
+    shown = capsys.readouterr()
+    assert re.findall(r"^\S+: satisfied$", shown.out, re.MULTILINE) == [
+        "experiment3/experiment3.rebeca: satisfied",
+        "hello/hello.rebeca: satisfied",
+    ]
+    assert shown.err.startswith("broken.rebeca:1:")
+    assert main(["verify", ".", "--format", "json"]) == 2
+    assert "3 models are below .: name one of them" in capsys.readouterr().err
+
+
+def test_properties_are_picked_by_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["examples", str(tmp_path), "experiment3_unsafe"])
+    model = str(tmp_path / "experiment3_unsafe/experiment3_unsafe.rebeca")
+    assert main(["verify", model, "--allow", "deadlock", "--property-name", "Safety"]) == 3
+    assert "Goal_Not_Passed" not in capsys.readouterr().out
+    assert main(["verify", model, "--property-name", "Goal_Not_Passed"]) == 0
+    assert "Safety" not in capsys.readouterr().out
+    assert main(["verify", model, "--property-name", "Safty"]) == 2
+    assert 'no property is called "Safty"; did you mean "Safety"?' in capsys.readouterr().err

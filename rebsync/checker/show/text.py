@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import takewhile
 from pathlib import PurePath
 from typing import TextIO
 
@@ -21,11 +22,12 @@ _STYLES: dict[Verdict, str] = {
 _WRONG = "bold red"
 _QUIET = "dim"
 _LONG = 30  # columns of a path that is told whole with every step
+_FEW = 4  # steps of a run that are told after what it has in common with the first
 
 
-def print_result(result: Result, model: str, stream: TextIO) -> None:
-    """Writes what a verification of the model at path `model` found."""
-    print_lines(result_lines(result, model), stream)
+def print_result(result: Result, model: str, stream: TextIO, *, is_full: bool = False) -> None:
+    """Writes what a verification of the model at path `model` found; as `result_lines`."""
+    print_lines(result_lines(result, model, is_full=is_full), stream)
 
 
 def print_trace(trace: Trace, stream: TextIO) -> None:
@@ -33,13 +35,16 @@ def print_trace(trace: Trace, stream: TextIO) -> None:
     print_lines(trace_lines(trace), stream)
 
 
-def result_lines(result: Result, model: str) -> list[Line]:
-    """The lines that show a result."""
+def result_lines(result: Result, model: str, *, is_full: bool = False) -> list[Line]:
+    """The lines that show a result.
+
+    The first run is told whole, the others only where they end, unless `is_full`.
+    """
     return [
         line(Piece(model, "bold"), ": ", Piece(result.verdict, _STYLES[result.verdict])),
         *_remarks(result),
         *_properties(result),
-        *(shown for violation in result.violations for shown in _violation(violation)),
+        *_violations(result.violations, is_full=is_full),
         *_measures(result),
         *_coverage(result, model),
         *_figures(result),
@@ -47,16 +52,19 @@ def result_lines(result: Result, model: str) -> list[Line]:
 
 
 def trace_lines(
-    trace: Trace, ending: str | None = None, true: Sequence[Sequence[str]] = ()
+    trace: Trace,
+    ending: str | None = None,
+    true: Sequence[Sequence[str]] = (),
+    begin: int = 0,
 ) -> list[Line]:
-    """The lines that show a run; `ending` is what is wrong after its last step.
+    """The lines that show a run from its step `begin` on; `ending` is what is wrong at its end.
 
     `true` are the definitions that are true after each step.
     """
     number = max(4, *(len(str(step.number)) for step in trace.steps))
     time = max(4, *(len(str(step.time)) for step in trace.steps))
     shown = [line(Piece(f"  {'step':>{number}}  {'time':>{time}}", _QUIET))]
-    for step in trace.steps:
+    for step in trace.steps[begin:]:
         wrong = step.failure is not None or (ending is not None and step is trace.steps[-1])
         repeats = trace.loop is not None and step.number > trace.loop
         gutter = Piece(">", _WRONG) if wrong else Piece("|" if repeats else " ", "yellow")
@@ -95,7 +103,16 @@ def _properties(result: Result) -> Iterator[Line]:
         yield line(f"  {name}{gap}", Piece(verdict, _STYLES[verdict]), hang=4)
 
 
-def _violation(violation: Violation) -> Iterator[Line]:
+def _violations(violations: Sequence[Violation], *, is_full: bool) -> Iterator[Line]:
+    for number, violation in enumerate(violations):
+        is_whole = is_full or number == 0
+        yield from _violation(
+            violation, 0 if is_whole else _begin(violation.trace, violations[0].trace)
+        )
+
+
+def _violation(violation: Violation, begin: int) -> Iterator[Line]:
+    """What is wrong, and a run to it from its step `begin` on."""
     yield line()
     place = f"{violation.path}:{violation.line}: " if violation.line else ""
     yield line(
@@ -108,7 +125,21 @@ def _violation(violation: Violation) -> Iterator[Line]:
         yield line("  formula: ", Piece(violation.formula, "cyan"), hang=4)
     failed = any(step.failure is not None for step in violation.trace.steps)
     ending = None if failed or violation.trace.loop is not None else violation.message
-    yield from trace_lines(violation.trace, ending, violation.true)
+    if begin:
+        folded = f"  {begin} steps before are not shown: --full shows them"
+        yield line(Piece(folded, _QUIET), hang=4)
+    yield from trace_lines(violation.trace, ending, violation.true, begin)
+
+
+def _begin(trace: Trace, first: Trace) -> int:
+    """From which step on a run is told: not where it goes as the first, and its end only.
+
+    A cycle is told whole.
+    """
+    pairs = zip(trace.steps, first.steps, strict=False)
+    common = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
+    begin = max(min(common, len(trace.steps) - 1), len(trace.steps) - _FEW)
+    return begin if trace.loop is None else min(begin, trace.loop)
 
 
 # --- steps -------------------------------------------------------------------------------------
@@ -203,12 +234,14 @@ def _coverage(result: Result, model: str) -> Iterator[Line]:
 
 def _figures(result: Result) -> Iterator[Line]:
     search = words.duration(result.search_seconds)
+    temporal = result.temporal_seconds
     speed = words.rate(result.states, result.search_seconds)
     rows = {
         "states": f"{result.states:,}",
         "transitions": f"{result.transitions:,}",
         "depth": f"{result.depth:,}",
         "search": search + (f", {speed:,.0f} states/s" if speed else ""),
+        "LTL and TCTL": words.duration(temporal) if temporal is not None else "",
         "build": words.duration(result.build_seconds) if result.build_seconds else "",
         "memory": words.memory(result.peak_memory_bytes),
         "engine": result.engine,
