@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from tree_sitter import Node
 
@@ -21,8 +21,13 @@ _METACLASS = "abc.ABCMeta"
 _GENERIC = frozenset({"typing.Generic", "typing.Protocol", "typing_extensions.Protocol"})
 
 
-def class_departures(values: PyEvaluator, scope: Scope) -> Iterator[Departure]:
-    """Decorators, keywords and bases of a class by which it may be another class."""
+def class_departures(
+    values: PyEvaluator, scope: Scope, libraries: Collection[str] | None = None
+) -> Iterator[Departure]:
+    """Decorators, keywords and bases of a class by which it may be another class.
+
+    With `libraries` bases of all others are listed as well.
+    """
     for node in decorating(scope.node):
         yield node, "what decorates this class may change it"
     outer = scope.parent or scope
@@ -32,16 +37,22 @@ def class_departures(values: PyEvaluator, scope: Scope) -> Iterator[Departure]:
             made_by = _names(values.ways(field(base, "value"), outer))
             if text_of(field(base, "name")) != "metaclass" or made_by != {_METACLASS}:
                 yield base, "a metaclass may change what this class is"
-        elif not _is_class(values, base, outer):
+        elif not _is_class(values, base, outer, libraries):
             yield base, "what class this is is not known"
 
 
-def _is_class(values: PyEvaluator, base: Node, scope: Scope) -> bool:
-    """Whether all that a base may be are classes, or names of libraries."""
+def _is_class(
+    values: PyEvaluator, base: Node, scope: Scope, libraries: Collection[str] | None
+) -> bool:
+    """Whether all that a base may be are classes of the files, or of some or any libraries."""
     if base.type == "subscript":
         return _names(values.ways(field(base, "value"), scope)) <= _GENERIC
+    if base.type not in ("identifier", "attribute"):
+        return False
     ways = values.ways(base, scope)
-    return bool(ways) and all(isinstance(w, (Class, External)) for w in ways)
+    of_libraries = [w for w in ways if isinstance(w, External)]
+    is_known = libraries is None or all(w.root in libraries for w in of_libraries)
+    return is_known and bool(ways) and all(isinstance(w, (Class, External)) for w in ways)
 
 
 def _names(ways: Ways) -> set[str]:

@@ -47,6 +47,8 @@ from rebsync.reverse.python.runtime_files import is_runtime_file
 _SHOWN = frozenset({"priority", "globalPriority"}) | OFFERS
 # Of the names that Python looks for in a class, those that change no behaviour of its objects.
 _PLAIN_NAMES = frozenset({"__init__", "__str__", "__repr__", "__doc__"})
+# The libraries whose classes generated ones have above them, or may have.
+_PLAIN_BASES = frozenset({"rclpy", "abc", "typing", "builtins"})
 _HINT = "take it out: no model says this"
 
 
@@ -145,7 +147,7 @@ class ModelClasses:
         """Lists what makes a class, or a function of it, another than is read."""
         functions = self._of(owner).functions.values()
         for node, why in (
-            *class_departures(self._values, owner),
+            *class_departures(self._values, owner, _PLAIN_BASES),
             *special_names(owner, _PLAIN_NAMES),
             *renamed_decorators(self._values, functions, DECORATORS | {"property"}),
         ):
