@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
 """
 PACKAGE = "<package format='2'><name>n</name></package>"
 # An edit, and the edit that says the same to every reader.
-ALIKE = {
+ALIKE: dict[str, list[tuple[str, str, str | None]]] = {
     "n.py": [
         ("        self.x = 5\n", "        # x\r        self.x = 7\n", "        self.x = 7\n"),
         ("        self.x = 5\n", "        self.x = 5\r\n", "        self.x = 5\n"),
