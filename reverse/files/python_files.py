@@ -85,6 +85,7 @@ def _module(path: str) -> str:
 
 def _imported(data: bytes) -> Iterator[bytes]:
     """All names in imports: of modules, and of what may be modules."""
+    data = data.replace(b"\r", b"\n")
     at = data.find(b"import")
     while at >= 0:
         found = _IMPORT.match(data, data.rfind(b"\n", 0, at) + 1)

@@ -11,6 +11,7 @@ from rebsync.diagnostics import RebsyncError
 from rebsync.files import BOM, operating_on, os_mistake
 from rebsync.long_numbers import MOST_DIGITS, long_number
 from rebsync.records import dataclass
+from rebsync.reverse.files.compiled_text import compiled_text, odd_encoding
 from rebsync.reverse.files.contents import contents
 from rebsync.reverse.files.packages import CODE, Listing, listings, shown, suffix_of
 from rebsync.reverse.files.python_files import SUFFIX, is_script, relevant_python
@@ -102,7 +103,8 @@ def read(listing: Listing) -> Chosen:
     code |= python
     files: dict[str, Source] = {}
     for name in sorted([*texts, *wanted]):
-        source = _text(listing, name, code.get(name) or texts.get(name, b""), findings)
+        data = code.get(name) or texts.get(name, b"")
+        source = _text(listing, name, data, findings, is_python=name in python)
         if source is not None:
             files[name] = source
     return Chosen(
@@ -126,7 +128,9 @@ def _contents(listing: Listing) -> Iterator[tuple[str, bytes | RebsyncError]]:
 # --- text ---------------------------------------------------------------------------------------
 
 
-def _text(listing: Listing, name: str, data: bytes, findings: list[Finding]) -> Source | None:
+def _text(
+    listing: Listing, name: str, data: bytes, findings: list[Finding], *, is_python: bool
+) -> Source | None:
     """The text of a file; None where it has none, which is then listed if it is code."""
     path = shown(listing.files[name])
     is_code = _is_code(name)
@@ -136,7 +140,10 @@ def _text(listing: Listing, name: str, data: bytes, findings: list[Finding]) -> 
             findings.append(Finding(Grade.UNREADABLE, Source(path, ""), NOWHERE, why, hint))
         return None
     text = data.removeprefix(BOM).decode("utf-8", _LATIN)
-    source = Source(path, text.replace("\0", " "))
+    source = Source(path, compiled_text(name, text.replace("\0", " ")))
+    if is_python and (odd := odd_encoding(data, text)) is not None:
+        why = f"Python reads this file in another encoding than UTF-8: {odd[1]}"
+        findings.append(Finding(Grade.UNREADABLE, source, odd[0], why, _HINT))
     if (span := long_number(text)) is not None:
         why = f"a number of more than {MOST_DIGITS:,} digits: the file is not read"
         findings.append(Finding(Grade.UNREADABLE, source, span, why, ""))

@@ -72,6 +72,16 @@ def list_import_effects(
         _list(source, _ImportedCode(tree).acting(), findings)
 
 
+def list_definition_effects(source: Source, own: Collection[str], findings: Findings) -> None:
+    """Lists what runs in a module of generated classes when functions and classes are defined.
+
+    `own` are the names of these classes, which are read themselves.
+    """
+    tree = _parsed(source.text)
+    if tree is not None:
+        _list(source, _ImportedCode(tree).defining(own), findings)
+
+
 def list_setup_effects(source: Source, findings: Findings) -> None:
     """Lists what `setup.py` does besides to say what is installed."""
     tree = _parsed(source.text)
@@ -158,6 +168,29 @@ class _ImportedCode:
                 case _:
                     pass
 
+    def defining(self, own: Collection[str]) -> Iterator[ast.stmt]:
+        """The definitions at the top that may do more than to bind their names."""
+        for node in self._tree.body:
+            match node:
+                case ast.ClassDef(name=name, body=body) if name in own:
+                    yield from (n for n in body if _is_function(n) and not self._is_plain_head(n))
+                    yield from self._acting(n for n in body if isinstance(n, ast.ClassDef))
+                case ast.ClassDef():
+                    yield from self._acting([node])
+                case _ if _is_function(node) and not self._is_plain_head(node):
+                    yield node
+                case _:
+                    pass
+
+    def _is_plain_head(self, node: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
+        """Whether to define a function evaluates nothing that may act but for its decorators."""
+        args = node.args
+        parts = [*args.defaults, *args.kw_defaults]
+        if self._aliases.get("annotations") != "__future__.annotations":
+            every = (*args.posonlyargs, *args.args, *args.kwonlyargs, args.vararg, args.kwarg)
+            parts += [node.returns, *(a.annotation for a in every if a is not None)]
+        return all(self._is_plain(part) for part in parts if part is not None)
+
     @staticmethod
     def _never_here(test: ast.expr) -> bool:
         text = ast.unparse(test)
@@ -165,13 +198,9 @@ class _ImportedCode:
 
     def _only_binds(self, node: ast.stmt) -> bool:
         match node:
-            case (
-                ast.FunctionDef(args=args, decorator_list=decorators)
-                | ast.AsyncFunctionDef(args=args, decorator_list=decorators)
-            ):
-                defaults = (*args.defaults, *(d for d in args.kw_defaults if d is not None))
-                plain = all(map(self._is_plain, defaults))
-                return plain and all(map(self._is_plain_decorator, decorators))
+            case _ if _is_function(node):
+                decorated = all(map(self._is_plain_decorator, node.decorator_list))
+                return decorated and self._is_plain_head(node)
             case ast.Assign(targets=targets, value=value):
                 return all(map(self._is_own, targets)) and self._is_plain(value)
             case ast.AnnAssign(target=target, value=value):
@@ -249,7 +278,8 @@ class _ImportedCode:
         name = self._name_of(function)
         made = self._classes.get(name)
         if made is not None:
-            return _MAKING.isdisjoint(n.name for n in made.body if _is_function(n))
+            acting = _MAKING | _CLASS_HOOKS
+            return acting.isdisjoint(n.name for n in made.body if _is_function(n))
         if name in self._plain or self._is_plain_function(name):
             return True
         if isinstance(function, ast.Attribute) and isinstance(function.value, ast.Constant):
@@ -297,5 +327,5 @@ def _is_made(value: ast.expr) -> bool:
     return isinstance(value, ast.Dict | ast.List | ast.Set)
 
 
-def _is_function(node: ast.stmt) -> TypeGuard[ast.FunctionDef]:
-    return isinstance(node, ast.FunctionDef)
+def _is_function(node: ast.stmt) -> TypeGuard[ast.FunctionDef | ast.AsyncFunctionDef]:
+    return isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)

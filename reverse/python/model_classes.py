@@ -18,9 +18,14 @@ from rebsync.reverse.bodies.building import is_default
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.own_parameters import Stored, with_own
+from rebsync.reverse.python.class_creation import (
+    class_departures,
+    renamed_decorators,
+    special_names,
+)
 from rebsync.reverse.python.model_bodies import ModelBodies
 from rebsync.reverse.python.model_overloads import families
-from rebsync.reverse.python.model_plumbing import Plumbing, odd_at_top
+from rebsync.reverse.python.model_plumbing import DECORATORS, Plumbing, odd_at_top
 from rebsync.reverse.python.model_posts import learn_servers
 from rebsync.reverse.python.model_queues import length_of
 from rebsync.reverse.python.model_roles import EnvUse, PyRoles, PySends, plain_name, roles_of
@@ -40,6 +45,11 @@ from rebsync.reverse.python.runtime_files import is_runtime_file
 
 # What the set-up of a server shows, whatever a marker says.
 _SHOWN = frozenset({"priority", "globalPriority"}) | OFFERS
+# Of the names that Python looks for in a class, those that change no behaviour of its objects.
+_PLAIN_NAMES = frozenset({"__init__", "__str__", "__repr__", "__doc__"})
+# The libraries whose classes generated ones have above them, or may have.
+_PLAIN_BASES = frozenset({"rclpy", "abc", "typing", "builtins"})
+_HINT = "take it out: no model says this"
 
 
 @dataclass(eq=False)
@@ -125,11 +135,24 @@ class ModelClasses:
             for node in odd_at_top(module, self._named):
                 unread = Unread(module.py.span(node), "what this does is not in the model")
                 self.findings.unreadable(module.py.source, unread, "")
+        for owner in wanted:
+            self._list_creation(owner)
         return tuple(
             self._reactive(o) if self._has_mailbox(o) else self._interface(o)
             for o in wanted
             if not self._is_helping(o)
         )
+
+    def _list_creation(self, owner: Scope) -> None:
+        """Lists what makes a class, or a function of it, another than is read."""
+        functions = self._of(owner).functions.values()
+        for node, why in (
+            *class_departures(self._values, owner, _PLAIN_BASES),
+            *special_names(owner, _PLAIN_NAMES),
+            *renamed_decorators(self._values, functions, DECORATORS | {"property"}),
+        ):
+            unread = Unread(owner.py.span(node), why, _HINT)
+            self.findings.unreadable(owner.py.source, unread, owner.name)
 
     def arguments(self) -> dict[str, list[str]]:
         """The parameters that the constructors of classes read for their arguments, in order."""

@@ -60,11 +60,7 @@ _AT_TOP = frozenset(
     }
 )
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
-_DECORATORS = frozenset({"abstractmethod", "final", "override", "staticmethod", "classmethod"})
-# Python calls these itself, or makes of attributes what they say.
-_HOOKS = frozenset(
-    {"__del__", "__new__", "__init_subclass__", "__getattribute__", "__setattr__", "__getattr__"}
-)
+DECORATORS = frozenset({"abstractmethod", "final", "override", "staticmethod", "classmethod"})
 _STORING = frozenset({"assignment", "named_expression", "lambda", "await", "yield"})
 _LOOKING = frozenset({"flatten"})
 _WHY = "what this does is not in the model"
@@ -104,8 +100,6 @@ class Plumbing:
             for node in self._odd(function):
                 self._list(owner.py, node, why, function.name)
         for function in self.roles.functions.values():
-            if function.name in _HOOKS:
-                self._list(owner.py, function.node, _WHY, function.name)
             if any(c.type == "async" for c in function.node.children):
                 self._list(owner.py, function.node, _LATE, function.name)
             odd = [d for d in function.decorators if not self._is_plain(function, d)]
@@ -123,7 +117,7 @@ class Plumbing:
     def _is_plain(self, function: Scope, decorator: str) -> bool:
         """Whether the model knows what a function is with it: what is called is no property."""
         if decorator != "property":
-            return decorator in _DECORATORS
+            return decorator in DECORATORS
         roles, name = self.roles, function.name
         called = re.search(rf"\bself\.{name}\s*\(", text_of(roles.owner.node))
         return called is None and not any(name in r for r in (roles.handlers, roles.sends))

@@ -6,16 +6,18 @@ its class. Where a class does otherwise, that is listed: nothing is known of wha
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.class_creation import class_departures
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
-from rebsync.reverse.python.py_worth import Class
+from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_worth import Class, External
 
 _HOOKS = frozenset(
     {"__setattr__", "__getattr__", "__getattribute__", "__delattr__", "__new__", "__del__"}
@@ -25,6 +27,7 @@ _PLAIN_DECORATORS = frozenset(
     {"staticmethod", "classmethod", "abstractmethod", "abc.abstractmethod"}
     | {"override", "typing.override", "typing_extensions.override"}
 )
+_WITHOUT_DICT = frozenset({"builtins.object", "abc.ABC"})
 _DESCRIBES = frozenset({"__get__", "__set__", "__delete__"})
 
 
@@ -39,21 +42,18 @@ def list_object_model(reading: Reading, findings: Findings) -> None:
 
 def _departures(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
     for scope in reading.unit.lineage:
-        yield from _of_class(scope)
+        yield from _of_class(reading, scope)
         yield from _of_members(reading, scope)
+    yield from _slots(reading)
     yield from _replaced(reading)
     yield from _private(reading)
     yield from _of_subclasses(reading)
 
 
-def _of_class(scope: Scope) -> Iterator[tuple[Scope, Node, str]]:
-    """What decorates a class, and which other class makes it."""
-    if scope.decorators:
-        yield scope, scope.node, "what decorates this class may change it"
-    bases = scope.node.child_by_field_name("superclasses")
-    for base in named(bases) if bases is not None else ():
-        if base.type == "keyword_argument":
-            yield scope, base, "a metaclass may change what this class is"
+def _of_class(reading: Reading, scope: Scope) -> Iterator[tuple[Scope, Node, str]]:
+    """What makes a class another than its body says."""
+    for node, why in class_departures(reading.values, scope):
+        yield scope, node, why
 
 
 def _of_members(reading: Reading, scope: Scope) -> Iterator[tuple[Scope, Node, str]]:
@@ -69,6 +69,20 @@ def _of_members(reading: Reading, scope: Scope) -> Iterator[tuple[Scope, Node, s
     if b"__dict__" in (scope.node.text or b""):
         for node in _attributes(scope.node, "__dict__"):
             yield scope, node, "attributes that are set by their names are not read"
+
+
+def _slots(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
+    """Attributes that fail to be set: each class of the lineage says which ones there are."""
+    family = reading.unit.lineage
+    above = {c.name for c in lineage(reading.values, family[0]) if isinstance(c, External)}
+    said = [scope.names.get("__slots__") for scope in family]
+    if not above <= _WITHOUT_DICT or not all(said):
+        return
+    texts = " ".join(text_of(b.node) for bindings in said for b in bindings or ())
+    for scope in family:
+        for name, bindings in scope.attributes.items():
+            if not re.search(rf"\b{re.escape(name)}\b", texts):
+                yield scope, bindings[0].node, f'no `__slots__` has "{name}": to set it fails'
 
 
 def _decorated(

@@ -8,6 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Container, Iterator
 from functools import cache
+from itertools import islice
+from unicodedata import is_normalized, normalize
 
 import tree_sitter_python
 from tree_sitter import Language, Node, Parser
@@ -43,7 +45,22 @@ def parse(source: Source) -> Py:
 
 
 def unparsed(py: Py) -> list[Finding]:
-    """The places where a file is no Python: what is there is not in the model."""
+    """The places where a file is no Python, or reads otherwise: that is not in the model."""
+    return [*_mistakes(py), *islice(_renamed(py), _SHOWN)]
+
+
+def _renamed(py: Py) -> Iterator[Finding]:
+    """Names that Python takes for others: it reads all in the normal form NFKC."""
+    if is_normalized("NFKC", py.source.text):
+        return
+    for node in nodes_in(py.root):
+        name = text_of(node) if node.type == "identifier" else ""
+        if (other := normalize("NFKC", name)) != name:
+            why = f'Python takes this name for "{other}"'
+            yield Finding(Grade.UNREADABLE, py.source, py.span(node), why, f'write "{other}"')
+
+
+def _mistakes(py: Py) -> list[Finding]:
     found: list[Finding] = []
     waiting = [py.root]
     while waiting and len(found) < _SHOWN:
@@ -132,12 +149,17 @@ def nodes_in(node: Node) -> Iterator[Node]:
         waiting += reversed(current.named_children)
 
 
-def decorators_of(definition: Node) -> list[str]:
-    """The decorators of a function or class, as they are written."""
+def decorating(definition: Node) -> list[Node]:
+    """The decorators of a function or class."""
     above = definition.parent
     if above is None or above.type != "decorated_definition":
         return []
-    return [text_of(c).lstrip("@ ") for c in above.children if c.type == "decorator"]
+    return [c for c in above.children if c.type == "decorator"]
+
+
+def decorators_of(definition: Node) -> list[str]:
+    """The decorators of a function or class, as they are written."""
+    return [text_of(c).lstrip("@ ") for c in decorating(definition)]
 
 
 def calls_in(node: Node) -> Iterator[Node]:

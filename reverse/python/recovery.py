@@ -30,7 +30,11 @@ from rebsync.reverse.nodes.node_joined import Part
 from rebsync.reverse.nodes.node_system import unit_of_time
 from rebsync.reverse.python.body_started import Started, entries_of, is_module, scripts_of
 from rebsync.reverse.python.body_system import PyNodes, PySystem
-from rebsync.reverse.python.import_effects import list_import_effects, list_setup_effects
+from rebsync.reverse.python.import_effects import (
+    list_definition_effects,
+    list_import_effects,
+    list_setup_effects,
+)
 from rebsync.reverse.python.model_classes import ModelClasses
 from rebsync.reverse.python.model_env import integer_constants
 from rebsync.reverse.python.model_parameters import constant, parameter_read
@@ -172,6 +176,9 @@ def read_python(
     own = {(o.name, o.py.source.path) for o in classes.owners}
     if read and only is None:
         list_import_effects(python.sources, _read_paths(python), findings)
+        for module in {id(o.module): o.module for o in classes.owners}.values():
+            names = {o.name for o in classes.owners if o.module is module}
+            list_definition_effects(module.py.source, names, findings)
     is_people = partial(_is_people, own=own)
     scripts = scripts_of(files or {})
     entries = entries_of(files or {})

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from itertools import chain
 
+from rebsync.reverse.files.compiled_text import LINE_COMMENT
 from rebsync.reverse.scaffold.fact import PLAYED, PROGRAM, Fact, numbered
 from rebsync.reverse.scaffold.texts import joined, squeezed
 from rebsync.source import Source, Span
@@ -13,7 +14,7 @@ from rebsync.source import Source, Span
 MAIN = re.compile(r"\bint\s+main\s*\(")
 _STARTED = re.compile(r"\bmailbox_\s*\.\s*start\s*\(\s*\)")
 _SHOWS = re.compile(r"\bmailbox_\s*\.\s*onServed\s*\(")
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_COMMENT = re.compile(rf"{LINE_COMMENT}|/\*.*?\*/", re.DOTALL)
 _BROKEN = re.compile(r'\w+(?:\s*::\s*\w+)+|"[^"\n\\]*"(?:\s*"[^"\n\\]*")+')
 _SENSOR = re.compile(r'[:,]\s*(\w+)\s*[({]\s*\w+\s*,\s*("[^"]*")\s*[)}]')
 _PLAYED = re.compile(r'\bnode\s*\.\s*advertise\s*<[^;()]*>\s*\(\s*"([^"]*)"')

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import BOM, read_bytes, read_source
+from rebsync.reverse.files.compiled_text import compiled_text
 from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.launch.xml_tree import text_below
 from rebsync.reverse.scaffold.build_file import facts_of_build
@@ -40,7 +41,7 @@ def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
     found: Facts = {}
     for name, path in sorted(paths.items()):
         with suppress(RebsyncError):  # what cannot be read, extraction lists
-            source = Source(path, _text(read_bytes(path)))
+            source = Source(path, compiled_text(name, _text(read_bytes(path))))
             for fact in _told(name, source, package):
                 found.setdefault(fact.key, []).append(fact)
     return found

@@ -9,6 +9,7 @@ from itertools import zip_longest
 
 from rebsync.records import dataclass
 from rebsync.reserved import MONITOR_FILES, RUNTIME_HEADERS
+from rebsync.reverse.files.compiled_text import LINE_COMMENT
 from rebsync.reverse.scaffold.cpp import MAIN
 from rebsync.source import Source, Span
 
@@ -25,7 +26,7 @@ _OPEN_ESCAPE = re.compile(r'\\(?:x[0-9a-fA-F]+|[0-7]{1,2})"\Z')
 # What a rebec is made of, extraction reads.
 _REBEC = re.compile(r"::\w+rebec\(node[,)]|.*(?:node\.param|readArray)\(")
 _LOGS = ("ROS_", "RCLCPP_", "printf(", "std::cout", "std::cerr")
-_TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\w+|\S', re.DOTALL)
+_TOKEN = re.compile(rf'{LINE_COMMENT}|/\*.*?\*/|"(?:\\.|[^"\\])*"|\w+|\S', re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)

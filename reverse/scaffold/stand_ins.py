@@ -10,6 +10,8 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
+from rebsync.reverse.files.compiled_text import LINE_COMMENT
+
 STAND_IN = re.compile(r"(?:.*/)?\w+_stand_in(?:\.cpp|\.py)?")
 # What gets at topics, services, parameters, other programs, and names that only running tells.
 _REACHING = re.compile(
@@ -18,7 +20,7 @@ _REACHING = re.compile(
     r"|socket|thread|async|asm|dlsym|environ|define|include|pragma|using)\w*|[\"']"
 )
 _REMARKS = {
-    False: re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL),
+    False: re.compile(rf"{LINE_COMMENT}|/\*.*?\*/", re.DOTALL),
     True: re.compile(r"#[^\n]*"),
 }
 _DRAWING = re.compile(

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 from rebsync.records import dataclass
+from rebsync.reverse.files.compiled_text import LINE_COMMENT
 from rebsync.reverse.libraries.cpp import versions
 
 _KNOWN: dict[str, int | None] = {
@@ -25,13 +26,13 @@ _UNDEFINED = frozenset(
 )
 _DIRECTIVE = re.compile(
     r"[ \t]*#[ \t]*(?P<word>if|ifdef|ifndef|elif|else|endif|define|undef)\b"
-    r"(?P<rest>[^\n\\]*(?:\\(?:\r?\n|.)[^\n\\]*)*)"
+    r"(?P<rest>[^\n\\]*(?:\\(?:\r?\n)?[^\n\\]*)*)"
 )
 # What is not closed ends with the text, as otherwise it would be looked for again and again. What
 # goes on for long is taken at once, not one character after the other.
 _HIDDEN = re.compile(
-    r"""//[^\n]*|/\*[^*]*(?:\*+(?!/)[^*]*)*(?:\*/|\Z)|"[^"\\\n]*(?:\\.[^"\\\n]*)*"?"""
-    r"""|'(?:[^'\\\n]|\\.)'""",
+    rf"""{LINE_COMMENT}|/\*[^*]*(?:\*+(?!/)[^*]*)*(?:\*/|\Z)"""
+    r"""|"[^"\\\n]*(?:\\.[^"\\\n]*)*"?|'(?:[^'\\\n]|\\.)'""",
     re.DOTALL,
 )
 _TOKEN = re.compile(r"\s*(\d[\w']*|\w+|&&|\|\||[=!<>]=|[-+!<>(),*/%])")

@@ -19,13 +19,14 @@ from rebsync.reverse.syntax.cpp_conditions import IfSection, alternatives
 from rebsync.reverse.syntax.cpp_declarations import only_braces
 from rebsync.reverse.syntax.cpp_text import has_alternatives, is_split, read_branch
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
+from rebsync.reverse.syntax.misread import misread
 from rebsync.source import Span
 
 NO_CPP = "this is no C++ that can be read"
 NO_PYTHON = "this is no Python that can be read"
 _LONGEST = 120
 _WORD = re.compile(r"\w+")
-_DIRECTIVES = re.compile(r"^[ \t]*#(?:[^\n\\]|\\\r?\n|\\.)*", re.MULTILINE)
+_DIRECTIVES = re.compile(r"^[ \t]*#(?:[^\n\\]|\\(?:\r?\n)?)*", re.MULTILINE)
 # In these an include is no list of declarations for the file.
 _SCOPES = frozenset(
     {"compound_statement", "field_declaration_list", "enumerator_list", "initializer_list"}
@@ -47,6 +48,7 @@ def unparsed(cpp: Cpp) -> Iterator[Finding]:
     if has_alternatives(cpp.source.text):
         yield from _alternatives(cpp)
     yield from _included_code(cpp)
+    yield from misread(cpp)
 
 
 # --- files that are included --------------------------------------------------------------------

@@ -12,6 +12,7 @@ from types import MappingProxyType
 
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
 from rebsync.files import read_source
+from rebsync.reverse.files.compiled_text import compiled_text
 from rebsync.reverse.scaffold.facts import package_name
 from rebsync.reverse.scaffold.python_trees import MODULE
 from rebsync.reverse.scaffold.runtime_cpp import HEADER, first_cpp_difference, may_be_cpp_runtime
@@ -70,7 +71,8 @@ def _edited(
             yield _finding(Source(f"{package.root}/{name}", ""), NOWHERE, message)
         return
     try:
-        source, base = read_source(path), read_source(f"{package.root}/{BASE}{name}")
+        source = Source(path, compiled_text(name, read_source(path).text))
+        base = read_source(f"{package.root}/{BASE}{name}")
     except RebsyncError as error:
         found = error.findings[0]
         message = f"generated code that no model describes cannot be compared with {BASE}{name}"

@@ -30,7 +30,7 @@ FILES = (
     *("harmless.toml", "library.toml", "forms.toml", "posts.toml", "shown.toml"),
     *("messages.toml", "natural.toml", "natural_python.toml"),
     *("natural_rclpy.toml", "natural_sensors.toml", "joined.toml", "months.toml"),
-    "early.toml",
+    *("early.toml", "compiled_python.toml", "compiled_cpp.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
@@ -136,9 +136,9 @@ class Trial:
                 continue
             found = [p for p in self._files() if p.as_posix().endswith(self.ending(end))]
             assert len(found) == 1, (end, found)
-            text = found[0].read_text(encoding="utf-8")
+            text = found[0].read_bytes().decode()  # as it is, with all its line ends
             assert old in text, (end, old)
-            found[0].write_text(text.replace(old, new), encoding="utf-8")
+            found[0].write_bytes(text.replace(old, new).encode())
         for path, text in self.case.added():
             (self.package / path).parent.mkdir(parents=True, exist_ok=True)
             (self.package / path).write_text(text, encoding="utf-8")
