@@ -115,7 +115,8 @@ def asked_of(
     texts = dict.fromkeys((*read.extracted.texts, *texts_in(question)))
     numbers = {t: n for n, t in enumerate(texts)}
     asked = TopicVocabulary(text, seen, types.constants(), numbers, unit_of_time(read.files))
-    read = replace(read, extracted=replace(read.extracted, texts=tuple(texts)))
+    if len(texts) > len(read.extracted.texts):  # of which a text that is not known may be each
+        read = replace(read, extracted=extract(read.files, texts=tuple(texts)))
     return read, asked.property_text(question)
 
 

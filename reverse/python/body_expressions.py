@@ -88,7 +88,7 @@ class PyExpressions(BodyExpressionReader):
             case "subscript":
                 return body_tables.element(self, node)
             case "call":
-                return body_tables.got(self, node) or body_calls.called(self, node)
+                return body_tables.get_call(self, node) or body_calls.called(self, node)
             case _:
                 raise unknown(self.frame, node, f'"{short(node)}"')
 
@@ -283,7 +283,7 @@ class PyExpressions(BodyExpressionReader):
         if (there := body_presence.compared_with_none(self, operands, signs)) is not None:
             return there.expression
         if signs in (["in"], ["not in"]):
-            listed = body_tables.listed(self, operands[1])
+            listed = body_tables.elements(self, operands[1])
             if listed is not None:
                 return self._one_of(operands[0], listed, node, signs == ["in"])
         if (same := body_texts.identical(self, operands, signs, node)) is not None:

@@ -24,7 +24,7 @@ _KEYS = frozenset({STRING, WHOLE})
 _ENDS = "a key that the table does not have ends the callback in Python"
 
 
-def listed(reader: BodyExpressionReader, node: Node) -> Sequence[Value] | None:
+def elements(reader: BodyExpressionReader, node: Node) -> Sequence[Value] | None:
     """The elements of a list, or keys of a table, of which code asks whether something is in it."""
     if node.type in _LISTS:
         return [reader.read(n) for n in named(node)]
@@ -49,7 +49,7 @@ def element(reader: BodyExpressionReader, node: Node) -> Value:
     return found
 
 
-def got(reader: BodyExpressionReader, node: Node) -> Value | None:
+def get_call(reader: BodyExpressionReader, node: Node) -> Value | None:
     """`TABLE.get(key, otherwise)`; None for other calls."""
     function, (plain, keywords) = field(node, "function"), arguments_of(node)
     if function.type != "attribute" or text_of(field(function, "attribute")) != "get":

@@ -14,7 +14,13 @@ from rebsync.cli import main
 from tests.reverse.environment.cases import CASES, closed_model, questions
 
 # Cases whose models do more than the code, where a run to a violation passes.
-_LOOSE = ("unset_locals", "texts_rospy", "texts_changed_rclpy", "texts_changed_roscpp")
+_LOOSE = (
+    "unset_locals",
+    "texts_between",
+    "texts_rospy",
+    "texts_changed_rclpy",
+    "texts_changed_roscpp",
+)
 _STATUS = {"satisfied": 0, "violated": 3, "undetermined": 4}
 
 
