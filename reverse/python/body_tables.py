@@ -18,6 +18,11 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 
 _LISTS = frozenset({"tuple", "list", "set"})
+# What may store an element, or take it out, if that is a part of it.
+_CHANGES = frozenset(
+    {"delete_statement", "augmented_assignment", "expression_list", "as_pattern_target"}
+    | {"pattern_list", "list_pattern", "tuple_pattern"}
+)
 _LOOKS = frozenset({"get", "keys", "values", "items"})
 _MOST = 32
 _KEYS = frozenset({STRING, WHOLE})
@@ -137,8 +142,8 @@ def _use(name: Node) -> int | None:
 
 def _is_changed(element_: Node) -> bool:
     above = element_.parent
-    if above is None or above.type in ("delete_statement", "augmented_assignment"):
+    if above is None or above.type in _CHANGES:
         return True
-    return above.type in ("assignment", "pattern_list", "for_statement") and (
+    return above.type in ("assignment", "for_statement") and (
         above.child_by_field_name("right") != element_
     )
