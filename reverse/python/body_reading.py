@@ -45,7 +45,7 @@ from rebsync.reverse.python.py_tree import field, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import EnumMember, External, Function, Made, Module, Ways
 from rebsync.reverse.python.py_worth import Instance as Object
-from rebsync.reverse.texts import MEMBER, text_literal
+from rebsync.reverse.texts import MEMBER, is_text, text_literal
 from rebsync.source import Source, Span
 
 
@@ -182,7 +182,7 @@ class Reading:
                 return Value(exact_literal_of(number), REAL)
             case (EnumMember() as member,):
                 return Value(text_literal(f"{MEMBER}{member.text}"), STRING)
-            case (str() as text,) if "\0" not in text:
+            case (str() as text,) if "\0" not in text and is_text(text):
                 return Value(text_literal(text), STRING)
             case _:
                 return None

@@ -106,7 +106,8 @@ def text_in(node: Node) -> str | None:
     is_plain = "b" not in prefix and len(texts) == len(parts)
     is_known = "r" in prefix or not _NAMED_CHARACTER.search(text_of(node))
     whole = "".join(texts)
-    return whole if is_plain and is_known and "\0" not in whole else None
+    is_known = is_known and whole[:1] != "\1" and "\0" not in whole
+    return whole if is_plain and is_known else None
 
 
 def _content(node: Node, is_raw: bool, is_formatted: bool) -> list[str | Node]:
