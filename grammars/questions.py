@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from functools import cache
 from importlib.resources import files
@@ -21,6 +22,7 @@ FORMS = (
     "at most 3 messages on TOPIC",
 )
 _SECONDS = {"ms": Fraction(1, 1000), "min": Fraction(60), "minute": Fraction(60)}
+_QUOTED = re.compile(r"\\(.)", re.DOTALL)
 _MOST = 9
 _MOST_MESSAGES = 1000
 _LONGEST = 1000
@@ -104,6 +106,11 @@ class _Builder(Transformer[Token, q.Question]):
 
     def number(self, number: Token) -> q.Operand:
         return float(number) if "." in number else int(number)
+
+    def text(self, text: Token) -> q.Operand:
+        start = text.start_pos or 0
+        plain = _QUOTED.sub(r"\1", str(text)[1:-1])
+        return q.QuotedText(plain, Span(start, start + len(text)))
 
     def boolean(self, truth: Token) -> q.Operand:
         return str(truth) == "true"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -17,7 +18,15 @@ class Word:
     span: Span
 
 
-Operand: TypeAlias = Word | int | float | bool
+@dataclass(frozen=True, slots=True)
+class QuotedText:
+    """A text in quotes."""
+
+    text: str
+    span: Span
+
+
+Operand: TypeAlias = Word | QuotedText | int | float | bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,3 +105,28 @@ class Messages:
 
 
 Question: TypeAlias = Never | Always | LeadsTo | AtMost | Messages
+
+
+def texts_in(question: Question) -> Iterator[str]:
+    """The texts that a question names."""
+    match question:
+        case Never(one, other) | Always(one, other) | LeadsTo(one, other):
+            yield from _named(one)
+            yield from _named(other) if other is not None else ()
+        case AtMost(condition):
+            yield from _named(condition)
+        case Messages():
+            return
+
+
+def _named(condition: Condition) -> Iterator[str]:
+    match condition:
+        case Negation(operand):
+            yield from _named(operand)
+        case Conjunction(operands) | Disjunction(operands):
+            for each in operands:
+                yield from _named(each)
+        case Comparison(_, left, right):
+            yield from (side.text for side in (left, right) if isinstance(side, QuotedText))
+        case Truth():
+            return

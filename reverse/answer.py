@@ -17,6 +17,7 @@ from rebsync.reverse.graph import Graph
 from rebsync.reverse.graph_json import graph_data
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import as_json, as_text, diagnostics, grade_of, report_data, summary
+from rebsync.reverse.texts import shown
 from rebsync.terminal import json_text
 
 _NOTHING = Extracted(m.Model((), (), None), (), ())
@@ -76,6 +77,7 @@ def package_json(given: Chosen, extracted: Extracted) -> str:
             "file": given.only,
             **graph_data(_graph(given, extracted)),
             "model": _model(extracted),
+            "texts": [shown(text) for text in extracted.texts],
             "report": report_data(extracted),
         }
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -15,6 +15,7 @@ from rebsync.reverse.build.built import unbuilt
 from rebsync.reverse.build.field_order import in_order
 from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.calls.ros_calls import Asking
+from rebsync.reverse.dead_texts import without_dead_texts
 from rebsync.reverse.files.monitors import is_monitor
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import SETUP, is_launch, is_python
@@ -39,6 +40,7 @@ from rebsync.reverse.nodes.open_ends import open_ends, with_open_servers
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.reverse.syntax.unparsed import unparsed
+from rebsync.reverse.texts import enumerated, text_variables
 from rebsync.source import NOWHERE, Source
 
 if TYPE_CHECKING:
@@ -57,7 +59,9 @@ class Extracted:
 
     `asking` are the calls to ROS of its C++, of which `graph` is made when it is first asked for;
     `in_python` those of its Python. `joined` are the nodes that people wrote, wired, and
-    `times` those in seconds that the unit of the model's time does not divide.
+    `times` those in seconds that the unit of the model's time does not divide. `texts` are those of
+    the code by the numbers that they are in the model, and `text_variables` what holds one: the
+    class, a server or nothing, the name.
     """
 
     model: m.Model
@@ -67,6 +71,8 @@ class Extracted:
     in_python: Graph = field(default_factory=Graph, compare=False)
     joined: Joined = field(default_factory=lambda: Joined.of(()), compare=False)
     times: frozenset[Fraction] = field(default=frozenset(), compare=False)
+    texts: tuple[str, ...] = ()
+    text_variables: frozenset[tuple[str, str, str]] = frozenset()
 
     @property
     def graph(self) -> Graph:
@@ -80,6 +86,7 @@ def extract(
     memory: Memory | None = None,
     observed: Observed | None = None,
     environment: str | None = None,
+    texts: Sequence[str] = (),
 ) -> Extracted:
     """The model that files say together; paths are relative to the package, with slashes.
 
@@ -87,7 +94,8 @@ def extract(
     or, if it is a launch file, the system that this one starts. `memory` knows what generated
     classes said before: of these only what an edit can have to do with is read again. Of topics
     that are `observed` the model sends what nodes publish to an observer, too. `environment` is a
-    program in Python among the files that is started beside what is launched.
+    program in Python among the files that is started beside what is launched. `texts` are those
+    whose numbers are known.
     """
     findings = Findings()
     files = {n: s for n, s in files.items() if n == only or not is_monitor(n, s)}
@@ -115,6 +123,8 @@ def extract(
     if python is not None:
         read = (*read, *python.classes)
         nodes = nodes.beside(python.nodes.classes, python.nodes.rebecs)
+    text_names = frozenset(v for c in nodes.classes for v in text_variables(c))
+    nodes, known_texts = _without_texts(nodes, texts)
     system = GeneratedSystem(at.code, classes, read, at.launched, at.programs, python)
     main = _main(system, nodes, at.only is not None and len(files) > 1)
     findings.all += out_of_order((*read, *nodes.classes), findings.ordered)
@@ -125,7 +135,17 @@ def extract(
     statements = tuple(findings.statements.items())
     asked_for = python.graph if python is not None else Graph()
     times = frozenset(findings.times)
-    return Extracted(model, tuple(findings.all), statements, at.asking, asked_for, joined, times)
+    return Extracted(
+        model,
+        tuple(findings.all),
+        statements,
+        at.asking,
+        asked_for,
+        joined,
+        times,
+        tuple(known_texts),
+        text_names,
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -258,6 +278,16 @@ class _Reading:
             return
         by_python = python is not None and not is_by_hand and python.starts(self.system.launch)
         self.system.note(self.findings, by_python)
+
+
+def _without_texts(nodes: Nodes, known: Sequence[str]) -> tuple[Nodes, list[str]]:
+    """The nodes with numbers for texts, and the texts by their numbers."""
+    live = without_dead_texts(nodes.classes, nodes.rebecs)
+    parts: list[m.ReactiveClass | m.Rebec] = [*live[0], *live[1]]
+    done, texts = enumerated(parts, known)
+    classes = tuple(p for p in done if isinstance(p, m.ReactiveClass))
+    rebecs = tuple(p for p in done if isinstance(p, m.Rebec))
+    return replace(nodes, classes=classes, rebecs=rebecs), texts
 
 
 def _built(files: Mapping[str, Source], only: str | None, findings: Findings) -> dict[str, Source]:

@@ -14,7 +14,7 @@ from rebsync.checker.passing import passed_lines
 from rebsync.checker.problem import CodePlace, Problem
 from rebsync.checker.result import Result, Verdict, Violation
 from rebsync.checker.telling import Teller
-from rebsync.checker.trace import TraceStep
+from rebsync.checker.trace import Change, ShownMessage, ShownRebec, TraceStep
 from rebsync.reserved import OPEN
 from rebsync.source import Source
 from rebsync.statements import UNREADABLE
@@ -90,7 +90,31 @@ def _told_of_code(problem: Problem, result: Result, ways: Sequence[frozenset[int
 
 
 def _in_code(step: TraceStep, problem: Problem) -> TraceStep:
-    return replace(step, code=problem.code.get(step.line, ""))
+    shown = problem.texts.shown
+
+    def of_message(message: ShownMessage) -> ShownMessage:
+        to, server = message.receiver, message.server
+        arguments = ((name, shown(to, server, name, v)) for name, v in message.arguments)
+        return replace(message, arguments=tuple(arguments))
+
+    def of_change(change: Change) -> Change:
+        rebec, name = change.rebec, change.variable
+        before, after = (shown(rebec, "", name, v) for v in (change.before, change.after))
+        return Change(rebec, name, before, after)
+
+    def of_rebec(rebec: ShownRebec) -> ShownRebec:
+        variables = ((name, shown(rebec.name, "", name, v)) for name, v in rebec.variables)
+        bag = tuple(map(of_message, rebec.bag))
+        return replace(rebec, variables=tuple(variables), bag=bag)
+
+    return replace(
+        step,
+        code=problem.code.get(step.line, ""),
+        message=of_message(step.message) if step.message is not None else None,
+        sent=tuple(map(of_message, step.sent)),
+        changes=tuple(map(of_change, step.changes)),
+        rebecs=tuple(map(of_rebec, step.rebecs)),
+    )
 
 
 def unreadable_lines(source: Source, model: m.Model) -> list[int]:

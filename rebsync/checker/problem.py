@@ -29,13 +29,34 @@ class CodePlace:
 
 
 @dataclass(frozen=True, slots=True)
+class TextNumbers:
+    """Texts by the numbers that they are in an extracted model.
+
+    `places` are the variables that hold one: a rebec, a server or nothing, and a name.
+    """
+
+    texts: tuple[str, ...] = ()
+    places: frozenset[tuple[str, str, str]] = frozenset()
+
+    def shown(self, rebec: str, server: str, name: str, value: str) -> str:
+        """A value of a variable, a text as such."""
+        if (rebec, server, name) not in self.places:
+            return value
+        number = int(value)
+        if number >= 0:
+            text = self.texts[number]
+            return f'"{text}"' if text[:1] != "\1" else text.rpartition(":")[2]
+        return "any other text" if number == -1 else "None"
+
+
+@dataclass(frozen=True, slots=True)
 class Problem:
     """A model without errors, and the properties that it is to have, with their texts.
 
     Of a model that was extracted `code` has the places by its lines, `unread` what it lacks; what
     is said of it is true of the code under the `assumptions`, and because of `gaps` nothing is
     proved. At the places of `loose` it does more than the code, so that a run need not be one of
-    the code.
+    the code. `texts` are those of the code that the model has as numbers.
     """
 
     source: Source
@@ -47,6 +68,7 @@ class Problem:
     unread: tuple[CodePlace, ...] = ()
     loose: tuple[CodePlace, ...] = ()
     code: Mapping[int, str] = field(default_factory=dict)
+    texts: TextNumbers = field(default_factory=TextNumbers)
     measures: tuple[Measure, ...] = ()
     between: tuple[TimeBetween, ...] = ()
 

@@ -128,7 +128,7 @@ def _problem(
     path: str, closed: ClosedPackage, properties: Source | None, written: str | None
 ) -> Problem:
     from rebsync.checker.incomplete import unreadable_lines
-    from rebsync.checker.problem import Problem
+    from rebsync.checker.problem import Problem, TextNumbers
     from rebsync.cli.problem import analysed, properties_of
     from rebsync.grammars.parser import parse_model
     from rebsync.printing import print_model
@@ -157,7 +157,7 @@ def _problem(
     unread = _listed(closed, Grade.UNREADABLE, markers)
     steps = _steps(source, parsed, places)
     listed = unread, _listed(closed, Grade.APPROXIMATED, steps)
-    told = closed.assumptions, closed.gaps, *listed, code
+    told = closed.assumptions, closed.gaps, *listed, code, TextNumbers(*closed.texts)
     return Problem(source, analysis, checked, properties, *told)
 
 

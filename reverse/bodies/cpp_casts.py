@@ -8,12 +8,14 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync import precedence
+from rebsync.reverse.bodies import cpp_texts
 from rebsync.reverse.bodies.building import bare, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, converted_to, type_in
 from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.cpp_widths import check_stored, place_of
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_tree import text_of
+from rebsync.reverse.texts import TEXT
 from rebsync.static.types import BOOLEAN, INT, is_boolean, is_integer
 
 if TYPE_CHECKING:
@@ -31,6 +33,9 @@ def cast(reader: CppExpressionReader, to: Node, operand: Node, node: Node) -> m.
     if kept.type == BOOLEAN:
         return reader.condition(operand)
     value = reader.read(operand)
+    cpp_texts.check_stored(reader, operand, value, place_of("", kept))
+    if kept.type == TEXT:
+        return value
     check_stored(reader, operand, value, place_of("", kept))
     of = type_in(reader.scope, value)
     if of is not None and is_boolean(of):

@@ -27,6 +27,8 @@ def of_constant(reader: CppExpressionReader, value: Node) -> m.Expression:
     Unread: its type holds another number, or the model has no number of that type.
     """
     type_ = _declared(value)
+    if reader.scope.open and value.type in ("string_literal", "concatenated_string"):
+        return reader.read(value)
     kept = reader.scope.carried(type_) if type_ is not None and not is_time(type_) else None
     if kept is None or kept.type.dimensions:
         read = reader.read(value)

@@ -11,6 +11,7 @@ from dataclasses import replace
 from rebsync import model as m
 from rebsync.reverse.bodies.building import bare, binary, cast, chosen
 from rebsync.reverse.bodies.scope import Called, Outside, Record, Scope, Variable
+from rebsync.reverse.texts import TEXT
 from rebsync.static.constants import constant, float_value
 from rebsync.static.operators import binary_type, unary_type
 from rebsync.static.types import (
@@ -81,6 +82,8 @@ def type_in(scope: Scope, expression: m.Expression) -> m.Type | None:
             return DOUBLE if expression.is_double else _FLOAT
         case m.BoolLiteral() | m.InstanceOf():
             return BOOLEAN
+        case m.StringLiteral() if scope.open:
+            return TEXT
         case m.Name(name) if name in _TIMES and not _is_taken(scope, name):
             return INT
         case m.Name(name) | m.Member(m.Self(), name):

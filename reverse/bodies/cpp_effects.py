@@ -11,7 +11,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.bodies import cpp_roots, known_functions
 from rebsync.reverse.bodies.cpp_endings import may_end
-from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOPS, PLAIN, REPEATED
+from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOPS, OF_TEXTS, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
@@ -98,6 +98,7 @@ class Effects:
 
     def _touches(self, node: Node, why: str, hint: str = "") -> Touches:
         touches = Touches(self.cpp.span(node), why, hint)
+        touches.texts = cpp_roots.texts_in(node, self._root(node)[1])
         if not self._inner:
             touches.at = node.start_byte, node.end_byte
         return touches
@@ -333,7 +334,7 @@ class Effects:
                 if name not in libraries.looking():
                     raise self._touches(call.node, "this changes a timer, subscription or service")
             case Record() | Variable():
-                if name not in libraries.looking() and is_modelled(target, meaning):
+                if name not in (libraries.looking() | OF_TEXTS) and is_modelled(target, meaning):
                     self._changes(call.node, of, f'this may change "{of}"')
             case Runtime() | Lambda() | Itself() if name not in libraries.looking():
                 raise self._touches(call.node, f'"{of}" acts on the node')
@@ -374,12 +375,9 @@ class Effects:
 
 _CHECKS: dict[str, Callable[[Effects, Node], None]] = {
     **dict.fromkeys(("assignment_expression", "update_expression"), Effects._assignment),
-    "call_expression": Effects._call,
-    "binary_expression": Effects._binary,
-    "cast_expression": Effects._misread,
-    "pointer_expression": Effects._pointer,
-    "declaration": Effects._declaration,
-    "compound_statement": Effects._block,
+    **{"call_expression": Effects._call, "binary_expression": Effects._binary},
+    **{"cast_expression": Effects._misread, "pointer_expression": Effects._pointer},
+    **{"declaration": Effects._declaration, "compound_statement": Effects._block},
     **dict.fromkeys(("break_statement", "continue_statement"), Effects._left),
     **dict.fromkeys(
         ("new_expression", "argument_list", "initializer_list"),

@@ -86,6 +86,10 @@ class CppExpressionReader(ABC):
         """A value as `place` holds it; where a hint says what it can be, a choice of that."""
 
     @abstractmethod
+    def approximate(self, node: Node, unread: Unread) -> None:
+        """Lists that a choice stands for an expression, which must touch nothing of the model."""
+
+    @abstractmethod
     def index(self, node: Node, indices: Sequence[Node]) -> m.Expression:
         """Index."""
 

@@ -17,6 +17,7 @@ from rebsync.reverse.bodies import (
     cpp_idioms,
     cpp_mailbox,
     cpp_pointers,
+    cpp_texts,
     cpp_widths,
 )
 from rebsync.reverse.bodies.building import binary, is_calm, is_place, tight
@@ -31,7 +32,7 @@ from rebsync.reverse.bodies.cpp_conversions import (
 )
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
-from rebsync.reverse.bodies.cpp_literals import in_range, is_bare_macro, literal
+from rebsync.reverse.bodies.cpp_literals import in_range, is_bare_macro, literal, text_in
 from rebsync.reverse.bodies.cpp_misread import Chain, ChainOperand, Operation, chain_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_stores import kept
@@ -51,6 +52,7 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.bodies.serving import Serves
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.texts import TEXT, text_literal
 from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
 
 _PREFIX = frozenset({"+", "-", "!", "~"})
@@ -100,6 +102,7 @@ class CppExpressions(CppExpressionReader):
                 condition, then, otherwise = named(node)
                 tested = tight(self.condition(condition), precedence.CHAIN)
                 ways = alternatives(self.scope, self.read(then), self.read(otherwise))
+                cpp_texts.check_alike(self, node, *ways)
                 cpp_widths.check(self, node, "+", (then, otherwise))
                 return m.Conditional(tested, *ways, self.cpp.span(node))
             case "cast_expression":
@@ -126,6 +129,7 @@ class CppExpressions(CppExpressionReader):
             return there
         try:
             read = self.read(node)
+            cpp_texts.check_no_text(self, node, read)
             cpp_widths.check_truth(self, node)
         except Unread as unread:
             if not isinstance(unread, Unknown) and not self.scope.open:
@@ -140,15 +144,19 @@ class CppExpressions(CppExpressionReader):
             if place.type is not None and is_boolean(place.type):
                 return self.condition(node, place)
             read = self.read(node)
+            cpp_texts.check_stored(self, node, read, place)
             cpp_widths.check_stored(self, node, read, place)
             return converted_to(self.scope, read, place)
         except Unread as unread:
             marked = domain_near(node) if self.cpp.has_markers else None
             values, why = marked or place.domain, _ONE_OF
+            values = () if place.type == TEXT else values
             if not values and isinstance(unread, Unknown) and self.scope.regions is not None:
                 values = self.scope.regions(place)
                 why = f'one value of "{place.name}" {_STANDS}'
             if not values or not (self.scope.open or isinstance(unread, Unknown)):
+                if place.type == TEXT and isinstance(unread, Unknown):
+                    self.scope.changed_texts.add(place.name)
                 raise
             why = f"{unread.why}: {why}"
             self.approximate(node, Unread(unread.span, why, HINT if why.endswith(_STANDS) else ""))
@@ -172,12 +180,20 @@ class CppExpressions(CppExpressionReader):
         if (length := written(self, node)) is not None:
             return length
         try:
+            if self.scope.open and node.type in ("string_literal", "concatenated_string"):
+                return self._text(node)
             read = literal(self.cpp, node)
             return in_range(read, node) if self.scope.open else read
         except Unread as unread:
             if node.type in ("string_literal", "raw_string_literal", "null", "sizeof_expression"):
                 raise self.unknown(node, unread.why) from None
             raise
+
+    def _text(self, node: Node) -> m.Expression:
+        text = text_in(node)
+        if text is None:
+            raise self.unknown(node, "the model has no such texts")
+        return text_literal(text, self.cpp.span(node))
 
     def _name(self, node: Node) -> m.Expression:
         name, span = text_of(node), self.cpp.span(node)
@@ -200,7 +216,7 @@ class CppExpressions(CppExpressionReader):
                 return expression
         for spelled in (name, *(n for n in (last,) if n != name)):
             if spelled in self.scope.enumerators:
-                return cpp_idioms.whole(self.scope.enumerators[spelled], span)
+                return cpp_idioms.enumerator(self.scope.enumerators[spelled], span)
             if spelled in self.scope.constants:
                 cpp, value = self.scope.constants[spelled]
                 if is_bare_macro(cpp, value, node):
@@ -226,7 +242,7 @@ class CppExpressions(CppExpressionReader):
                 return m.Name(of_model, span)
             case Outside():
                 if (number := cpp_pointers.constant_of_message(self.scope, node)) is not None:
-                    return cpp_idioms.whole(number, span)
+                    return cpp_idioms.enumerator(number, span)
                 raise Unknown(span, f'the model cannot know "{text_of(node)}"')
             case Runtime() | Record() | Lambda() | Itself():
                 raise self.unread(node, f'"{text_of(node)}" is no value of the model')
@@ -253,6 +269,7 @@ class CppExpressions(CppExpressionReader):
         array = self.operand(part(node, "argument"), precedence.PRIMARY)
         if len(indices) != 1:
             raise self.unread(node, "an array of the model has one index at a time")
+        cpp_texts.check_no_text(self, node, array)
         index, span = as_number(self.scope, self.read(indices[0])), self.cpp.span(node)
         if node.type == "subscript_expression":
             whole = place_of(self.scope, array).type
@@ -268,6 +285,7 @@ class CppExpressions(CppExpressionReader):
         if operator == "!":
             return self.condition(node)
         operand = self.operand(part(node, "argument"), precedence.PREFIX)
+        cpp_texts.check_no_text(self, node, operand)
         operand = tight(as_number(self.scope, operand), precedence.PREFIX)
         return m.Unary(operator, operand, self.cpp.span(node))
 
@@ -312,6 +330,8 @@ class CppExpressions(CppExpressionReader):
 
     def _computed(self, node: Node) -> m.Expression:
         operator = self._operator(node)
+        if (found := cpp_texts.of_compare(self, node, operator)) is not None:
+            return found
         if operator == "%" and (drawn := cpp_idioms.drawn(self, node, named(node))) is not None:
             return drawn
         return self.binary(node, operator, named(node))
@@ -319,6 +339,8 @@ class CppExpressions(CppExpressionReader):
     def binary(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
         reads = self.condition if operator in ("&&", "||") else self.read
         left, right = (reads(side) for side in sides)
+        if (compared := cpp_texts.compared(self, node, operator, left, right)) is not None:
+            return compared
         operator = cpp_widths.exact(self, operator, sides)
         cpp_widths.check(self, node, operator, sides)
         operator, left, right = operands(self.scope, operator, left, right)
@@ -333,6 +355,7 @@ class CppExpressions(CppExpressionReader):
         if operator == "=":
             return m.Assign("=", written, self.stored(value, place), span)
         right = self.read(value)
+        cpp_texts.check_no_text(self, node, written, right)
         cpp_widths.check(self, node, operator[:-1], sides)
         done, left, right = operands(self.scope, operator[:-1], written, right)
         result = type_in(self.scope, binary(done, left, right))

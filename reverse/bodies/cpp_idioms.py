@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_algorithms, cpp_atomics
+from rebsync.reverse.bodies import cpp_algorithms, cpp_atomics, cpp_texts
 from rebsync.reverse.bodies.building import binary, cast, chosen, is_calm, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
@@ -26,6 +26,7 @@ from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.texts import text_literal
 from rebsync.source import Span
 from rebsync.static.constants import constant
 from rebsync.static.types import DOUBLE, INT, is_floating, is_integer
@@ -53,6 +54,11 @@ def whole(value: int, span: Span) -> m.Expression:
     if value < 0:
         return m.Unary("-", m.IntLiteral(-value, span), span)
     return m.IntLiteral(value, span)
+
+
+def enumerator(value: int | str, span: Span) -> m.Expression:
+    """A constant of an enumeration or message."""
+    return text_literal(value, span) if isinstance(value, str) else whole(value, span)
 
 
 def constant_named(name: str, span: Span) -> m.Expression | None:
@@ -132,6 +138,7 @@ def _calm(reader: CppExpressionReader, nodes: Sequence[Node]) -> list[m.Expressi
     read = [as_number(reader.scope, reader.read(n)) for n in nodes]
     for node, value in zip(nodes, read, strict=True):
         check_whole(reader, node)
+        cpp_texts.check_no_text(reader, node, value)
         if not is_calm(value) or _is_large(value):
             raise reader.unread(node, "the model would do this more than once", "use a local")
     return read
@@ -204,6 +211,8 @@ def member_call(
     reader: CppExpressionReader, node: Node, target: Node, name: str, arguments: Sequence[Node]
 ) -> m.Expression | None:
     """The call of a function of an array, an atomic object, a time or a node handle."""
+    if (found := cpp_texts.call(reader, node, target, name, arguments)) is not None:
+        return found
     if (held := cpp_atomics.call(reader, node, target, name, arguments)) is not None:
         return held
     if arguments:

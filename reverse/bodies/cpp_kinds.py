@@ -21,6 +21,11 @@ PLAIN = frozenset(
         *("primitive_type", "sized_type_specifier"),
     }
 )
+# Methods that leave a text as it is, besides those of all containers.
+OF_TEXTS = frozenset(
+    {"compare", "find", "rfind", "substr", "starts_with", "ends_with", "contains"}
+    | {f"find_{way}_{of}" for way in ("first", "last") for of in ("of", "not_of")}
+)
 # Declarations that do nothing when they are run.
 NOTHING = frozenset(
     {"using_declaration", "alias_declaration", "type_definition", "static_assert_declaration"}

@@ -16,6 +16,8 @@ _INTEGER = re.compile(r"(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)(?:[uU]?[lL]{0,2}|[
 _FLOAT = re.compile(r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)([fFlL]?)\Z")
 
 _MOST = (1 << 31) - 1  # that an `int` holds
+_ESCAPE = re.compile(r"\\(?:[0-7xuUN]|.)", re.DOTALL)
+_QUOTES = {'\\"': 34, "\\?": 63}
 _AROUND = frozenset({"binary_expression", "unary_expression", "cast_expression"})
 _ESCAPES = {"\\n": 10, "\\t": 9, "\\r": 13, "\\0": 0, "\\\\": 92, "\\'": 39, "\\e": 27}
 
@@ -45,6 +47,20 @@ def literal(cpp: Cpp, node: Node) -> m.Expression:
             raise Unread(span, f'"{text}" is no variable of the model')
         case _:
             raise Unread(span, f"the model cannot say this: {node.type.replace('_', ' ')}")
+
+
+def text_in(node: Node) -> str | None:
+    """The text that a literal stands for; None where it is not known."""
+    whole = string_of(node)
+    if whole is None or "\0" in whole:
+        return None
+    plain = _ESCAPE.sub(_escaped, whole)
+    return None if "\0" in plain else plain
+
+
+def _escaped(match: re.Match[str]) -> str:
+    code = _ESCAPES.get(match[0], _QUOTES.get(match[0], 0))
+    return chr(code)
 
 
 def _character(text: str) -> int | None:

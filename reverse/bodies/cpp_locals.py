@@ -15,6 +15,7 @@ from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, number_of, only_value, taken_apart
 from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_references import is_made, stays
 from rebsync.reverse.bodies.cpp_roots import specifiers_of
@@ -25,6 +26,7 @@ from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Varia
 from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
+from rebsync.reverse.texts import TEXT, is_constant
 from rebsync.static.constants import constant
 from rebsync.static.types import BYTE, INT, SHORT
 
@@ -188,6 +190,9 @@ def _typed(
 ) -> Iterator[m.Statement]:
     local = place_of(reader.fresh(declared.name), kept)
     initial: m.Initializer | None = None
+    if kept.type == TEXT:
+        value = _of_text(reader, declared, value)
+        initial = zero_of(TEXT)
     if value is not None and value.type == "initializer_list" and not kept.type.dimensions:
         value = named(value)[0] if named(value) else None
     if value is not None and value.type == "initializer_list":
@@ -204,11 +209,23 @@ def _typed(
     yield reader.local(declared.node, local, initial)
 
 
+def _of_text(
+    reader: CppStatementReader, declared: DeclaratorParts, value: Node | None
+) -> Node | None:
+    """What a text is made of, if that is another text; without it is empty."""
+    given = declared.value
+    if given is not None and given.type in ("argument_list", "initializer_list"):
+        if len(named(given)) > 1:
+            raise reader.unread(declared.node, "the model only copies and compares texts")
+        return next(iter(named(given)), None)
+    return value
+
+
 def _array(reader: CppStatementReader, declared: DeclaratorParts) -> Carried | None:
     """The array that `int a[3]` or a vector of fixed size is."""
     if declared.kind == "array_declarator":
         inner = reader.scope.carried(declared.type)
-        if inner is None or declared.length is None:
+        if inner is None or inner.type == TEXT or declared.length is None:
             raise reader.unread(declared.node, "the length of this array is not known")
         return replace(inner, type=m.Type(inner.type.name, (_length(reader, declared.length),)))
     vector = _VECTOR.match(declared.text)
@@ -219,7 +236,7 @@ def _array(reader: CppStatementReader, declared: DeclaratorParts) -> Carried | N
     values = named(declared.value)
     (inner_node,) = named(part(_template(declared.type), "arguments"))
     inner = reader.scope.carried(inner_node)
-    if inner is None or not values:
+    if inner is None or inner.type == TEXT or not values:
         return None
     if declared.value.type == "initializer_list":
         return replace(inner, type=m.Type(inner.type.name, (len(values),)))
@@ -266,7 +283,7 @@ def _inferred(
         return
     read = reader.expressions.read(value)
     of = type_in(reader.scope, read)
-    if of is None:
+    if of is None or is_constant(read):
         if reader.scope.open:
             raise reader.unread(declared.node, "the type of this is not known")
         reader.meaning(declared.name, read if is_calm(read) and _lasts(reader, read) else Outside())

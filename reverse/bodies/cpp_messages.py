@@ -34,6 +34,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.texts import TEXT, any_text, text_literal
 from rebsync.static.types import is_boolean
 
 if TYPE_CHECKING:
@@ -83,6 +84,8 @@ def zero_of(type_: m.Type) -> m.Expression | None:
             return m.BoolLiteral(False)
         case "float" | "double":
             return m.FloatLiteral("0.0")
+        case TEXT.name:
+            return text_literal("")
         case _:
             return m.IntLiteral(0)
 
@@ -190,10 +193,9 @@ def declare(
         return
     fields = {}
     for path, of in needed(reader, type_).items():
-        initial = zero_of(of)
-        if not fresh:
-            held = source.fields.get(path)
-            initial = m.Name(held.name) if held is not None else None
+        held = source.fields.get(path)
+        unless_new = m.Name(held.name) if held is not None else None
+        initial = zero_of(of) if fresh else unless_new
         if _is_demoted(reader, f"{name}.{path}") or (not fresh and initial is None):
             continue
         width = reader.scope.width(type_, path)
@@ -262,6 +264,8 @@ def _unknown_field(
     if name in reader.own and whole not in reader.shared.demoted:
         raise Demote({whole})
     why = f'the model cannot know "{text_of(value)}.{path}"'
+    if variable.type == TEXT:
+        reader.scope.changed_texts.add(variable.name)
     found = unknown_value(reader, value, variable.type, why)
     if found is None:
         reader.findings.open_members.add(whole.removeprefix("this."))
@@ -276,6 +280,8 @@ def unknown_value(
     values = domain_near(node) if reader.cpp.has_markers else None
     if values is None and type_ is not None and is_boolean(type_):
         values = m.BoolLiteral(True), m.BoolLiteral(False)
+    if type_ == TEXT:
+        values = (any_text(),)
     if not values:
         return None
     reader.expressions.approximate(node, Unknown(reader.cpp.span(node), why))

@@ -94,7 +94,7 @@ def is_there(reader: CppExpressionReader, node: Node) -> m.Expression | None:
     return found if there else m.Unary("!", found, reader.cpp.span(node))
 
 
-def constant_of_message(scope: Scope, node: Node) -> int | None:
+def constant_of_message(scope: Scope, node: Node) -> int | str | None:
     """`msg->RUN`: a constant of the type of a message."""
     holder, name = node.child_by_field_name("argument"), node.child_by_field_name("field")
     record = resolve(scope, holder) if holder is not None else None

@@ -155,7 +155,7 @@ def _named(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
             return _variable(scope, array) if array is not None else _int(INT32)
         case None:
             return _constant(scope, text_of(node))
-        case m.FloatLiteral() | m.BoolLiteral():
+        case m.FloatLiteral() | m.BoolLiteral() | m.StringLiteral():
             return None
         case _:
             return _int(INT32)
@@ -164,7 +164,10 @@ def _named(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
 def _constant(scope: Scope, name: str) -> Ranged | None:
     for spelled in (name, name.rpartition("::")[2]):
         if spelled in scope.enumerators:
-            number = _int(exactly(scope.enumerators[spelled]))
+            value = scope.enumerators[spelled]
+            if isinstance(value, str):
+                return None
+            number = _int(exactly(value))
             return number if number.fits else all_of(63)
         if spelled in scope.constants:
             cpp, node = scope.constants[spelled]

@@ -38,7 +38,7 @@ class Regions:
 
     files: Sequence[Cpp]
     names: Mapping[str, str]
-    enumerators: Mapping[str, int]
+    enumerators: Mapping[str, int | str]
     constants: Mapping[str, tuple[Cpp, Node]]
     _found: dict[str, tuple[m.Expression, ...]] = field(default_factory=dict)
 
@@ -137,7 +137,8 @@ class Regions:
 
     def _named(self, name: str) -> int | None:
         if name in self.enumerators:
-            return self.enumerators[name]
+            value = self.enumerators[name]
+            return value if isinstance(value, int) else None
         known = self.constants.get(name.rpartition("::")[2])
         return constant_number(known[1], lambda _: None) if known is not None else None
 

@@ -10,6 +10,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Scope, Variable
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.texts import TEXT
 
 
 def root(scope: Scope, inner: Collection[str], node: Node) -> tuple[str, Meaning | None]:
@@ -79,6 +80,21 @@ def path_in(node: Node) -> str:
     before = path_in(target)
     own = text_of(part(node, "field"))
     return f"{before}.{own}" if before else own
+
+
+def texts_in(node: Node, meaning: Meaning | None) -> frozenset[str]:
+    """The variables of texts that a place is, or has in it, by their names in the model."""
+    match meaning:
+        case Variable(name, type_) if type_ == TEXT:
+            return frozenset({name})
+        case Record(fields):
+            path = path_in(node)
+            inner = (
+                v for p, v in fields.items() if p == path or not path or p.startswith(f"{path}.")
+            )
+            return frozenset(v.name for v in inner if v.type == TEXT)
+        case _:
+            return frozenset()
 
 
 def identifiers_in(node: Node) -> Iterator[Node]:

@@ -16,6 +16,7 @@ from rebsync.reverse.bodies import (
     cpp_plain_locals,
     cpp_pointers,
     cpp_swap,
+    cpp_texts,
     cpp_timers,
 )
 from rebsync.reverse.bodies.building import bare, is_calm, negated
@@ -160,7 +161,8 @@ def _called(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | N
         return cpp_inline.dropped(reader, node, reader.inlined(node, inline, arguments))
     if (timer := _timer(reader, node)) is not None:
         return _starts(reader, node, timer)
-    if (stored := _from_seconds(reader, node)) is not None:
+    stored = cpp_texts.emptied(reader.expressions, node) or _from_seconds(reader, node)
+    if stored is not None:
         return _statement(reader, node, stored)
     if function.type == "field_expression" and not is_this(part(function, "argument")):
         ended = cpp_pointers.ended(reader.cpp, reader.scope, node, function)

@@ -21,6 +21,7 @@ from rebsync.reverse.bodies import (
     cpp_loops,
     cpp_plain_locals,
     cpp_special,
+    cpp_texts,
     cpp_users,
 )
 from rebsync.reverse.bodies.building import cell, is_calm, is_effect
@@ -202,6 +203,10 @@ class CppStatements(CppStatementReader):
                 self.demote(effects.written, unread)
                 return
             except Touches as touches:
+                self.scope.changed_texts.update(touches.texts)
+                texts = cpp_texts.texts_among(self.scope, effects.written)
+                if texts - self.shared.demoted:
+                    self.demote(texts, unread)
                 if (counts := cpp_counts.counted(self, node)) is not None:
                     yield from counts
                     return

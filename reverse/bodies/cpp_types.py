@@ -13,6 +13,7 @@ from rebsync.names import uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_CLASSES
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.texts import TEXT
 
 _INTEGERS = {
     "byte": ("int8_t", "signed char"),
@@ -87,20 +88,21 @@ class Carried:
     wide: int = 0
 
 
-def carried(node: Node, enums: Collection[str] = ()) -> Carried | None:
+def carried(node: Node, enums: Collection[str] = (), *, texts: bool = True) -> Carried | None:
     """What the model keeps of a type that a person wrote, or None if it has nothing like it.
 
-    Times and durations of ROS are whole numbers of the model's unit of time.
+    Times and durations of ROS are whole numbers of the model's unit of time. Generated code has no
+    `texts`.
     """
     kind = node.type
     if kind == "type_descriptor":
-        return carried(part(node, "type"), enums)
+        return carried(part(node, "type"), enums, texts=texts)
     text = text_of(node)
     if kind == "template_type" or (kind == "qualified_identifier" and "<" in text):
         array = type_of(node)
         return Carried(array) if array is not None else None
     if (known := _spelled(text)) is not None:
-        return known
+        return known if texts or known.type != TEXT else None
     text = " ".join(text.split())
     last = text.rpartition("::")[2]
     return Carried(Type("int")) if text in enums or last in enums else None
@@ -117,6 +119,8 @@ def _spelled(text: str) -> Carried | None:
         return Carried(Type(_PLAIN[name]))
     if name == "char":
         return Carried(Type("byte"))
+    if name == "string":
+        return Carried(TEXT)
     if name in _UNSIGNED:
         return Carried(Type(_UNSIGNED[name][0]), _UNSIGNED[name][1])
     if wide := _wide(name):

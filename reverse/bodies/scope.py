@@ -144,8 +144,7 @@ class TimerOf:
 class Lambda:
     """A local that holds a function: its body reads what the names around it stood for.
 
-    A member that does has none of these: `scope` is None. `own` are the names that it makes itself:
-    `[n = e]`.
+    A member that does has no `scope`. `own` are the names that it makes itself: `[n = e]`.
     """
 
     node: Node
@@ -293,15 +292,14 @@ class Scope:
     locals: Mapping[str, Meaning] = field(default_factory=dict)
     constants: Mapping[str, tuple[Cpp, Node]] = field(default_factory=dict)
     # Of enumerations the values by name (`RED`, `Color::RED`), and the names of the types.
-    enumerators: Mapping[str, int] = field(default_factory=dict)
+    enumerators: Mapping[str, int | str] = field(default_factory=dict)
     enums: frozenset[str] = frozenset()
     # What the model keeps of types that the code names itself, if it does: aliases of this body,
     # and the types that the parameters of a template stand for.
     aliases: Mapping[str, Carried | None] = field(default_factory=dict)
     # The fields of message types by their paths; None where the model has no such type.
     messages: Mapping[str, Mapping[str, Type | None]] = field(default_factory=dict)
-    # The widths in bits of their fields where these are not the model's type's: narrow ones wrap
-    # sooner, wide ones hold more.
+    # The widths in bits of their fields where these are not the model's type's.
     widths: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
     # The wide numbers, by their names in the model, that an `int` need not hold.
     overflowing: frozenset[str] = frozenset()
@@ -311,8 +309,7 @@ class Scope:
     timers: Mapping[int, TimerOf] = field(default_factory=dict)
     # What calls (`post`) send the rebec itself, and with which arguments and time.
     posts: Mapping[int, tuple[Sends, tuple[Node, ...]]] = field(default_factory=dict)
-    # What whole statements of the code stand for, by the ids of their nodes, and expressions:
-    # what sets a node up is known from elsewhere. A node among them is read as it is.
+    # What statements and expressions that set a node up stand for, by the ids of their nodes.
     instead: Mapping[int, tuple[Statement | Stores | Node, ...]] = field(default_factory=dict)
     values: Mapping[int, Expression] = field(default_factory=dict)
     # Whether names that are not known are outside: so it is in what people wrote.
@@ -327,8 +324,9 @@ class Scope:
     returns: Type | None = None
     # Locals that hold what the functions give whose bodies stand in this one, by their names.
     results: dict[str, Variable] = field(default_factory=dict, compare=False, repr=False)
-    # The bits, without the sign, of the locals of all bodies that hold more than an `int`.
+    # The bits, without the sign, of locals that hold more than an `int`; texts that may be any.
     wide: dict[str, int] = field(default_factory=dict, compare=False, repr=False)
+    changed_texts: set[str] = field(default_factory=set, compare=False, repr=False)
     # Whether functions touch nothing: what has been found out.
     calm: Calm = field(default_factory=Calm, compare=False, repr=False)
     # Calls that were taken apart, by the ids of their nodes, which they keep.
@@ -341,7 +339,9 @@ class Scope:
         while node.type == "type_descriptor":
             node = part(node, "type")
         name = text_of(node) if node.type.endswith("identifier") else ""
-        return self.aliases[name] if name in self.aliases else carried(node, self.enums)
+        if name in self.aliases:
+            return self.aliases[name]
+        return carried(node, self.enums, texts=self.open)
 
     def width(self, type_: str, path: str) -> int:
         """The width of a field of a message type; 0 where it is that of the model's type."""
@@ -395,6 +395,6 @@ def _of_model(name: str, types: frozenset[str], functions: frozenset[str]) -> st
 
 
 _ALL = tuple(f.name for f in fields(Scope))
-_OPERAND = re.compile(r"op\d+_")  # what keeps operands in order stands for what is named there
 _LOCALS = _ALL.index("locals")
+_OPERAND = re.compile(r"op\d+_")  # what keeps operands in order stands for what is named there
 _BEFORE, _BEHIND = attrgetter(*_ALL[:_LOCALS]), attrgetter(*_ALL[_LOCALS + 1 :])

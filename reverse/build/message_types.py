@@ -15,13 +15,14 @@ from rebsync.reverse.bodies.scope import WIDE, Variable, of_width
 from rebsync.reverse.build.common_messages import COMMON
 from rebsync.reverse.build.messages import plain_type, read_message
 from rebsync.reverse.syntax.cpp_tree import Cpp
+from rebsync.reverse.texts import TEXT
 from rebsync.source import Source
 
 # What the model keeps of a field's values. Wider integers are taken for `int`.
 _TYPES = {
     **{"bool": "boolean", "int8": "byte", "int16": "short", "uint8": "short", "int32": "int"},
     **{"uint16": "int", "uint32": "int", "int64": "int", "uint64": "int"},
-    **{"float32": "float", "float64": "double"},
+    **{"float32": "float", "float64": "double", "string": TEXT.name},
 }
 # In bits without the sign: narrow ones wrap sooner than the model's type, others hold more than its
 # `int`. A truth value is a byte in the code.
@@ -48,7 +49,7 @@ class MessageTypes:
     own: dict[str, list[tuple[str, str, int | None]]]
     package: str
     widths: dict[str, dict[str, int]] = field(default_factory=dict)
-    _constants: dict[str, int] = field(default_factory=dict)
+    _constants: dict[str, int | str] = field(default_factory=dict)
     _ranges: dict[tuple[str, str], Interval] = field(default_factory=dict)
     _fields: dict[str, Fields] = field(default_factory=dict)
     # The types by texts of C++ that were asked for.
@@ -58,24 +59,25 @@ class MessageTypes:
     def of(files: Mapping[str, Source], package: str) -> MessageTypes:
         """The types that a package declares, and those that come with ROS."""
         own = {}
-        constants: dict[str, int] = {}
+        constants: dict[str, int | str] = {}
         for path, source in sorted(files.items()):
             found = _MESSAGE.search(f"/{path}")
             if found is not None:
                 read = read_message(source, package, found[1])
                 own[read.full_name] = [(f.name, f.type, f.length) for f in read.fields]
                 for constant in read.constants:
-                    if isinstance(constant.value, int):
-                        for scope in (read.name, f"{package}::{read.name}"):
-                            constants[f"{scope}::{constant.name}"] = int(constant.value)
+                    value = _kept(constant.value)
+                    for scope in (read.name, f"{package}::{read.name}"):
+                        if value is not None:
+                            constants[f"{scope}::{constant.name}"] = value
         return MessageTypes(own, package, {}, constants, {})
 
-    def constants(self) -> dict[str, int]:
-        """The whole numbers that messages of the package give names, as the code has them."""
+    def constants(self) -> dict[str, int | str]:
+        """The whole numbers and texts that messages of the package give names."""
         return self._constants
 
-    def constant(self, type_: str, name: str) -> int | None:
-        """The value of a whole number that a message of the package names."""
+    def constant(self, type_: str, name: str) -> int | str | None:
+        """The whole number or text that a message of the package gives a name."""
         return self._constants.get(f"{type_.replace('/', '::')}::{name}")
 
     def has_field(self, name: str) -> bool:
@@ -157,7 +159,8 @@ class MessageTypes:
                 self._ranges[whole, at] = unsigned(_UNSIGNED[plain])
             if plain in _TYPES:
                 dimensions = () if length is None else (length,)
-                yield at, Type(_TYPES[plain], dimensions) if length != 0 else None
+                is_kept = length is None if plain == "string" else length != 0
+                yield at, Type(_TYPES[plain], dimensions) if is_kept else None
             elif length is None and depth < _DEEPEST and self._declared(inner) is not None:
                 yield from self._flat(inner, f"{at}.", whole, depth + 1)
             else:
@@ -178,6 +181,13 @@ def _common_names() -> frozenset[str]:
     """The names of all fields of types that come with ROS."""
     fields = (field for text in COMMON.values() for field in text.split(", "))
     return frozenset(field.partition(" ")[0] for field in fields)
+
+
+def _kept(value: bool | int | float | str) -> int | str | None:
+    """The value of a constant; None where it is none of the model, or quotes may belong to it."""
+    if isinstance(value, str):
+        return None if value[:1] in ("'", '"') else value
+    return int(value) if isinstance(value, int) else None
 
 
 def _field(text: str) -> tuple[str, str, int | None]:

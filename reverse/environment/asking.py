@@ -9,6 +9,7 @@ from rebsync import questions as q
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, did_you_mean
 from rebsync.records import dataclass
 from rebsync.reverse.environment.observation import ANY, COUNT, Observation
+from rebsync.reverse.texts import TEXT
 from rebsync.source import Source, Span
 
 _NAME = "Question"
@@ -19,12 +20,14 @@ _SHOWN = 12
 class TopicVocabulary:
     """What can be asked of: observations with their rebecs, constants of messages by their names.
 
-    `unit` is the length of the model's unit of time in seconds.
+    `texts` are the numbers that texts are in the model, `unit` is the length of its unit of time in
+    seconds.
     """
 
     source: Source
     observations: Sequence[tuple[str, Observation]]
-    constants: Mapping[str, int]
+    constants: Mapping[str, int | str]
+    texts: Mapping[str, int]
     unit: Fraction
 
     def property_text(self, question: q.Question) -> str:
@@ -77,6 +80,7 @@ class TopicVocabulary:
             case q.Comparison(operator, left, right):
                 words = [w for w in (left, right) if isinstance(w, q.Word)]
                 kinds = {found[1].type.name for w in words if (found := self._field(w))}
+                self._check_texts(operator, left, right)
                 sides = (self._operand(side, kinds) for side in (left, right))
                 text = f" {operator} ".join(sides)
                 return self._after_first(words, text, holds)
@@ -102,13 +106,32 @@ class TopicVocabulary:
                 found = self._field(operand)
                 if found is not None:
                     return f"{found[0]}.{found[1].variable}"
-                return str(self._constant(operand))
+                return str(self._number(self._constant(operand)))
+            case q.QuotedText(text):
+                return str(self.texts[text])
             case bool():
                 return str(operand).lower()
             case float():
                 return f"{operand!r}{'d' if 'double' in beside else ''}"
             case number:
                 return str(number)
+
+    def _number(self, constant: int | str) -> int:
+        return self.texts[constant] if isinstance(constant, str) else constant
+
+    def _check_texts(self, operator: str, left: q.Operand, right: q.Operand) -> None:
+        """RebsyncError: a text is not compared with one in quotes, for which alone one is known."""
+        fields = [self._field(w) for w in (left, right) if isinstance(w, q.Word)]
+        texts = [found is not None and found[1].type == TEXT for found in fields]
+        quoted = [isinstance(side, q.QuotedText) for side in (left, right)]
+        if True not in texts and True not in quoted:
+            return
+        if operator in ("==", "!=") and texts == [True] and True in quoted:
+            return
+        spans = [side.span for side in (left, right) if isinstance(side, q.Word | q.QuotedText)]
+        message = "a field that is a text is equal, or not, to a text in quotes: no more is known"
+        hint = 'such as mode.data == "stop"'
+        raise self._mistake("RS912", spans[0], message, hint)
 
     # --- words ----------------------------------------------------------------------------------
 
@@ -119,10 +142,10 @@ class TopicVocabulary:
         fields = [o.path for _, o in self.observations if o.path not in (ANY, COUNT)]
         return self._only(word, fields, word.text)
 
-    def _constant(self, word: q.Word) -> int:
+    def _constant(self, word: q.Word) -> int | str:
         return next(iter(self._constant_values(word)))
 
-    def _constant_values(self, word: q.Word) -> set[int]:
+    def _constant_values(self, word: q.Word) -> set[int | str]:
         """The value of a constant, if one name of a package's messages is this."""
         if "." in word.text or "/" in word.text:
             return set()

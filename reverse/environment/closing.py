@@ -17,10 +17,11 @@ from rebsync.properties import Properties
 from rebsync.records import dataclass
 from rebsync.reserved import KEEP_LAST, OPEN
 from rebsync.reverse.build.message_types import MessageTypes
-from rebsync.reverse.environment.representatives import representatives
+from rebsync.reverse.environment.representatives import of_texts, representatives
 from rebsync.reverse.environment.scopes import Scope
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.open_ends import OpenEnd
+from rebsync.reverse.texts import OTHER, TEXT
 from rebsync.static.constants import Value
 
 _NONE: Mapping[str, int] = {}
@@ -42,14 +43,21 @@ class ClosedModel:
 
 
 def closed(
-    model: m.Model, ends: Sequence[OpenEnd], properties: Properties, types: MessageTypes
+    model: m.Model,
+    ends: Sequence[OpenEnd],
+    properties: Properties,
+    types: MessageTypes,
+    texts: Sequence[str] = (),
 ) -> ClosedModel:
-    """The model with an environment at its open ends; without `main` it stays as it is."""
+    """The model with an environment at its open ends; without `main` it stays as it is.
+
+    `texts` are those that the model tells apart, by their numbers.
+    """
     started = {r.name for r in model.main.rebecs} if model.main is not None else set()
     at = [e for e in ends if e.rebec in started]
     if not at:
         return ClosedModel(replace(model, classes=tuple(map(without_open, model.classes))))
-    environment = _Environment(model, properties, types, set(started))
+    environment = _Environment(model, properties, types, texts, set(started))
     for together in _topics(at).values():
         environment.add(together)
     return ClosedModel(
@@ -74,6 +82,7 @@ class _Field:
     variable: str
     type: m.Type
     values: tuple[Value, ...]
+    is_text: bool = False
 
 
 @dataclass(slots=True)
@@ -83,6 +92,7 @@ class _Environment:
     model: m.Model
     properties: Properties
     types: MessageTypes
+    texts: Sequence[str]
     used: set[str]
     assumptions: list[str] = field(default_factory=list)
     gaps: list[str] = field(default_factory=list)
@@ -120,21 +130,36 @@ class _Environment:
             type_ = given[0][1].type
             range_ = self.types.range_of(ends[0].type or "", path)
             found = representatives(self.model, places, type_, self.properties, range_)
+            texts = {self._is_text(end, path) for end, _ in given}
+            if texts == {True}:
+                found = of_texts(found, self.texts)
+            elif True in texts:
+                found = replace(found, is_exact=False)
             if not found.is_exact:
                 what = f"{ends[0].name or ends[0].server}.{path}"
                 tried = f"only {_some(found.values)} is sent" if found.values else "none is sent"
                 self.gaps.append(f"{what} is more than copied and compared with constants: {tried}")
             variable = unique(model_word(path.replace(".", "_")), self.used)
-            yield path, _Field(variable, type_, found.values)
+            yield path, _Field(variable, type_, found.values, texts == {True})
+
+    def _is_text(self, end: OpenEnd, path: str) -> bool:
+        return (self.types.fields(end.type or "") or {}).get(path) == TEXT
 
     def _tell(self, end: OpenEnd, fields: dict[str, _Field]) -> None:
         name = end.name or end.server
         if prod(len(f.values) for f in fields.values()) > _MOST:
             self.gaps.append(f"{name} has more than {_MOST:,} different messages")
         what = f"{name} is called" if end.is_service else f"{name} comes"
-        values = [f"{path} {_some(f.values)}{_finite(f)}" for path, f in fields.items()]
+        values = [f"{path} {self._told(f)}{_finite(f)}" for path, f in fields.items()]
         said = f"{what} at most once in each unit of time"
         self.assumptions.append(f"{said}, with {', '.join(values)}" if values else said)
+
+    def _told(self, of: _Field) -> str:
+        """The values of a field."""
+        if not of.is_text:
+            return _some(of.values)
+        named = [f'"{self.texts[int(v)]}"' for v in of.values if v != OTHER]
+        return f"one of {', '.join(named)} or any other text" if named else "any text"
 
     def closed(self, ends: Sequence[OpenEnd]) -> m.Model:
         """The model with the environment in it, where no server is open any more."""

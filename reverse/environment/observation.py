@@ -22,6 +22,7 @@ from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.nodes.node_joined import OBSERVER, Joined, Observed
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.open_ends import wholly_open
+from rebsync.reverse.texts import TEXT
 
 _Begun = TypeVar("_Begun", m.MessageServer, m.Constructor)
 ANY = ""  # in the place of a field's path: whether there was a message
@@ -96,6 +97,11 @@ def _fields(types: MessageTypes, type_: object) -> Iterator[tuple[str, m.Type]]:
             yield path, of
 
 
+def _of_model(type_: m.Type) -> m.Type:
+    """The type of the state variable that a field is: the number of a text."""
+    return m.Type("int") if type_ == TEXT else type_
+
+
 def _variable(direction: str, topic: str, path: str) -> str:
     match path:
         case "":
@@ -152,17 +158,18 @@ def with_observations(
             names = (m.Name(p.name) for p in member.parameters)
             given = dict(zip(fields.get(member.name, ()), names, strict=False))
             more = [o for o in heard if o.path not in (ANY, COUNT, *given)]
-            given.update((o.path, m.Name(_parameter(o))) for o in more)
+            given.update((o.path, m.Name(parameter_of(o))) for o in more)
             member = _after(_noted(heard, given, most), member)
-            parameters = (*member.parameters, *(m.Parameter(o.type, _parameter(o)) for o in more))
+            given_too = (m.Parameter(_of_model(o.type), parameter_of(o)) for o in more)
+            parameters = (*member.parameters, *given_too)
             member = replace(member, parameters=parameters)
         if isinstance(member, m.Constructor) and member.body is not None:
-            member = _after([_assign(o.variable, zero_of(o.type)) for o in own], member)
+            member = _after([_assign(o.variable, zero_of(_of_model(o.type))) for o in own], member)
         members.append(member)
     if own and not any(isinstance(x, m.Constructor) for x in members):
-        first = tuple(_assign(o.variable, zero_of(o.type)) for o in own)
+        first = tuple(_assign(o.variable, zero_of(_of_model(o.type))) for o in own)
         members.append(m.Constructor(owner.name, (), m.Block(first)))
-    declared = tuple(m.Declaration(o.type, (m.Declarator(o.variable),)) for o in own)
+    declared = tuple(m.Declaration(_of_model(o.type), (m.Declarator(o.variable),)) for o in own)
     at = sum(isinstance(x, m.KnownRebecs | m.StateVars) for x in members)
     section = (m.StateVars(declared),) if declared else ()
     return replace(owner, members=(*members[:at], *section, *members[at:]))
@@ -183,7 +190,8 @@ def unread_fields(
     return {key: tuple(paths) for key, paths in found.items()}
 
 
-def _parameter(seen: Observation) -> str:
+def parameter_of(seen: Observation) -> str:
+    """The parameter of a server for a field that only an observation asks for."""
     return f"{seen.variable}_given"
 
 

@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias
 from rebsync import model as m
 from rebsync.config import FILE_NAME
 from rebsync.properties import Formula, Properties, state_expressions
-from rebsync.questions import LeadsTo, Question
+from rebsync.questions import LeadsTo, Question, texts_in
 from rebsync.records import dataclass
 from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.build.message_types import MessageTypes
@@ -24,6 +24,7 @@ from rebsync.reverse.environment.observation import (
     Observation,
     observations,
     observed_fields,
+    parameter_of,
     unread_fields,
     with_observations,
 )
@@ -35,6 +36,7 @@ from rebsync.reverse.nodes.node_times import common_measure
 from rebsync.reverse.nodes.open_ends import OpenEnd, open_ends
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import different
+from rebsync.reverse.texts import TEXT
 from rebsync.source import Source
 
 _ROUNDS = 4
@@ -47,7 +49,8 @@ class ClosedPackage:
     """A package as a closed model, with what the code was read to.
 
     A unit of the model's time takes `unit` seconds. What is said of the model is true of the code
-    under the `assumptions`; because of the `gaps` nothing is proved.
+    under the `assumptions`; because of the `gaps` nothing is proved. `texts` are those of the code
+    by their numbers, and which variables hold one: the rebec, a server or nothing, the name.
     """
 
     model: m.Model
@@ -55,6 +58,7 @@ class ClosedPackage:
     unit: Fraction
     assumptions: tuple[str, ...]
     gaps: tuple[str, ...]
+    texts: tuple[tuple[str, ...], frozenset[tuple[str, str, str]]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +78,7 @@ def closed_package(
     wanted = tuple(_wanted(extracted, types, properties))
     observed = observed_fields(wanted)
     if observed:  # rebecs of one class whose topics are observed apart become two classes
-        extracted = extract(files, observed=observed)
+        extracted = extract(files, observed=observed, texts=extracted.texts)
         wanted = tuple(_wanted(extracted, types, properties))
     joined = extracted.joined
     fields = _fields(joined)
@@ -90,12 +94,14 @@ def closed_package(
         replace(e, fields=(*e.fields, *more.get((e.owner, e.server), ())))
         for e in open_ends(joined)
     )
-    around = _surrounded(replace(model, classes=classes), ends, properties, choice, types)
+    opened = replace(model, classes=classes)
+    around = _surrounded(opened, ends, properties, choice, types, extracted.texts)
     unit = unit_of_time(files)
     assumptions = (*assumed(extracted), *around.assumptions, *_time(unit, around))
     gaps = (*around.gaps, *_overwritten(model, wanted, observed))
     findings = tuple(different(extracted.findings))
-    return ClosedPackage(around.model, findings, unit, assumptions, gaps)
+    texts = extracted.texts, frozenset(_texts(extracted, wanted))
+    return ClosedPackage(around.model, findings, unit, assumptions, gaps, texts)
 
 
 def asked_of(
@@ -106,7 +112,11 @@ def asked_of(
     read = in_fitting_unit(files, () if within is None else (within,))
     types = message_types(read.files)
     seen = tuple(observations(read.extracted.joined, types))
-    asked = TopicVocabulary(text, seen, types.constants(), unit_of_time(read.files))
+    texts = dict.fromkeys((*read.extracted.texts, *texts_in(question)))
+    numbers = {t: n for n, t in enumerate(texts)}
+    asked = TopicVocabulary(text, seen, types.constants(), numbers, unit_of_time(read.files))
+    if len(texts) > len(read.extracted.texts):  # of which a text that is not known may be each
+        read = replace(read, extracted=extract(read.files, texts=tuple(texts)))
     return read, asked.property_text(question)
 
 
@@ -116,9 +126,10 @@ def _surrounded(
     properties: Properties,
     choice: EnvironmentChoice,
     types: MessageTypes,
+    texts: tuple[str, ...],
 ) -> ClosedModel:
     if choice == "free":
-        return closed(model, ends, properties, types)
+        return closed(model, ends, properties, types, texts)
     names = dict.fromkeys(end.name or f"{end.rebec}.{end.server}" for end in ends)
     told = (f"nothing comes from outside: {', '.join(names)}",) if names else ()
     classes = tuple(without_open(c) for c in model.classes)
@@ -190,6 +201,17 @@ def _overwritten(
     for owner, topic in overwritten(model, observed):
         if (owner, topic) in asked:
             yield f"{owner} may publish to {topic} twice in one step: only the last is seen"
+
+
+def _texts(extracted: Extracted, wanted: Collection[Observation]) -> Iterator[tuple[str, str, str]]:
+    """The variables of rebecs, and the parameters of their servers, that hold texts."""
+    seen = {(o.owner, "", o.variable) for o in wanted if o.type == TEXT}
+    seen |= {(o.owner, o.server, parameter_of(o)) for o in wanted if o.type == TEXT and o.server}
+    main = extracted.model.main
+    for rebec in main.rebecs if main is not None else ():
+        for owner, server, name in seen | extracted.text_variables:
+            if owner == rebec.type.name:
+                yield rebec.name, server, name
 
 
 def _counted(properties: Properties) -> int:

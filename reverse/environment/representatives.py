@@ -7,7 +7,7 @@ Saidi 1997, by the comparisons of the model). Data flow is followed without rega
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 from itertools import pairwise
 from math import ceil, floor
@@ -22,6 +22,7 @@ from rebsync.reverse.environment.constant_variables import (
     possible_constants,
 )
 from rebsync.reverse.environment.scopes import Scope, Variable
+from rebsync.reverse.texts import OTHER, is_text
 from rebsync.static.constants import Value, constant, single
 
 _COMPARISONS = frozenset({"==", "!=", "<", "<=", ">", ">="})
@@ -41,10 +42,14 @@ _BODIES = (m.Constructor, m.MessageServer, m.Method)
 
 @dataclass(frozen=True, slots=True)
 class Representatives:
-    """Some values of a parameter; `is_exact` says that they show all that the model can do."""
+    """Some values of a parameter; `is_exact` says that they show all that the model can do.
+
+    `cuts` are the constants that it is compared with.
+    """
 
     values: tuple[Value, ...]
     is_exact: bool
+    cuts: frozenset[Value] = field(default=frozenset(), compare=False)
 
 
 def representatives(
@@ -68,7 +73,17 @@ def representatives(
     integer = type_.name in INTEGERS
     range_ = within or INTEGERS.get(type_.name, INT32)
     values = _integers(flow.cuts, range_) if integer else _reals(flow.cuts, type_.name)
-    return Representatives(tuple(values), flow.is_exact)
+    return Representatives(tuple(values), flow.is_exact, frozenset(flow.cuts))
+
+
+def of_texts(numbers: Representatives, texts: Sequence[str]) -> Representatives:
+    """The same for a text: those of the texts of the model that are told apart, and others.
+
+    With all of them, and `OTHER`, it does not matter what else is done with the text.
+    """
+    every = [n for n, text in enumerate(texts) if is_text(text)]
+    told = [n for n in every if n in numbers.cuts] if numbers.is_exact else every
+    return Representatives((*told, OTHER), True)
 
 
 def _reals(cuts: Iterable[Value], type_: str) -> Iterator[Value]:

@@ -61,7 +61,7 @@ _HANDLES = (TimerFact, ClientFact)
 class Common:
     """What all bodies of a package can name: enumerations, message types and functions."""
 
-    enumerators: Mapping[str, int]
+    enumerators: Mapping[str, int | str]
     enums: frozenset[str]
     messages: Mapping[str, Fields]
     types: frozenset[str]
@@ -73,7 +73,8 @@ class Bodies:
     """Reads the bodies of a unit, as its rebecs of one kind are wired.
 
     `functions` are the methods and what else it can call; `overflowing` are state variables that
-    hold more in the code than an `int` does, `wide` the bits of locals that could.
+    hold more in the code than an `int` does, `wide` the bits of locals that could. `changed_texts`
+    are variables of texts, by their names in the model, that get other texts than the model knows.
     """
 
     code: Code
@@ -89,6 +90,7 @@ class Bodies:
     overflowing: frozenset[str] = frozenset()
     regions: dict[str, Regions] = field(default_factory=dict)
     wide: dict[str, int] = field(default_factory=dict)
+    changed_texts: set[str] = field(default_factory=set)
     sure: Sure = field(default_factory=Sure)
     calls: dict[int, CppCall] = field(default_factory=dict)
     # What is made when it is first asked for, once the node is set up.
@@ -127,6 +129,7 @@ class Bodies:
             overflowing=self.overflowing,
             regions=self._regions(cpp).of,
             wide=self.wide,
+            changed_texts=self.changed_texts,
             calm=Calm(self.sure),
             calls=self.calls,
             macros=self.code.macros,

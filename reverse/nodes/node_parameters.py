@@ -14,9 +14,10 @@ from rebsync.reverse.libraries.routines import Access
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_tree import text_of
+from rebsync.reverse.texts import TEXT
 from rebsync.static.values import converted
 
-_NUMBERS = {bool: "boolean", int: "int", float: "double"}
+_TYPES = {bool: "boolean", int: "int", float: "double", str: TEXT.name}
 TypeOf = Callable[[Node], m.Type | None]
 
 
@@ -97,6 +98,7 @@ def _target(call: CppCall) -> Node | None:
 def _of_values(raw: Sequence[object], call: CppCall) -> m.Type | None:
     """The type of the value that a call gives."""
     spelled = {"int": "int", "double": "double", "float": "float", "bool": "boolean"}
+    spelled |= dict.fromkeys(("std::string", "string"), TEXT.name)
     if call.types and text_of(call.types[0]) in spelled:
         return m.Type(spelled[text_of(call.types[0])])
     if len(call.arguments) == 2:
@@ -105,14 +107,16 @@ def _of_values(raw: Sequence[object], call: CppCall) -> m.Type | None:
         if call.arguments[1].type == "number_literal":
             text = text_of(call.arguments[1])
             return m.Type("double" if "." in text or "e" in text else "int")
-    found = {_NUMBERS.get(type(v)) for v in raw if v is not None}
+    found = {_TYPES.get(type(v)) for v in raw if v is not None}
     only = next(iter(found), None)
     return m.Type(only) if len(found) == 1 and only is not None else None
 
 
 def _as(value: object, type_: m.Type) -> Value | None:
     match value:
+        case str():
+            return value if type_ == TEXT else None
         case bool() | int() | float():
-            return converted(value, type_)
+            return converted(value, type_) if type_ != TEXT else None
         case _:
             return None

@@ -44,6 +44,7 @@ from rebsync.reverse.nodes.node_parameters import ConstructorParameter, asked
 from rebsync.reverse.nodes.node_reach import reached
 from rebsync.reverse.nodes.node_servers import Server, replaced, share_variable
 from rebsync.reverse.nodes.node_state import State
+from rebsync.reverse.nodes.node_texts import forgets
 from rebsync.reverse.nodes.node_times import Times
 from rebsync.reverse.nodes.node_units import UnitFacts
 from rebsync.reverse.nodes.node_values import Instance
@@ -234,7 +235,11 @@ class Setup:
         whole = statement.type == "expression_statement" and _is_call(statement, fact.site.call)
         before = self.instead.get(statement.id, (statement,))
         stores = self._stores(fact, found.target, found.type, found.values)
-        if found.target is not None and (found.found or fact.default is not None):
+        is_set = found.found or fact.default is not None
+        is_open = found.target is not None and not stores and (is_set or found.found is None)
+        if is_open and not forgets(self.state, fact.site.function, found.target, found.type):
+            self._listed(fact, "the value of this parameter is not known")
+        if found.target is not None and is_set:
             before = (*stores, *before)
         if whole:
             before = tuple(b for b in before if b is not statement)

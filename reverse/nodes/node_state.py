@@ -25,6 +25,7 @@ from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_declarations import CppField, declared_name
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.texts import TEXT
 from rebsync.static.types import BOOLEAN, INT
 
 
@@ -73,7 +74,7 @@ class State:
     unset: dict[str, UnsetVariable] = field(default_factory=dict)
     switches: dict[str, tuple[str, str, str]] = field(default_factory=dict)
     taken: UsedNames = field(init=False)  # the names that the unit's functions have
-    _outlived: dict[tuple[int, frozenset[str], bool], dict[int, tuple[Stores, ...]]] = field(
+    outlived: dict[tuple[int, frozenset[str], bool], dict[int, tuple[Stores, ...]]] = field(
         default_factory=dict
     )
 
@@ -112,7 +113,7 @@ class State:
     def _leave(self, name: str, meaning: Member, type_: Node, cpp: Cpp, node: Node) -> None:
         """Keeps in mind that a variable has no value yet: times and messages have theirs."""
         match meaning:
-            case Variable(of_model) if not is_time(type_):
+            case Variable(of_model, kept) if not is_time(type_) and kept != TEXT:
                 self.unset[of_model] = UnsetVariable(name, meaning, cpp, node)
             case Record(fields, ""):
                 owner = self.code.classes.get(text_of(type_).rpartition("::")[2])
@@ -227,7 +228,7 @@ class State:
                 return Outside()
             lengths.insert(0, length)
             at = at.child_by_field_name("declarator")
-        if kept is None or kept.type.dimensions or kept.bits:
+        if kept is None or kept.type.dimensions or kept.bits or kept.type == TEXT:
             return Outside()
         array = m.Type(kept.type.name, tuple(lengths))
         free = self._free(taken, (wish, name), f"{wish}_")
@@ -263,13 +264,12 @@ class State:
 
         Those that are declared `within` a loop live for one round only.
         """
-        words = ("static",) if only_static else names
-        if not any(_stands_in(function, word) for word in words):
+        if not any(_stands_in(function, word) for word in (("static",) if only_static else names)):
             return {}
         key = function.node.id, frozenset(names), only_static
-        if key not in self._outlived:
-            self._outlived[key] = self._outlive(function, names, only_static, within)
-        return self._outlived[key]
+        if key not in self.outlived:
+            self.outlived[key] = self._outlive(function, names, only_static, within)
+        return self.outlived[key]
 
     def _outlive(
         self, function: CppFunction, names: set[str], only_static: bool, within: Node | None

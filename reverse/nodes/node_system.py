@@ -36,6 +36,7 @@ from rebsync.reverse.nodes.node_spinning import note_spinning
 from rebsync.reverse.nodes.node_starts import first_functions, opening
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_taken import declares
+from rebsync.reverse.nodes.node_texts import leave_out
 from rebsync.reverse.nodes.node_times import Times
 from rebsync.reverse.nodes.node_units import Start, Unit, UnitFacts, Units
 from rebsync.reverse.nodes.node_unmodelled import note_unmodelled
@@ -43,6 +44,7 @@ from rebsync.reverse.nodes.node_values import Instance, exact_seconds
 from rebsync.reverse.nodes.node_views import all_units
 from rebsync.reverse.nodes.node_wiring import Wiring, idle, instances
 from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.texts import TEXT, text_literal
 from rebsync.source import NOWHERE, Source
 
 
@@ -153,7 +155,9 @@ class NodeSystem:
             for each in all_of:
                 for prefix in {"", f"{each.enum}::", f"{each.scope}::"} - {"::"}:
                     values.setdefault(f"{prefix}{name}", set()).add(each.value)
-        known = {n: v for n, vs in values.items() for v in vs if len(vs) == 1 and v is not None}
+        known: dict[str, int | str] = {
+            n: v for n, vs in values.items() for v in vs if len(vs) == 1 and v is not None
+        }
         enums = {e.enum for all_of in self.code.enumerators.values() for e in all_of if e.enum}
         wanted = {
             f.type
@@ -227,14 +231,15 @@ class _ClassReader:
 
     def _class(self, unit: Unit, alike: list[Instance], findings: Findings) -> m.ReactiveClass:
         listed = findings.mark()
-        broken = frozenset[str]()
+        broken, state = frozenset[str](), self.system.state(unit)
         while True:
             node, read = self._read(unit, alike, findings, broken)
-            if node.overflowing.broken <= broken:
+            changed = node.bodies.changed_texts & state.variables.keys()
+            if node.overflowing.broken <= broken and not changed:
                 break
             broken |= node.overflowing.broken
+            leave_out(state, changed)
             findings.back_to(listed)
-        state = self.system.state(unit)
         state.note(broken | node.overflowing.counted, findings, unit.name)
         note_life_cycle(unit, findings)
         note_bound(node.bodies)
@@ -360,7 +365,7 @@ class _ClassReader:
         """An instance with its known rebecs and the values of its constructor's parameters."""
         bindings = [m.Name(self.wiring.instances[n].name) for n in self.wiring.known(instance)]
         parameters, index = self._parameters.get(instance.name, ([], 0))
-        arguments = [literal_of(_value(p, index)) for p in parameters]
+        arguments = [_argument(p, index) for p in parameters]
         class_ = self.joined.class_of(instance)
         known, given = tuple(bindings), tuple(arguments)
         node = instance.launched
@@ -368,11 +373,13 @@ class _ClassReader:
         return m.Rebec(m.Type(class_), instance.name, known, given, (), span)
 
 
-def _value(parameter: ConstructorParameter, index: int) -> bool | int | float | str:
+def _argument(parameter: ConstructorParameter, index: int) -> m.Expression:
     value = parameter.values[index] if index < len(parameter.values) else None
+    if parameter.type == TEXT:
+        return text_literal(value if isinstance(value, str) else "")
     if isinstance(value, bool | int | float | str):
-        return value
-    return {"boolean": False, "float": 0.0, "double": 0.0}.get(parameter.type.name, 0)
+        return literal_of(value)
+    return literal_of({"boolean": False, "float": 0.0, "double": 0.0}.get(parameter.type.name, 0))
 
 
 def _class(unit: Unit) -> str:

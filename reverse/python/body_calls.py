@@ -21,6 +21,7 @@ from rebsync.reverse.python.body_arguments import arguments
 from rebsync.reverse.python.body_effects import is_harmless, is_still
 from rebsync.reverse.python.body_scope import (
     REAL,
+    STRING,
     TRUTH,
     WHOLE,
     Frame,
@@ -82,7 +83,7 @@ def parameter(reader: BodyExpressionReader, node: Node) -> Value:
         raise unknown(reader.frame, node, f"the value of a parameter: {value.why}")
     found = reading.constant((value,))
     if found is None:
-        raise unknown(reader.frame, node, "a parameter that is no number")
+        raise unknown(reader.frame, node, "a parameter that is no number and no text")
     return found
 
 
@@ -102,6 +103,9 @@ def _builtin(
             if value.kind == TRUTH:
                 return _as_number(value)
             raise unknown(reader.frame, node, "whether its int holds this number")
+        case "str", [only]:
+            value = reader.read(only)
+            return value if value.kind == STRING and not value.mixed else None
         case "float", [only]:
             value = reader.read(only)
             if value.kind == TRUTH:
@@ -109,7 +113,7 @@ def _builtin(
             return Value(reader.real(value, node), REAL)
         case "abs", [only]:
             value = reader.read(only)
-            if value.kind == TRUTH or not is_calm(value.expression):
+            if value.kind in (TRUTH, STRING) or not is_calm(value.expression):
                 return None
             zero = exact_literal_of(0 if value.kind == WHOLE else 0.0)
             if value.kind == WHOLE:
@@ -135,6 +139,8 @@ def _better(
 ) -> Value:
     """Of two numbers the lesser or greater; of equal ones Python takes the first."""
     calm = is_calm(best.expression) and is_calm(other.expression)
+    if STRING in (best.kind, other.kind):
+        raise unknown(reader.frame, node, "which text comes first")
     if not calm or TRUTH in (best.kind, other.kind):
         raise Unread(reader.frame.span(node), f'"{name}" of these is not read')
     kind = best.kind if best.kind == other.kind else REAL

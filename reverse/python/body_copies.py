@@ -107,9 +107,10 @@ def copied(
         if learnt.kind(key) == OTHER:
             continue
         try:
-            value = body_messages.field_of(source.expressions, node, message.type, path)
-            if node.type == "call":
-                body_messages.as_field(source.expressions, value, message.type, path, node)
+            with body_messages.unless_text(source.expressions, type_, node):
+                value = body_messages.field_of(source.expressions, node, message.type, path)
+                if node.type == "call":
+                    body_messages.as_field(source.expressions, value, message.type, path, node)
         except Unknown:
             learnt.join(key, OTHER)
             continue

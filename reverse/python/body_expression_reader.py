@@ -15,6 +15,7 @@ from rebsync.reverse.bodies.building import bare, cast
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
+    STRING,
     WHOLE,
     Frame,
     Meaning,
@@ -26,6 +27,7 @@ from rebsync.reverse.python.body_scope import (
 )
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.texts import text_literal
 from rebsync.source import Span
 from rebsync.static.types import DOUBLE
 
@@ -52,9 +54,9 @@ class BodyExpressionReader(ABC):
         if isinstance(meaning, Message):
             number = self.reading.types.constant(meaning.type, name) if not path else None
             if number is not None:
-                return Value(exact_literal_of(number), WHOLE), ""
+                return _constant(number), ""
             return meaning, f"{path}.{name}" if path else name
-        if self.reading.values.is_stored(name) or not isinstance(meaning, Nobody):
+        if self.reading.values.is_stored(name) or not isinstance(meaning, Nobody | Value):
             return Nobody(), ""
         found = self.reading.constant(self.reading.values.ways(node, self.frame.scope))
         return found or self._constant_of_message(node) or Nobody(), ""
@@ -64,10 +66,12 @@ class BodyExpressionReader(ABC):
         type_, _, name = self.reading.external(node, self.frame).rpartition(".")
         of = interface_of(type_) if type_ else None
         number = self.reading.types.constant(of, name) if of is not None else None
-        return Value(exact_literal_of(number), WHOLE) if number is not None else None
+        return _constant(number) if number is not None else None
 
     def real(self, value: Value, node: Node, what: str = "real") -> m.Expression:
         """A number where the model is to compute with 64 bits."""
+        if value.kind == STRING:
+            raise unknown(self.frame, node, "a number that a text is")
         if value.kind == WHOLE:
             self.need(value, node, what)
             inner = bare(value.expression)
@@ -109,5 +113,22 @@ class BodyExpressionReader(ABC):
         """An expression; `Unknown` is raised where nobody knows its value."""
 
     @abstractmethod
+    def note(self, node: Node, why: str) -> None:
+        """Lists a place of which the model allows more than the code."""
+
+    @abstractmethod
+    def compared(
+        self, sign: str, left: Value, right: Value, node: Node, number: int
+    ) -> m.Expression:
+        """The comparison with a number in `node`."""
+
+    @abstractmethod
     def condition(self, node: Node) -> m.Expression:
         """A condition; one that nobody knows may be true or false, and is listed."""
+
+
+def _constant(value: int | str) -> Value:
+    """A constant of a message type."""
+    if isinstance(value, str):
+        return Value(text_literal(value), STRING)
+    return Value(exact_literal_of(value), WHOLE)

@@ -6,6 +6,8 @@ noted as a need, which following all bodies shows to hold or not.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from tree_sitter import Node
 
 from rebsync import model as m
@@ -16,12 +18,13 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, negated, tight
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.python import body_calls, body_presence
+from rebsync.reverse.python import body_calls, body_presence, body_tables, body_texts
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_floats import doubled, is_zero
 from rebsync.reverse.python.body_scope import (
     REAL,
+    STRING,
     TRUTH,
     WHOLE,
     Message,
@@ -30,7 +33,16 @@ from rebsync.reverse.python.body_scope import (
     Var,
     unknown,
 )
-from rebsync.reverse.python.py_tree import field, is_asked, named, number_of, text_of
+from rebsync.reverse.python.py_tree import (
+    field,
+    is_asked,
+    is_literal_text,
+    named,
+    number_of,
+    text_in,
+    text_of,
+)
+from rebsync.reverse.texts import text_literal
 
 _POSITIVE = Interval(1, INT32.high)
 _COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!=", "<>"})
@@ -60,7 +72,9 @@ class PyExpressions(BodyExpressionReader):
                 return self._place(node)
             case "unary_operator" | "not_operator":
                 return self._unary(node)
-            case "binary_operator":
+            case "string" | "concatenated_string" if (text := text_in(node)) is not None:
+                return Value(text_literal(text, self._span(node)), STRING)
+            case "binary_operator" if not any(is_literal_text(n) for n in named(node)):
                 return self.operation(
                     text_of(field(node, "operator")),
                     self.read(field(node, "left")),
@@ -71,8 +85,10 @@ class PyExpressions(BodyExpressionReader):
                 return self._logic(node)
             case "conditional_expression" if len(named(node)) == 3:
                 return self._conditional(node)
+            case "subscript":
+                return body_tables.element(self, node)
             case "call":
-                return body_calls.called(self, node)
+                return body_tables.get_call(self, node) or body_calls.called(self, node)
             case _:
                 raise unknown(self.frame, node, f'"{short(node)}"')
 
@@ -98,6 +114,8 @@ class PyExpressions(BodyExpressionReader):
         """What Python takes for true."""
         if value.kind == TRUTH:
             return bare(value.expression)
+        if value.kind == STRING:
+            return body_texts.is_filled(self, value, node)
         zero = exact_literal_of(0 if value.kind == WHOLE else 0.0)
         if value.kind == WHOLE:
             self.need(value, node)
@@ -126,6 +144,8 @@ class PyExpressions(BodyExpressionReader):
             raise Pending(self._span(node), f'nothing that is read gives "{short(node)}" a value')
         owner = self.frame.owner_of(variable.key) or self.frame
         if not variable.is_state and text_of(node) not in owner.assigned:
+            if kind == STRING:
+                raise unknown(self.frame, node, f'"{short(node)}"')
             raise Unread(self._span(node), f'"{short(node)}" may have no value yet')
         mixed = self.reading.learnt.is_mixed(variable.key)
         return Value(m.Name(variable.name, self._span(node)), kind, mixed=mixed)
@@ -145,6 +165,8 @@ class PyExpressions(BodyExpressionReader):
         if node.type == "not_operator":
             return Value(negated(self.condition(inner)), TRUTH)
         value, operator = self.read(inner), text_of(field(node, "operator"))
+        if value.kind == STRING:
+            raise unknown(self.frame, node, f'"{short(node)}"')
         if value.kind == TRUTH or (operator == "~" and value.kind != WHOLE):
             raise Unread(self._span(node), f'"{operator}" of such a value is not read')
         if operator == "+":
@@ -155,6 +177,8 @@ class PyExpressions(BodyExpressionReader):
 
     def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
         """An operation on two numbers."""
+        if STRING in (left.kind, right.kind):
+            raise unknown(self.frame, node, f'"{short(node)}"')
         if TRUTH in (left.kind, right.kind):
             raise Unread(self._span(node), "arithmetic with truth values is not read")
         if left.kind == right.kind == WHOLE:
@@ -247,6 +271,8 @@ class PyExpressions(BodyExpressionReader):
         if is_asked(node):
             return self.condition(side)
         value = self.read(side)
+        if value.kind == STRING:
+            raise unknown(self.frame, node, f'"{short(node)}"')
         if value.kind != TRUTH:
             raise Unread(self._span(node), '"and" and "or" of other than truth values')
         return bare(value.expression)
@@ -256,8 +282,12 @@ class PyExpressions(BodyExpressionReader):
         signs = [text_of(c) for c in node.children_by_field_name("operators")]
         if (there := body_presence.compared_with_none(self, operands, signs)) is not None:
             return there.expression
-        if signs in (["in"], ["not in"]) and operands[1].type in ("tuple", "list", "set"):
-            return self._one_of(operands[0], operands[1], node, signs == ["in"])
+        if signs in (["in"], ["not in"]):
+            listed = body_tables.elements(self, operands[1])
+            if listed is not None:
+                return self._one_of(operands[0], listed, node, signs == ["in"])
+        if (same := body_texts.identical(self, operands, signs, node)) is not None:
+            return same
         if len(signs) != len(operands) - 1 or not set(signs) <= _COMPARES:
             raise unknown(self.frame, node, f'"{short(node)}"')
         values = [self.read(o) for o in operands]
@@ -265,21 +295,28 @@ class PyExpressions(BodyExpressionReader):
         if len(values) > 2 and not all(is_calm(v.expression) for v in values[1:-1]):
             raise Unread(self._span(node), "what stands in the middle would run twice")
         for number, sign in enumerate(signs):
-            pair = self._pair(values[number], values[number + 1], node, number)
-            one = binary("!=" if sign == "<>" else sign, *pair, self._span(node))
+            one = self.compared(sign, values[number], values[number + 1], node, number)
             found = one if found is None else binary("&&", found, one, self._span(node))
         assert found is not None
         return found
 
-    def _one_of(self, value: Node, of: Node, node: Node, holds: bool) -> m.Expression:
+    def compared(
+        self, sign: str, left: Value, right: Value, node: Node, number: int
+    ) -> m.Expression:
+        """The comparison with a number in `node`."""
+        if STRING in (left.kind, right.kind):
+            return body_texts.compared(self, sign, left, right, node)
+        pair = self._pair(left, right, node, number)
+        return binary("!=" if sign == "<>" else sign, *pair, self._span(node))
+
+    def _one_of(self, value: Node, of: Sequence[Value], node: Node, holds: bool) -> m.Expression:
         """`x in (1, 2)`."""
         read = self.read(value)
-        if not is_calm(read.expression) or not named(of):
+        if not is_calm(read.expression) or not of:
             raise unknown(self.frame, node, f'"{short(node)}"')
         found: m.Expression | None = None
-        for number, other in enumerate(named(of)):
-            pair = self._pair(read, self.read(other), node, number)
-            one = binary("==", *pair, self._span(node))
+        for number, other in enumerate(of):
+            one = self.compared("==", read, other, node, number)
             found = one if found is None else binary("||", found, one, self._span(node))
         assert found is not None
         return found if holds else negated(found)
@@ -300,10 +337,14 @@ class PyExpressions(BodyExpressionReader):
         then, condition, otherwise = named(node)
         asked = self.condition(condition)
         one, other = self.read(then), self.read(otherwise)
+        if STRING in (one.kind, other.kind) and one.kind != other.kind:
+            raise unknown(self.frame, node, f'"{short(node)}"')
         if TRUTH in (one.kind, other.kind) and one.kind != other.kind:
             raise Unread(self._span(node), "its values are of two kinds")
-        if one.kind == other.kind == WHOLE or one.kind == TRUTH:
-            return Value(chosen(asked, one.expression, other.expression), one.kind)
+        if one.kind == other.kind == WHOLE or one.kind in (TRUTH, STRING):
+            mixed = one.kind == STRING and (one.mixed or other.mixed)
+            found = chosen(asked, one.expression, other.expression)
+            return Value(found, one.kind, mixed=mixed)
         return Value(chosen(asked, self.real(one, then), self.real(other, otherwise)), REAL)
 
 

@@ -20,7 +20,8 @@ _CHANGED = object()  # of a question that got several answers: no later answer i
 class Learnt:
     """What is known of all bodies of a package so far: each round of reading adds to it.
 
-    `kinds` are those of variables; `mixed` those of floats that also get whole numbers; `used` are
+    `kinds` are those of variables; `mixed` those of floats that also get whole numbers, and of
+    texts that also get None; `used` are
     the fields that servers read, `wanted` those of messages in variables that something reads;
     `open` those whose values nobody knows; `refused` are expressions that may leave the model's
     `int`; on `pending` variables something stood in the last reading.
@@ -87,7 +88,7 @@ class Learnt:
         return frozenset(kind for kind in self.kinds.values() if "/" in kind)
 
     def is_mixed(self, key: Key) -> bool:
-        """Whether a variable of floats also gets whole numbers."""
+        """Whether a variable of floats also gets whole numbers, one of texts also None."""
         return self._noted(self._is_mixed, key, key in self.mixed)
 
     def _is_mixed(self, key: Key) -> bool:
@@ -149,7 +150,7 @@ class Learnt:
             self.changes += 1
 
     def mix(self, key: Key) -> None:
-        """A variable of floats gets a whole number."""
+        """A variable of floats gets a whole number, or one of texts None."""
         if key not in self.mixed:
             self.mixed.add(key)
             self.changes += 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Mapping
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -20,10 +21,12 @@ from rebsync.reverse.python.body_reading import Reading, field_key, zero
 from rebsync.reverse.python.body_scope import (
     OTHER,
     REAL,
+    STRING,
     TRUTH,
     TYPES,
     WHOLE,
     Message,
+    Pending,
     PyTarget,
     Value,
     Var,
@@ -34,6 +37,7 @@ from rebsync.reverse.python.body_scope import (
 from rebsync.reverse.python.body_variables import store
 from rebsync.reverse.python.py_index import arguments_of
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.texts import TEXT, any_text
 from rebsync.source import NOWHERE
 
 if TYPE_CHECKING:
@@ -168,7 +172,7 @@ def _checked(
     fields = reader.reading.types.fields(type_) or {}
     parts = arguments_by_name(reader.expressions, message, fields) if given is None else given
     for path, kind in fields.items():
-        if kind is None or kind.dimensions or path not in parts:
+        if kind is None or kind.dimensions or kind == TEXT or path not in parts:
             continue
         try:
             value = field_of(reader.expressions, message, type_, path, given)
@@ -191,7 +195,7 @@ def _is_message(reader: BodyStatementReader, node: Node, type_: str) -> bool:
         reader.expressions.read(node)
     except Unknown:
         fields = reader.reading.types.fields(type_) or {}
-        return not all(t is None for t in fields.values())
+        return not all(t is None or t == TEXT for t in fields.values())
     return False
 
 
@@ -204,15 +208,21 @@ def _argument(
     given: Given | None,
 ) -> Generator[m.Statement, None, m.Expression]:
     """The value that is sent for a field; that nobody knows one is for the receiver to know."""
+    kind = (reader.reading.types.fields(type_) or {}).get(path)
     try:
-        value = field_of(reader.expressions, message, type_, path, given)
-        found = as_field(reader.expressions, value, type_, path, message)
+        with unless_text(reader.expressions, kind, message):
+            value = field_of(reader.expressions, message, type_, path, given)
+            found = as_field(reader.expressions, value, type_, path, message)
     except Unknown as open_:
-        reader.reading.learnt.leave_open(target.unit, target.target.server, path)
-        raise Unread(open_.span, open_.why) from open_
-    if not is_calm(found) and len(reader.reading.targets) > 1:
+        is_plain = is_harmless(reader.reading, message, reader.frame)
+        if kind != TEXT or not is_plain or reader.frame.is_start:
+            reader.reading.learnt.leave_open(target.unit, target.target.server, path)
+            raise Unread(open_.span, open_.why) from open_
+        reader.expressions.note(message, open_.why)
+        found = any_text()
+    is_chosen = not is_calm(found) or found == any_text()
+    if is_chosen and len(reader.reading.targets) > 1:
         name = reader.reading.fresh(f"{path.rpartition('.')[2]}_sent")
-        kind = (reader.reading.types.fields(type_) or {})[path]
         assert kind is not None
         yield m.Local(m.Declaration(m.Type(kind.name), (m.Declarator(name, found),)))
         return m.Name(name)
@@ -228,7 +238,7 @@ def as_field(
     assert kind is not None
     wanted, span = field_kind(kind), reader.frame.span(node)
     if value.kind != wanted:
-        if value.kind == TRUTH or wanted in (TRUTH, WHOLE):
+        if value.kind in (TRUTH, STRING) or wanted in (TRUTH, WHOLE, STRING):
             raise Unread(span, f'"{path}" of {type_} holds no such value')
         library = reader.reading.unit.library
         if library.strict and value.kind == WHOLE:
@@ -244,6 +254,20 @@ def as_field(
             value.expression if value.single and kind.name == "float" else reader.real(value, node)
         )
     return value.expression
+
+
+@contextmanager
+def unless_text(
+    reader: BodyExpressionReader, type_: m.Type | None, node: Node
+) -> Generator[None, None, None]:
+    """Reading a field: of a text that is not read nobody knows the value, if it does nothing."""
+    try:
+        yield
+    except Unread as unread:
+        is_over = isinstance(unread, Unknown | Pending)
+        if is_over or type_ != TEXT or not is_harmless(reader.reading, node, reader.frame):
+            raise
+        raise Unknown(unread.span, unread.why, unread.hint) from unread
 
 
 def _is_now(value: Value) -> bool:
@@ -267,8 +291,9 @@ def made(reader: BodyStatementReader, message: Message, node: Node | None) -> It
             continue
         if is_given and reader.reading.learnt.kind(key) != OTHER:
             try:
-                value = field_of(reader.expressions, node, message.type, path)
-                as_field(reader.expressions, value, message.type, path, node or reader.root)
+                with unless_text(reader.expressions, type_, node or reader.root):
+                    value = field_of(reader.expressions, node, message.type, path)
+                    as_field(reader.expressions, value, message.type, path, node or reader.root)
             except Unknown:
                 reader.reading.learnt.join(key, OTHER)
                 continue

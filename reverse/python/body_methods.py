@@ -57,6 +57,9 @@ def returned(
     return [*first, *inner.body(nodes[:-1])], inner, named(nodes[-1])[0]
 
 
+_LITERALS = (m.IntLiteral, m.BoolLiteral, m.FloatLiteral, m.StringLiteral)
+
+
 def _is_call(node: Node) -> bool:
     return node.type == "call"
 
@@ -130,7 +133,7 @@ def _bound(
     except Unknown:
         frame.bound[name] = Nobody()
         return
-    if is_same and isinstance(value.expression, (m.IntLiteral, m.BoolLiteral, m.FloatLiteral)):
+    if is_same and isinstance(value.expression, _LITERALS):
         frame.bound[name] = value
         return
     variable = reader.reading.name(name, node, frame)

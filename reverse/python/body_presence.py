@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.python import body_texts
 from rebsync.reverse.python.body_scope import TRUTH, Key, Message, Value, Var
 from rebsync.reverse.python.body_timers import is_timer
 
@@ -46,7 +47,9 @@ def compared_with_none(
     """`message is None`, `message is not None`; None for other comparisons."""
     if len(operands) != 2 or operands[1].type != "none":
         return None
-    found = is_there(reader, operands[0])
-    if found is None or signs[0] not in ("is", "==", "is not", "!="):
+    if signs[0] not in ("is", "==", "is not", "!="):
+        return None
+    found = body_texts.is_text(reader, operands[0]) or is_there(reader, operands[0])
+    if found is None:
         return None
     return Value(found if "n" in signs[0] or signs[0] == "!=" else m.Unary("!", found), TRUTH)

@@ -22,6 +22,7 @@ from rebsync.reverse.python.body_learnt import Learnt
 from rebsync.reverse.python.body_scope import (
     OTHER,
     REAL,
+    STRING,
     TRUTH,
     WHOLE,
     Frame,
@@ -42,8 +43,9 @@ from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Sco
 from rebsync.reverse.python.py_lookup import attribute, bound
 from rebsync.reverse.python.py_tree import field, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
-from rebsync.reverse.python.py_worth import External, Function, Made, Module, Ways
+from rebsync.reverse.python.py_worth import EnumMember, External, Function, Made, Module, Ways
 from rebsync.reverse.python.py_worth import Instance as Object
+from rebsync.reverse.texts import MEMBER, is_text, text_literal
 from rebsync.source import Source, Span
 
 
@@ -170,7 +172,7 @@ class Reading:
         return Message(key, name, shape, is_state) if shape else Var(key, name, is_state)
 
     def constant(self, ways: Ways) -> Value | None:
-        """The value of what is always the same number."""
+        """The value of what is always the same number or text."""
         match ways:
             case (bool() as truth,):
                 return Value(exact_literal_of(truth), TRUTH)
@@ -178,6 +180,10 @@ class Reading:
                 return Value(exact_literal_of(number), WHOLE)
             case (float() as number,) if abs(number) < 1e300:
                 return Value(exact_literal_of(number), REAL)
+            case (EnumMember() as member,):
+                return Value(text_literal(f"{MEMBER}{member.text}"), STRING)
+            case (str() as text,) if "\0" not in text and is_text(text):
+                return Value(text_literal(text), STRING)
             case _:
                 return None
 
@@ -328,4 +334,6 @@ def field_key(message: Message, path: str) -> Key:
 
 def zero(kind: str) -> Value:
     """What a field holds in a new message."""
+    if kind == STRING:
+        return Value(text_literal(""), kind)
     return Value(exact_literal_of({TRUTH: False, WHOLE: 0}.get(kind, 0.0)), kind)

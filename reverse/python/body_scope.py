@@ -19,13 +19,14 @@ from rebsync.reverse.libraries.routines import Library
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import Py
+from rebsync.reverse.texts import TEXT
 from rebsync.source import Span
 from rebsync.static.types import BOOLEAN, DOUBLE, INT
 
 # What a variable holds in all of a program: a kind of value, a message by its type, or anything.
 Kind: TypeAlias = str
-TRUTH, WHOLE, REAL, OTHER = "boolean", "int", "double", "other"
-TYPES = {TRUTH: BOOLEAN, WHOLE: INT, REAL: DOUBLE}
+TRUTH, WHOLE, REAL, STRING, OTHER = "boolean", "int", "double", TEXT.name, "other"
+TYPES = {TRUTH: BOOLEAN, WHOLE: INT, REAL: DOUBLE, STRING: TEXT}
 # A variable: the class, module or function that it is in, and its name, with that of a field.
 Key: TypeAlias = tuple[str, int, str]
 
@@ -38,7 +39,8 @@ class Pending(Unread):
 class Value:
     """An expression of the model, and what kind of value it is in Python.
 
-    `single` says that the model has 32 bits of a float; `mixed` that it may be a whole number.
+    `single` says that the model has 32 bits of a float; `mixed` that it may be a whole number, or
+    None instead of a text.
     """
 
     expression: m.Expression
@@ -164,8 +166,8 @@ def unknown(frame: Frame, node: Node, what: str) -> Unknown:
 
 def field_kind(type_: m.Type) -> Kind:
     """What a field of a message is in Python."""
-    if type_.name == "boolean":
-        return TRUTH
+    if type_.name in (TRUTH, STRING):
+        return type_.name
     return REAL if type_.name in ("float", "double") else WHOLE
 
 

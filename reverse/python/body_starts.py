@@ -15,6 +15,7 @@ from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
     OTHER,
     REAL,
+    STRING,
     TRUTH,
     TYPES,
     WHOLE,
@@ -29,6 +30,7 @@ from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import MODULE, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_worth import Class
+from rebsync.reverse.texts import no_text
 
 
 def constructor(reading: Reading, loops: list[EndlessLoop]) -> tuple[m.Statement, ...]:
@@ -102,6 +104,9 @@ def declared(reading: Reading) -> Iterator[m.Statement]:
         binding, scope = bindings[0]
         if binding.value.type == "none" and len(bindings) == 1:
             reading.learnt.join(presence_key(reading.state[name]), TRUTH)
+            if reading.learnt.kind(reading.state[name]) == STRING:
+                reading.learnt.mix(reading.state[name])
+                yield m.ExpressionStatement(m.Assign("=", m.Name(name), no_text()))
             continue
         value = reading.constant(reading.values.ways(binding.value, scope))
         kind = value.kind if value is not None and len(bindings) == 1 else OTHER

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 from tree_sitter import Node
 
@@ -14,6 +15,7 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import (
     body_loops,
+    body_match,
     body_messages,
     body_methods,
     body_setup,
@@ -29,6 +31,7 @@ from rebsync.reverse.python.body_effects import (
 )
 from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_locks import is_lock, locks_of, waits_for_itself
+from rebsync.reverse.python.body_match import Way
 from rebsync.reverse.python.body_scope import (
     Pending,
 )
@@ -123,6 +126,8 @@ class PyStatements(BodyStatementReader):
                     yield from self.expression(inner)
             case "if_statement":
                 yield from self._if(node)
+            case "match_statement":
+                yield self._branch(body_match.ways(self.expressions, node))
             case "while_statement":
                 yield from body_loops.while_(self, node)
             case "for_statement":
@@ -195,21 +200,24 @@ class PyStatements(BodyStatementReader):
         if self.frame.is_start and "__name__" in text_of(field(node, "condition")):
             yield from self.statements(named(field(node, "consequence")))
             return
-        alternatives = node.children_by_field_name("alternative")
-        yield self._branch(node, list(alternatives))
-
-    def _branch(self, node: Node, others: list[Node]) -> m.Statement:
-        condition = self.expressions.condition(field(node, "condition"))
-        before = set(self.frame.assigned)
-        then = self.block(field(node, "consequence"))
-        after, self.frame.assigned = self.frame.assigned, before
-        otherwise: m.Statement | None = None
-        if others:
-            first, *rest = others
-            if first.type == "elif_clause":
-                otherwise = self._branch(first, rest)
+        ways: list[Way] = []
+        for each in (node, *node.children_by_field_name("alternative")):
+            if each.type == "else_clause":
+                ways.append((each, None, field(each, "body")))
             else:
-                otherwise = self.block(field(first, "body"))
+                asked = partial(self.expressions.condition, field(each, "condition"))
+                ways.append((each, asked, field(each, "consequence")))
+        yield self._branch(ways)
+
+    def _branch(self, ways: Sequence[Way]) -> m.Statement:
+        (node, asked, body), *others = ways
+        if asked is None:
+            return self.block(body)
+        condition = asked()
+        before = set(self.frame.assigned)
+        then = self.block(body)
+        after, self.frame.assigned = self.frame.assigned, before
+        otherwise = self._branch(others) if others else None
         if always_leaves(then):
             pass
         elif otherwise is not None and always_leaves(otherwise):

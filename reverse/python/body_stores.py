@@ -23,11 +23,14 @@ from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_reading import field_key
 from rebsync.reverse.python.body_scope import (
     OTHER,
+    STRING,
     Message,
+    Value,
     Var,
 )
 from rebsync.reverse.python.body_variables import change, forget, give
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.texts import no_text
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.body_statement_reader import BodyStatementReader
@@ -159,6 +162,10 @@ def outside(reader: BodyStatementReader, value: Node, node: Node) -> None:
 def _variable(
     reader: BodyStatementReader, variable: Var, target: Node, value: Node, node: Node, since: int
 ) -> Iterator[m.Statement]:
+    if value.type == "none" and reader.reading.learnt.kind(variable.key) == STRING:
+        nothing = Value(no_text(), STRING, mixed=True)
+        yield from give(reader, variable, text_of(target), nothing, node)
+        return
     before = reader.reading.extent
     try:
         read = reader.expressions.read(value)
@@ -183,8 +190,9 @@ def _field(
                 reader.reading.learnt.join(field_key(message, each), OTHER)
         return
     try:
-        read = reader.expressions.read(value)
-        body_messages.as_field(reader.expressions, read, message.type, path, value)
+        with body_messages.unless_text(reader.expressions, type_, value):
+            read = reader.expressions.read(value)
+            body_messages.as_field(reader.expressions, read, message.type, path, value)
     except Unknown:
         reader.reading.learnt.join(field_key(message, path), OTHER)
         outside(reader, value, node)

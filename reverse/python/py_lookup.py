@@ -18,6 +18,7 @@ from rebsync.reverse.python.py_worth import (
     Bound,
     Class,
     Declared,
+    EnumMember,
     External,
     Function,
     Instance,
@@ -35,6 +36,8 @@ from rebsync.reverse.syntax.ancestors import climb
 if TYPE_CHECKING:
     from rebsync.reverse.python.py_evaluator import PyEvaluator
 
+_ENUMERATIONS = frozenset({"enum.Enum", "enum.Flag"})
+_MIXED = frozenset({"builtins.str", "builtins.int", "builtins.float"})
 _FIELDS = frozenset({"value", "string_value", "integer_value", "double_value", "bool_value"}) | {
     *("string_array_value", "integer_array_value", "double_array_value", "bool_array_value"),
     "byte_array_value",
@@ -186,6 +189,8 @@ def attribute(
             yield from _member(values, owner, isinstance(holder, Instance), name, node, scope)
         case Declared(value):
             yield value if name in _FIELDS else Bound(holder, name)
+        case EnumMember(_, own, value) if name in ("value", "name"):
+            yield from value if name == "value" else (own,)
         case Made() | Function():
             stored = scope.stores.get((text_of(field(node, "object")), name), [])
             seen = reaching(stored, node)
@@ -218,6 +223,9 @@ def _member(
             continue
         seen = _seen(values, [*declared, *set_], node, above, scope)
         given = [(binding, bound(values, binding, name, above)) for binding in seen]
+        if not is_object and len(given) == 1 and is_enumeration(values, owner):
+            yield _enum_member(values, above, name, given[0])
+            return
         for value in together(values, given, scope):
             yield from _as_member(values, value, owner, is_object)
         return
@@ -225,6 +233,30 @@ def _member(
         yield Bound(Instance(owner), name)
     else:
         yield values.unknown(f"nothing in these files sets `{text_of(node)}`", node, scope)
+
+
+def is_enumeration(values: PyEvaluator, owner: Scope) -> bool:
+    """Whether members of a class are none of the values that it binds: not as in an `IntEnum`."""
+    above = {each.name for each in lineage(values, owner) if isinstance(each, External)}
+    return bool(above & _ENUMERATIONS) and not above & _MIXED
+
+
+def _enum_member(
+    values: PyEvaluator, owner: Scope, name: str, given: tuple[Binding, Ways]
+) -> Value:
+    """A member; what is no value, such as a method, is itself."""
+    binding, ways = given
+    if binding.how != "value":
+        return ways[0] if len(ways) == 1 else values.unknown("it is several", binding.node, owner)
+    same = (n for n, b in owner.names.items() if len(b) == 1 and _is_plain_value(b[0]))
+    first = next((n for n in same if bound(values, owner.names[n][0], n, owner) == ways), name)
+    return EnumMember(owner, first, ways)
+
+
+def _is_plain_value(binding: Binding) -> bool:
+    """Whether a member has a value that is known to be that of another one where it is equal."""
+    kinds = ("integer", "float", "string", "true", "false")
+    return binding.how == "value" and binding.value.type in kinds
 
 
 def _seen(

@@ -24,6 +24,7 @@ from rebsync.source import Source
 _HINT = "mend the syntax, so that the whole file can be read"
 _SHOWN = 3  # places that are listed for one file; a text that is no Python has very many
 _ESCAPE = re.compile(r"\\(\r?\n|x[0-9a-fA-F]{2}|u[0-9a-fA-F]{4}|[0-7]{1,3}|.)", re.DOTALL)
+_NAMED_CHARACTER = re.compile(r"\\[NU]")
 _ESCAPED = {"n": "\n", "t": "\t", "r": "\r", "a": "\a", "b": "\b", "f": "\f", "v": "\v"}
 
 
@@ -102,6 +103,28 @@ def string_parts(node: Node) -> list[str | Node]:
         elif child.type == "string_content":
             found += _content(child, "r" in prefix, "f" in prefix)
     return found
+
+
+def is_literal_text(node: Node) -> bool:
+    """Whether it is a text, whatever stands in it."""
+    return node.type in ("string", "concatenated_string")
+
+
+def text_in(node: Node) -> str | None:
+    """The text that a literal is; None of bytes, formatted ones and names of characters."""
+    if node.type == "concatenated_string":
+        pieces = [text_in(piece) for piece in named(node)]
+        return None if None in pieces else "".join(p for p in pieces if p is not None)
+    if node.type != "string":
+        return None
+    prefix = text_of(node.children[0]).rstrip("\"'`").lower()
+    parts = string_parts(node)
+    texts = [part for part in parts if isinstance(part, str)]
+    is_plain = "b" not in prefix and len(texts) == len(parts)
+    is_known = "r" in prefix or not _NAMED_CHARACTER.search(text_of(node))
+    whole = "".join(texts)
+    is_known = is_known and whole[:1] != "\1" and "\0" not in whole
+    return whole if is_plain and is_known else None
 
 
 def _content(node: Node, is_raw: bool, is_formatted: bool) -> list[str | Node]:

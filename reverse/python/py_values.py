@@ -113,6 +113,8 @@ class PyValues(PyEvaluator):
     def _text(self, node: Node, scope: Scope) -> Ways:
         """A text, put together of its parts."""
         strings = named(node) if node.type == "concatenated_string" else [node]
+        if any("b" in text_of(s.children[0]).rstrip("\"'").lower() for s in strings):
+            return (self.unknown("bytes", node, scope),)
         parts: list[Ways] = []
         for part in (p for s in strings for p in string_parts(s)):
             if isinstance(part, str):
@@ -128,6 +130,8 @@ class PyValues(PyEvaluator):
         return [Items(tuple(self.ways(c, scope) for c in inner))]
 
     def _table(self, node: Node, scope: Scope) -> list[Value]:
+        if any(c.type == "dictionary_splat" for c in named(node)):
+            return [self.unknown("a table of which a part is unpacked", node, scope)]
         pairs = [c for c in named(node) if c.type == "pair"]
         return [
             Table(

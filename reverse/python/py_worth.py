@@ -118,9 +118,26 @@ class Declared:
     value: FromParameter | Unresolved
 
 
+@dataclass(frozen=True, slots=True)
+class EnumMember:
+    """A member of an enumeration of the files, which is equal to no number or text.
+
+    `name` is the first of those that have its `value`.
+    """
+
+    owner: Scope
+    name: str
+    value: Ways
+
+    @property
+    def text(self) -> str:
+        """What tells it from all else."""
+        return f"{self.owner.py.source.path}:{self.owner.name}.{self.name}"
+
+
 Value: TypeAlias = (
     "Plain | FromParameter | Unresolved | NoneValue | Items | Table | Duration | External | Module"
-    " | Class | Instance | Function | Bound | Made | Declared"
+    " | Class | Instance | Function | Bound | Made | Declared | EnumMember"
 )
 Ways: TypeAlias = "tuple[Value, ...]"
 

@@ -268,6 +268,18 @@ def is_constant(cpp: Cpp, node: Node) -> bool:
     return bool(qualifiers & {"const", "constexpr"})
 
 
+def constant_name(node: Node, declarator: Node) -> Node:
+    """The name of a constant that a declaration declares.
+
+    Of a pointer that may be changed it is all of the declarator, by which nothing is called.
+    """
+    name = declared_name(declarator)
+    words = {text_of(c) for c in declarator.named_children}
+    words |= {"constexpr"} & {text_of(c) for c in node.named_children}
+    is_fixed = declarator.type == "array_declarator" or words & {"const", "constexpr"}
+    return name if name is not None and is_fixed else declarator
+
+
 def valued(node: Node) -> Iterator[tuple[Node, Node]]:
     """The member constants of a declaration with their values."""
     declarators = node.children_by_field_name("declarator")

@@ -23,6 +23,7 @@ from rebsync.reverse.syntax.cpp_declarations import (
     CppFunction,
     CppParameter,
     bases_of,
+    constant_name,
     declared_name,
     function_of,
     is_constant,
@@ -271,7 +272,7 @@ class Code:
                 continue
             elif not self._add_nested(cpp, member, own) and is_constant(cpp, member):
                 for declarator, value in valued(member):
-                    self._add_constant(cpp, declarator, (cpp, value))
+                    self._add_constant(cpp, constant_name(member, declarator), (cpp, value))
                 others += plain_fields(cpp, member, with_values(member))
             else:
                 declared = with_values(member)
@@ -347,7 +348,7 @@ class Code:
             if declarator.type == "init_declarator":
                 value, declarator = part(declarator, "value"), part(declarator, "declarator")
                 if constant:
-                    self._add_constant(cpp, declarator, (cpp, value))
+                    self._add_constant(cpp, constant_name(node, declarator), (cpp, value))
             if declarator.type == "qualified_identifier" and value is not None:
                 self._add_static(cpp, node, declarator, value)
                 continue

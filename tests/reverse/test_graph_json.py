@@ -167,7 +167,8 @@ def test_all_facts_are_as_the_schema_says() -> None:
     lists = graph_data(Graph(tuple(fact for fact, _ in FACTS)))
     assert sum(map(len, lists.values())) == len(FACTS) + len(lists["unknowns"])
     report = {"grade": "exact", "bodies": [], "findings": []}
-    whole = {"package": "a", "path": ".", "file": None, "model": None, "report": report}
+    whole: dict[str, object] = {"package": "a", "path": ".", "file": None, "model": None}
+    whole |= {"texts": [], "report": report}
     validator = jsonschema.Draft202012Validator(SCHEMA)
     validator.check_schema(SCHEMA)
     validator.validate(whole | lists)

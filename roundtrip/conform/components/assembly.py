@@ -10,8 +10,9 @@ from itertools import chain
 from math import inf
 
 from rebsync import model as m
-from rebsync.checker.program import Program
+from rebsync.checker.program import Cell, Program
 from rebsync.records import dataclass
+from rebsync.reverse.texts import OTHER
 from rebsync.roundtrip.conform.components.bodies import ComponentBodies
 from rebsync.roundtrip.conform.components.component import (
     UNORDERED,
@@ -237,7 +238,7 @@ class _Assembler:
         places = self._places(link)
         for heard in self._own(interface, link):
             values = [heard.values[n] for n in places]
-            cells = cells_of(self.program, server, values)
+            cells = self._cells(server, values)
             found.append(Output(heard.stamp, cells, heard.place, tuple(values)))
         self.found.recorded += len(found)
         return found
@@ -288,7 +289,7 @@ class _Assembler:
         inside = sum(received.link in i.published for i in self.interfaces)
         lanes: dict[str, int] = {}
         for each, near in _near(_by_stamp(heard), slack):
-            cells = cells_of(self.program, server, [each.values[n] for n in places])
+            cells = self._cells(server, [each.values[n] for n in places])
             lane = UNORDERED
             if each.publisher or inside == 1:
                 lane = lanes.setdefault(each.publisher, self._lane(topic, len(lanes)))
@@ -301,6 +302,14 @@ class _Assembler:
         """Where in a message the values are of the parameters of the environment's server."""
         names = self.closed.links[link].parameters
         return [names.index(name) for name in parameter_names(self.model, link)]
+
+    def _cells(self, server: int, values: Sequence[object]) -> tuple[Cell, ...]:
+        """What the parameters of a server hold, texts as the numbers that they are there."""
+        texts = self.closed.extracted.texts
+        numbers = [
+            (texts.index(v) if v in texts else OTHER) if isinstance(v, str) else v for v in values
+        ]
+        return cells_of(self.program, server, numbers)
 
 
 def _stamp(event: Heard | Input) -> float:

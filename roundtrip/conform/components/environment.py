@@ -20,6 +20,7 @@ from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.files.reading import Chosen
 from rebsync.reverse.graph import Graph, PublisherFact, SubscriptionFact
 from rebsync.reverse.recovery import Extracted, extract
+from rebsync.reverse.texts import TEXT
 from rebsync.roundtrip.conform.bags import OwnTypes
 from rebsync.source import Source
 
@@ -107,7 +108,8 @@ def _links(topics: Sequence[str], graph: Graph, types: MessageTypes) -> Iterator
 
 
 def _zero(type_: Type) -> str:
-    zero = {"boolean": "False", "float": "0.0", "double": "0.0"}.get(type_.name, "0")
+    zeros = {"boolean": "False", "float": "0.0", "double": "0.0", TEXT.name: '""'}
+    zero = zeros.get(type_.name, "0")
     return f"[{', '.join([zero] * type_.dimensions[0])}]" if type_.dimensions else zero
 
 

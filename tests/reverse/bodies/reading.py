@@ -24,6 +24,7 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, parse, text_of
+from rebsync.reverse.texts import enumerated
 from rebsync.source import Source
 from rebsync.static import analyse
 from rebsync.static.types import BOOLEAN, DOUBLE, INT
@@ -113,8 +114,8 @@ def read_case(source: Source) -> tuple[m.Model, Findings]:
         widths=_WIDTHS,
         open=True,
     )
-    servers = tuple(_server(cpp, f, scope, findings) for f in functions if _is_served(f))
-    return _whole(servers), findings
+    servers = [_server(cpp, f, scope, findings) for f in functions if _is_served(f)]
+    return _whole(tuple(enumerated(servers)[0])), findings
 
 
 def _is_served(function: CppFunction) -> bool:

@@ -1,0 +1,67 @@
+"""Texts of Python as values of the model: they are only copied and compared."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.building import binary, is_calm, negated
+from rebsync.reverse.python.body_scope import STRING, Value, Var, unknown
+from rebsync.reverse.python.py_tree import text_of
+from rebsync.reverse.texts import MEMBER, is_constant, no_text, same, text_literal
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
+
+
+def compared(
+    reader: BodyExpressionReader, sign: str, left: Value, right: Value, node: Node
+) -> m.Expression:
+    """`left == right`, `left != right`; Unknown for other comparisons of texts."""
+    calm = is_calm(left.expression) and is_calm(right.expression)
+    if left.kind != right.kind and sign in ("==", "!=", "<>") and calm:
+        return m.BoolLiteral(sign != "==")
+    if left.kind != right.kind or sign not in ("==", "!=", "<>"):
+        raise unknown(reader.frame, node, f'"{text_of(node)}"')
+    if not (is_constant(left.expression) or is_constant(right.expression)):
+        if not calm:
+            raise unknown(reader.frame, node, f'"{text_of(node)}"')
+        reader.note(node, "texts that occur nowhere in the code may be equal or not")
+    found = same(left.expression, right.expression, reader.frame.span(node))
+    return found if sign == "==" else negated(found)
+
+
+def identical(
+    reader: BodyExpressionReader, operands: list[Node], signs: list[str], node: Node
+) -> m.Expression | None:
+    """`mode is Mode.RUN`: a member of an enumeration is one object; None for other comparisons."""
+    if len(operands) != 2 or signs not in (["is"], ["is not"]) or operands[1].type == "none":
+        return None
+    left, right = (reader.read(operand) for operand in operands)
+    match right.expression:
+        case m.StringLiteral(text) if text[1:2] == MEMBER:
+            return compared(reader, "==" if signs == ["is"] else "!=", left, right, node)
+        case _:
+            return None
+
+
+def is_filled(reader: BodyExpressionReader, value: Value, node: Node) -> m.Expression:
+    """What Python takes for true: a text that is not empty, and not None."""
+    if not is_calm(value.expression):
+        raise unknown(reader.frame, node, f'"{text_of(node)}"')
+    filled = binary("!=", value.expression, text_literal(""))
+    if not value.mixed:
+        return filled
+    return binary("&&", filled, binary("!=", value.expression, no_text()))
+
+
+def is_text(reader: BodyExpressionReader, node: Node) -> m.Expression | None:
+    """Whether a variable of texts holds one, and not None; None for other expressions."""
+    if node.type not in ("identifier", "attribute"):
+        return None
+    meaning, path = reader.meaning(node)
+    if path or not isinstance(meaning, Var) or reader.reading.learnt.kind(meaning.key) != STRING:
+        return None
+    return binary("!=", reader.read(node).expression, no_text(), reader.frame.span(node))
