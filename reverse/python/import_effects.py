@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 import warnings
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import TypeGuard
 
 from rebsync.reverse.build.built_python import files_of_import, imported_by
@@ -55,7 +55,7 @@ def list_import_effects(
     sources: Mapping[str, Source], generated: Collection[str], findings: Findings
 ) -> None:
     """Lists what modules do that generated ones import; these are given by their paths."""
-    trees = {path: _parsed(sources[path].text) for path in sources}
+    trees = {path: parsed(sources[path].text) for path in sources}
     reached = set[str]()
     waiting = [path for path, source in sources.items() if source.path in generated]
     while waiting:
@@ -74,14 +74,14 @@ def list_import_effects(
 
 def list_setup_effects(source: Source, findings: Findings) -> None:
     """Lists what `setup.py` does besides to say what is installed."""
-    tree = _parsed(source.text)
+    tree = parsed(source.text)
     if tree is not None:
         _list(source, _ImportedCode(tree, _IN_SETUP).acting(), findings)
 
 
 def list_launch_effects(source: Source, findings: Findings) -> None:
     """Lists what a launch file does itself besides to describe what is started."""
-    tree = _parsed(source.text)
+    tree = parsed(source.text)
     if tree is None:
         return
     code = _LaunchCode(tree)
@@ -98,7 +98,8 @@ def _list(source: Source, nodes: Iterable[ast.stmt], findings: Findings) -> None
         findings.unreadable(source, Unread(Span(start, start + len(line)), _WHY), "")
 
 
-def _parsed(text: str) -> ast.Module | None:
+def parsed(text: str) -> ast.Module | None:
+    """The tree of a module; None of what is no Python."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
@@ -249,7 +250,7 @@ class _ImportedCode:
         name = self._name_of(function)
         made = self._classes.get(name)
         if made is not None:
-            return _MAKING.isdisjoint(n.name for n in made.body if _is_function(n))
+            return self._is_made_plainly(made)
         if name in self._plain or self._is_plain_function(name):
             return True
         if isinstance(function, ast.Attribute) and isinstance(function.value, ast.Constant):
@@ -258,6 +259,36 @@ class _ImportedCode:
             of_function(Language.PYTHON, full).effect in (Effect.NONE, Effect.READS)
             for full in (name, f"builtins.{name}")
         )
+
+    def _is_made_plainly(self, made: ast.ClassDef) -> bool:
+        """Whether to make an object of a class only gives it plain members."""
+        functions = [n for n in made.body if _is_function(n)]
+        making = [n for n in functions if n.name in _MAKING]
+        if not making:
+            return True
+        is_plain = not made.bases and all(
+            f.name != "__setattr__" and "setter" not in map(_last_name, f.decorator_list)
+            for f in functions
+        )
+        return is_plain and all(
+            f.name == "__init__" and f.args.args and all(map(self._only_fills(f), f.body))
+            for f in making
+        )
+
+    def _only_fills(self, function: ast.FunctionDef) -> Callable[[ast.stmt], bool]:
+        """Whether a statement of a constructor only puts a plain value into a member."""
+        own = function.args.args[0].arg
+
+        def only_fills(node: ast.stmt) -> bool:
+            match node:
+                case ast.Assign([ast.Attribute(ast.Name(name))], value) if name == own:
+                    return self._is_plain(value)
+                case ast.AnnAssign(ast.Attribute(ast.Name(name)), _, value) if name == own:
+                    return value is None or self._is_plain(value)
+                case _:
+                    return self._only_gives(node)
+
+        return only_fills
 
     def _name_of(self, node: ast.expr) -> str:
         """The full name of what is called, by the imports."""
@@ -291,6 +322,10 @@ def _is_name(target: ast.expr) -> bool:
     if isinstance(target, ast.Tuple):
         return all(map(_is_name, target.elts))
     return isinstance(target, ast.Name)
+
+
+def _last_name(node: ast.expr) -> str:
+    return node.attr if isinstance(node, ast.Attribute) else ""
 
 
 def _is_made(value: ast.expr) -> bool:

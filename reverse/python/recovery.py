@@ -40,6 +40,7 @@ from rebsync.reverse.python.py_hooks import hooks_in
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import field, named, parse, text_of, unparsed
 from rebsync.reverse.python.py_values import PyValues
+from rebsync.reverse.python.sensor_effects import list_sensor_effects
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.source import Source
 
@@ -172,6 +173,7 @@ def read_python(
     own = {(o.name, o.py.source.path) for o in classes.owners}
     if read and only is None:
         list_import_effects(python.sources, _read_paths(python), findings)
+        list_sensor_effects(python.sources, _read_paths(python), findings)
     is_people = partial(_is_people, own=own)
     scripts = scripts_of(files or {})
     entries = entries_of(files or {})
