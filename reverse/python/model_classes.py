@@ -34,7 +34,7 @@ from rebsync.reverse.python.model_types import (
 from rebsync.reverse.python.named_constants import CodeConstants
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import PyCode, Scope, classes_in
-from rebsync.reverse.python.py_tree import named, text_of
+from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.runtime_files import is_runtime_file
 
@@ -122,7 +122,10 @@ class ModelClasses:
         """All of them in the order of the code, or those of a file."""
         wanted = [o for o in self._owners if path is None or o.py.source.path == path]
         for module in {id(o.module): o.module for o in wanted}.values():
+            counters = self._counters(module)
             for node in odd_at_top(module, self._named):
+                if counters.intersection(_set_in(node)):
+                    continue
                 unread = Unread(module.py.span(node), "what this does is not in the model")
                 self.findings.unreadable(module.py.source, unread, "")
         return tuple(
@@ -130,6 +133,12 @@ class ModelClasses:
             for o in wanted
             if not self._is_helping(o)
         )
+
+    def _counters(self, module: Scope) -> frozenset[str]:
+        """The variables of a module that only people are told of, whichever class counts."""
+        owners = [o for o in self._owners if o.module is module]
+        found = [self._bodies.names(o).silent.counters for o in owners]
+        return frozenset.intersection(*found) if found else frozenset()
 
     def arguments(self) -> dict[str, list[str]]:
         """The parameters that the constructors of classes read for their arguments, in order."""
@@ -389,3 +398,10 @@ def _is_constructor(name: str) -> bool:
 
 def _is_abstract(function: Scope) -> bool:
     return "abstractmethod" in function.decorators
+
+
+def _set_in(statement: Node) -> Iterator[str]:
+    """The variable that a statement at the top of a module makes."""
+    inner = named(statement)[0] if named(statement) else statement
+    if inner.type == "assignment":
+        yield text_of(field(inner, "left"))
