@@ -30,7 +30,7 @@ FILES = (
     *("harmless.toml", "library.toml", "forms.toml", "posts.toml", "shown.toml"),
     *("messages.toml", "natural.toml", "natural_python.toml"),
     *("natural_rclpy.toml", "natural_sensors.toml", "joined.toml", "months.toml"),
-    *("early.toml", "sensors.toml", "helpers_python.toml"),
+    *("early.toml", "sensors.toml", "helpers_python.toml", "helpers_cpp.toml", "builds.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
