@@ -27,9 +27,9 @@ class Looks:
     `trusted` are names that stand for what Python and ROS have by them, "self" among them for a
     node of ROS 2; `functions` those of classes, of which one may be a property that does something;
     `makers` what makes messages. `own` are methods of the model, whose calls count as pure: who
-    leaves out the rest has to keep these. `loggers` and `tables` are names of the module that stand
-    for a logger of Python's library, and for a dictionary of literals; `records` are its classes
-    whose objects only hold what they are made of, with their fields.
+    leaves out the rest has to keep these. `loggers`, `tables` and `clocks` are names of the module
+    that stand for a logger of Python's library, a dictionary of literals, and what tells the time;
+    `records` are its classes whose objects only hold what they are made of, with their fields.
     """
 
     trusted: frozenset[str] = with_default(
@@ -40,6 +40,7 @@ class Looks:
     own: frozenset[str] = frozenset()
     loggers: frozenset[str] = frozenset()
     tables: frozenset[str] = frozenset()
+    clocks: frozenset[str] = frozenset()
     records: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
 
     def is_pure(self, node: Node) -> bool:
@@ -60,13 +61,15 @@ class Looks:
             return called.partition(".")[0] in self.trusted
         if own_method(call) in libraries.own_name_methods():
             return self._is_node and own_method(call) not in self.functions
+        if called in self.clocks:
+            return not named(field(call, "arguments"))
         if function.type == "identifier":
             return self.makes_record(call) or called in self.makers or (called in LOOKS and called in self.trusted)
         if function.type != "attribute":
             return False
         holder, name = field(function, "object"), text_of(field(function, "attribute"))
         if name == "get" and text_of(holder) in self.tables:
-            return True
+            return len(named(field(call, "arguments"))) in (1, 2)
         if name in ON_CLOCKS:
             return holder.type == "call" and not named(field(call, "arguments"))
         return name == "format" and holder.type in ("string", "concatenated_string")
@@ -98,7 +101,7 @@ class Looks:
     def tells_time(self, node: Node) -> bool:
         """Whether a value is what a clock tells."""
         called = text_of(field(node, "function")) if node.type == "call" else ""
-        return called in libraries.clocks() and self.is_pure(node)
+        return called in libraries.clocks() | self.clocks and self.is_pure(node)
 
     @property
     def _is_node(self) -> bool:

@@ -15,6 +15,7 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1, PUBLISHER_METHOD
 from rebsync.reverse.python.model_locks import may_lock, waiting_methods
 from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
@@ -22,6 +23,7 @@ from rebsync.reverse.python.model_roles import PyRoles, is_of_node
 from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
 from rebsync.reverse.python.model_timers import Timers
 from rebsync.reverse.python.model_types import call_parts, string_value
+from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, is_label, named, nodes_in, text_of
@@ -166,6 +168,7 @@ def silent_in(
         looks,
         loggers=_loggers(owner.module) - hidden,
         tables=_tables(code, owner.module) - hidden,
+        clocks=frozenset(n for n in owner.module.names if _is_clock(owner.module, n)) - hidden,
         records={name: fields for name, fields in records.items() if name not in hidden},
     )
     taken |= looks.functions
@@ -318,7 +321,20 @@ def _locals(function: Scope, makers: frozenset[str], looks: Looks) -> frozenset[
         and any(_depends(value, found, looks) for value in values)
     }:
         found |= fresh
-    return frozenset(found)
+    return frozenset(name for name in found if _is_set_first(function.node, name))
+
+
+def _is_set_first(function: Node, name: str) -> bool:
+    """Whether a local is set before all else that names it, in the block that has all of that."""
+    uses = [n for n in nodes_in(function) if n.type == "identifier" and text_of(n) == name]
+    uses = [n for n in uses if not is_label(n)]
+    statement = climb(uses[0], lambda n: n.type == "expression_statement")
+    block = statement.parent if statement is not None else None
+    if statement is None or block is None:
+        return False
+    if named(statement)[0].child_by_field_name("left") != uses[0]:
+        return False
+    return uses[-1].end_byte <= block.end_byte and len(uses) > 1
 
 
 def _depends(value: Node, on: Collection[str], looks: Looks) -> bool:
@@ -336,9 +352,20 @@ def _counters(code: PyCode, module: Scope) -> Iterator[str]:
         values = [b for b in bindings if b.node.parent and b.node.parent.parent == module.node]
         others = [b for b in bindings if b not in values]
         is_made = len(values) == 1 and values[0].how == "value" and not values[0].path
-        if is_made and others and values[0].value.type in _LITERALS:
+        if is_made and others and all(_counts(b, name) for b in bindings):
             if not _is_named_elsewhere(code, module, name):
                 yield name
+
+
+def _counts(binding: Binding, name: str) -> bool:
+    """Whether a variable gets a number, or has one added that is written out."""
+    value = binding.value
+    if binding.how == "augmented":
+        return value.type == "integer" and text_of(binding.node).partition("=")[0][-1:] in "+-*"
+    if value.type == "binary_operator" and text_of(field(value, "operator")) in "+-*":
+        sides = field(value, "left"), field(value, "right")
+        return all(n.type == "integer" or text_of(n) == name for n in sides)
+    return binding.how == "value" and not binding.path and value.type in ("integer", "float")
 
 
 def _hidden(code: PyCode, module: Scope) -> frozenset[str]:
@@ -353,6 +380,11 @@ def _is_named_elsewhere(code: PyCode, module: Scope, name: str) -> bool:
     word = re.compile(rf"\b{re.escape(name)}\b")
     others = (m for m in code.modules.values() if m is not module)
     return any(word.search(m.py.source.text) for m in others)
+
+
+def _is_clock(module: Scope, name: str) -> bool:
+    """Whether a name of a module is imported, and is a function that tells the time."""
+    return _imported(module, name) in libraries.clocks()
 
 
 def _loggers(module: Scope) -> frozenset[str]:

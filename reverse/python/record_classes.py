@@ -7,10 +7,13 @@ from collections.abc import Mapping, Sequence
 
 from tree_sitter import Node
 
+from rebsync.reverse.python.model_types import type_of
 from rebsync.reverse.python.py_index import CLASS, PyCode, Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
 
-_DATACLASS = frozenset({"dataclass", "dataclasses.dataclass"})
+_DATACLASS = re.compile(
+    r"(?:dataclasses\.)?dataclass(?:\((?:\s*(?:frozen|order|eq)\s*=\s*(?:True|False)\s*,?)*\))?\Z"
+)
 
 _MODULE = re.compile(r"from\s+dataclasses\s+import\b|import\s+dataclasses\s*\Z")
 
@@ -34,8 +37,7 @@ def records_in(code: PyCode, module: Scope) -> Mapping[str, Sequence[str]]:
 
 def _fields(scope: Scope) -> tuple[str, ...]:
     """The fields of a data class; none where its objects may do more than to hold them."""
-    decorators = [d.partition("(")[0] for d in scope.decorators]
-    is_plain = len(decorators) == 1 and decorators[0] in _DATACLASS
+    is_plain = len(scope.decorators) == 1 and _DATACLASS.match(scope.decorators[0])
     if not is_plain or scope.node.child_by_field_name("superclasses") is not None:
         return ()
     found = []
@@ -53,8 +55,10 @@ def _fields(scope: Scope) -> tuple[str, ...]:
 def _declared(statement: Node) -> str | None:
     """The field that `x: int` declares."""
     inner = named(statement)[0] if statement.type == "expression_statement" else statement
-    is_field = inner.type == "assignment" and inner.child_by_field_name("right") is None
-    return text_of(field(inner, "left")) if is_field else None
+    if inner.type != "assignment" or inner.child_by_field_name("right") is not None:
+        return None
+    said = field(inner, "type")
+    return text_of(field(inner, "left")) if type_of(said) or text_of(said) == "str" else None
 
 
 def _is_idle(function: Node) -> bool:
