@@ -64,7 +64,8 @@ class Looks:
         if called in self.clocks:
             return not named(field(call, "arguments"))
         if function.type == "identifier":
-            return self.makes_record(call) or called in self.makers or (called in LOOKS and called in self.trusted)
+            is_built_in = called in LOOKS and called in self.trusted
+            return is_built_in or called in self.makers or self.makes_record(call)
         if function.type != "attribute":
             return False
         holder, name = field(function, "object"), text_of(field(function, "attribute"))

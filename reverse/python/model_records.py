@@ -64,7 +64,9 @@ def _is_only_read(assignment: Node, name: str, fields: Sequence[str]) -> bool:
 
 def _is_read(use: Node, function: Node, fields: Sequence[str]) -> bool:
     above = use.parent
-    if above is None or above.type != "attribute" or text_of(field(above, "attribute")) not in fields:
+    if above is None or above.type != "attribute":
+        return False
+    if text_of(field(above, "attribute")) not in fields:
         return False
     outer = above.parent
     is_target = outer is None or outer.type in _TARGETS

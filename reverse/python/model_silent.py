@@ -352,9 +352,9 @@ def _counters(code: PyCode, module: Scope) -> Iterator[str]:
         values = [b for b in bindings if b.node.parent and b.node.parent.parent == module.node]
         others = [b for b in bindings if b not in values]
         is_made = len(values) == 1 and values[0].how == "value" and not values[0].path
-        if is_made and others and all(_counts(b, name) for b in bindings):
-            if not _is_named_elsewhere(code, module, name):
-                yield name
+        is_made = is_made and bool(others) and all(_counts(b, name) for b in bindings)
+        if is_made and not _is_named_elsewhere(code, module, name):
+            yield name
 
 
 def _counts(binding: Binding, name: str) -> bool:

@@ -40,8 +40,8 @@ from rebsync.reverse.python.py_hooks import hooks_in
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import field, named, parse, text_of, unparsed
 from rebsync.reverse.python.py_values import PyValues
-from rebsync.reverse.python.sensor_effects import list_sensor_effects
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.python.sensor_effects import list_sensor_effects
 from rebsync.source import Source
 
 _WHY = "what this belongs to is no node of the model: only what it asks of ROS is read"

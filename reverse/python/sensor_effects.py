@@ -51,7 +51,9 @@ class _SensorCode:
     trees: Mapping[str, ast.Module]
     generated: frozenset[str]
 
-    def acting(self, path: str, given: ast.expr) -> Iterator[tuple[Source, ast.expr | ast.stmt, str]]:
+    def acting(
+        self, path: str, given: ast.expr
+    ) -> Iterator[tuple[Source, ast.expr | ast.stmt, str]]:
         """The places that may do more than to say what was seen."""
         source = self.sources[path]
         match given:
@@ -93,8 +95,8 @@ class _SensorCode:
             match node:
                 case ast.FunctionDef(name=own) | ast.ClassDef(name=own) if own == name:
                     yield path, node
-                case ast.Assign() | ast.AnnAssign() if self.sources[path].path not in self.generated:
-                    if any(isinstance(n, ast.Name) and n.id == name for n in ast.walk(node)):
+                case ast.Assign() | ast.AnnAssign() if name in names_in(node):
+                    if self.sources[path].path not in self.generated:
                         yield path, node
                 case _:
                     pass

@@ -68,15 +68,18 @@ class UserEffects:
         """The places that may do something to what the model has."""
         parts = {id(n.value) for n in ast.walk(root) if isinstance(n, ast.Attribute)}
         for node in ast.walk(root):
-            if isinstance(node, ast.expr | ast.stmt) and (why := self._done(node, id(node) in parts)):
+            if not isinstance(node, ast.expr | ast.stmt):
+                continue
+            if (why := self._done(node, id(node) in parts)) is not None:
                 yield node, why
 
     def _done(self, node: ast.expr | ast.stmt, is_part: bool) -> str | None:
         match node:
             case ast.While(test=ast.Constant()) if not _is_left(node):
                 return "nothing ends this loop"
-            case ast.Attribute(ctx=ast.Store() | ast.Del()) | ast.Subscript(
-                ctx=ast.Store() | ast.Del()
+            case (
+                ast.Attribute(ctx=ast.Store() | ast.Del())
+                | ast.Subscript(ctx=ast.Store() | ast.Del())
             ):
                 return self._stored(node)
             case ast.Attribute() | ast.Name() if not is_part:
@@ -111,7 +114,8 @@ class UserEffects:
         module, _, within = full.partition(".")
         looking = _LOOKING.get(module)
         is_odd = looking is not None and within.partition(".")[0] not in looking
-        is_reaching = is_odd or module in _REACHING or (libraries.is_of_client(full) and not is_known)
+        is_unknown = libraries.is_of_client(full) and not is_known
+        is_reaching = is_odd or module in _REACHING or is_unknown
         if (first in self.aliases and is_reaching) or text in _REACHING_NAMES:
             return f'"{text}" may do anything'
         return None

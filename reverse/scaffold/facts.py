@@ -65,9 +65,7 @@ def _text(data: bytes) -> str:
     return data.removeprefix(BOM).decode("utf-8", "replace").replace("\r\n", "\n")
 
 
-def _of_file(
-    name: str, source: Source, package: str, beside: tuple[str, ...]
-) -> Iterable[Fact]:
+def _of_file(name: str, source: Source, package: str, beside: tuple[str, ...]) -> Iterable[Fact]:
     match name.rpartition("/")[2]:
         case last if last.endswith((".msg", ".srv", ".action")):
             return facts_of_message(source, package)

@@ -39,7 +39,7 @@ _OF_ROS = frozenset({"rospy", "rclpy"})
 def facts_in_python(
     name: str, source: Source, package: str, beside: Collection[str] = ()
 ) -> Iterator[Fact]:
-    """The facts in a file of Python, of a package of that name; `beside` are files in its folder."""
+    """The facts in a file of Python, of a package of that name; `beside` is what its folder has."""
     tree = None if MODULE.match(name) else tree_of(source)
     if tree is None:
         return  # it is of the run-time part, or extraction lists it

@@ -24,7 +24,7 @@ _TESTS = frozenset({"test", "tests"})
 
 @dataclass(frozen=True, slots=True)
 class SetupFile:
-    """A `setup.py` of a package of a name; `files` are those in its folder, by their paths there."""
+    """A `setup.py` of a package of a name; `files` are the paths of those in its folder."""
 
     source: Source
     tree: ast.Module
@@ -82,10 +82,9 @@ class SetupFile:
     def _packages(self, node: ast.expr) -> str:
         """The packages of Python that are installed; those of tests do not count."""
         match node:
-            case ast.Call(function, [], keywords) if (
-                self._full(function) == "setuptools.find_packages"
-                and all(k.arg == "exclude" for k in keywords)
-            ):
+            case ast.Call(function, [], keywords) if self._full(
+                function
+            ) == "setuptools.find_packages" and all(k.arg == "exclude" for k in keywords):
                 excluded = [self._listed(k.value) for k in keywords]
                 if None not in excluded:
                     return self._found({e for each in excluded if each for e in each})
