@@ -79,7 +79,9 @@ class _SensorCode:
             if (place := waiting.pop()) in names:
                 continue
             names.add(place)
-            for file, node in self._declared(*place):
+            waiting += self._imported(*place)
+            file = place[0]
+            for node in self._declared(*place):
                 if node not in reached:
                     reached.add(node)
                     waiting += ((file, name) for name in names_in(node))
@@ -89,24 +91,27 @@ class _SensorCode:
     def _effects(self, path: str) -> UserEffects:
         return UserEffects.of(self.trees[path], self._modelled(path))
 
-    def _declared(self, path: str, name: str) -> Iterator[tuple[str, ast.stmt]]:
-        """The statements of a module that bind a name, and what it imports under that name."""
-        for node in self.trees[path].body:
+    def _declared(self, path: str, name: str) -> Iterator[ast.stmt]:
+        """The statements of a module that bind a name, wherever they stand."""
+        is_generated = self.sources[path].path in self.generated
+        for node in ast.walk(self.trees[path]):
             match node:
                 case ast.FunctionDef(name=own) | ast.ClassDef(name=own) if own == name:
-                    yield path, node
-                case ast.Assign() | ast.AnnAssign() if name in names_in(node):
-                    if self.sources[path].path not in self.generated:
-                        yield path, node
+                    yield node
+                case ast.Assign() | ast.AnnAssign() if not is_generated and name in names_in(node):
+                    yield node
                 case _:
                     pass
+
+    def _imported(self, path: str, name: str) -> Iterator[tuple[str, str]]:
+        """What a module imports under a name from others of the package that users wrote."""
         for node in ast.walk(self.trees[path]):
             if isinstance(node, ast.ImportFrom):
                 module = "." * node.level + (node.module or "")
                 for item in (a.name for a in node.names if name == (a.asname or a.name)):
                     for file in files_of_import(module, path, self.trees):
                         if self.sources[file].path not in self.generated:
-                            yield from self._declared(file, item)
+                            yield file, item
 
     def _modelled(self, path: str) -> frozenset[str]:
         """The names in a module that are of the package's classes and run-time part."""
