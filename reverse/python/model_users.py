@@ -85,7 +85,7 @@ def _effects(source: Source) -> tuple[UserEffects, dict[str, ast.stmt]]:
         if _is_of_package(node, own) and (node.module or "").rpartition(".")[2] not in _PLAIN
     )
     kinds = (ast.FunctionDef, ast.ClassDef)
-    functions = {n.name: n for n in ast.walk(tree) if isinstance(n, kinds)}
+    functions: dict[str, ast.stmt] = {n.name: n for n in ast.walk(tree) if isinstance(n, kinds)}
     return UserEffects.of(tree, modelled), functions
 
 
