@@ -82,7 +82,7 @@ class _Reach:
                 for cpp, node in self._declared(name):
                     waiting += _names_in(node)
                     listed: list[Node] = []
-                    for at, why in self._done_in(node):
+                    for at, why in self._done_in(cpp, node):
                         if not any(_is_in(at, outer) for outer in listed):
                             listed.append(at)
                             yield cpp.source, Unread(cpp.span(at), f"{_ASKED}: {why}")
@@ -100,13 +100,13 @@ class _Reach:
         for defined in self.code.macros.get(name, ()):
             yield self.code.file_of(defined), defined
 
-    def _done_in(self, node: Node) -> Iterator[tuple[Node, str]]:
+    def _done_in(self, cpp: Cpp, node: Node) -> Iterator[tuple[Node, str]]:
         """What the text of a function, or the declaration of what it names, does."""
         own = frozenset(n for d in inside(node, "declaration") for n in declared_names(d))
         for leaving in inside(node, *_NOT_ENDED):
             yield leaving, LEAVES.get(leaving.type, "this does something")
         for call in calls_in(node):
-            if (why := self._called(call)) is not None:
+            if (why := self._called(cpp, call)) is not None:
                 yield call.node, why
         for each in inside(node, *_NAMES):
             if (why := self._named(text_of(each), own)) is not None:
@@ -128,9 +128,9 @@ class _Reach:
             return f'"{name}" acts on the node'
         return None
 
-    def _called(self, call: CppCall) -> str | None:
+    def _called(self, cpp: Cpp, call: CppCall) -> str | None:
         name = call.name.rpartition("::")[2]
-        does = acts(call, True)
+        does = acts(cpp, call, True)
         if does is not None:
             return f'"{name}" {does}'
         if name in libraries.telling_words():
