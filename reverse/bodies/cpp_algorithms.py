@@ -21,7 +21,7 @@ from rebsync.static.types import INT, is_integer
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
-_EXTREMES = {"std::max_element": ">", "std::min_element": "<"}
+EXTREMES = {"std::max_element": ">", "std::min_element": "<"}
 _BEGINS, _ENDS = ("begin", "cbegin"), ("end", "cend")
 _MOST = 4  # elements of which a choice is written: each one more doubles what is to be said
 _LONGEST = 32  # elements that are added up, or counted
@@ -31,12 +31,12 @@ def dereferenced(reader: CppExpressionReader, node: Node) -> m.Expression | None
     """`*std::max_element(a.begin(), a.end())` over a whole array; None for another `*e`."""
     argument = node.child_by_field_name("argument")
     call_ = call_of(argument) if argument is not None else None
-    if call_ is None or call_.name not in _EXTREMES or text_of(node).startswith("&"):
+    if call_ is None or call_.name not in EXTREMES or text_of(node).startswith("&"):
         return None
     elements = _elements(reader, call_.arguments, _MOST)
     if elements is None:
         return None
-    sign = _EXTREMES[call_.name]
+    sign = EXTREMES[call_.name]
     return reduce(lambda most, x: chosen(binary(sign, x, most), x, most), elements)
 
 

@@ -10,6 +10,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.bodies import cpp_roots, known_functions
+from rebsync.reverse.bodies.cpp_algorithms import EXTREMES, whole_array
 from rebsync.reverse.bodies.cpp_endings import may_end
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOPS, OF_TEXTS, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
@@ -246,11 +247,28 @@ class Effects:
             self._method(call, name, of, meaning)
         if (does := known_functions.acts(self.cpp, call, has_mailbox(self.scope))) is not None:
             raise self._touches(node, f'"{text_of(part(node, "function"))}" {does}')
+        if self._looks_through(call):
+            return
         if known or known_functions.takes_values(call):
             for argument in call.arguments:
                 self.check(argument)
             return
         self._arguments(call.arguments)
+
+    def _looks_through(self, call: CppCall) -> bool:
+        """Whether `*std::max_element(a.begin(), a.end())` is only looked at where it stands."""
+        pointer = call.node.parent
+        above = pointer.parent if pointer is not None else None
+        is_value = pointer is not None and text_of(pointer).startswith("*")
+        if not is_value or above is None or call.name not in EXTREMES:
+            return False
+        if above.type == "argument_list" and above.parent is not None:
+            outer = self.scope.call(above.parent)
+            is_looked_at = outer is not None and known_functions.takes_values(outer)
+        else:
+            is_looked_at = above.type == "binary_expression" and ">>" not in text_of(above)
+        array = whole_array(call.arguments) if is_looked_at else None
+        return array is not None and array.type == "identifier"
 
     def _function(self, call: CppCall, name: str) -> bool:
         """Whether a function of the code only looks; `Touches` if it acts on more than it gets."""
@@ -333,6 +351,8 @@ class Effects:
             case Serves() | TimerOf():
                 if name not in libraries.looking():
                     raise self._touches(call.node, "this changes a timer, subscription or service")
+            case Variable(type=type_) if name == "load" and type_ and not type_.dimensions:
+                pass  # of an atomic number
             case Record() | Variable():
                 if name not in (libraries.looking() | OF_TEXTS) and is_modelled(target, meaning):
                     self._changes(call.node, of, f'this may change "{of}"')

@@ -21,6 +21,7 @@ from rebsync.reverse.generated.ros1_free import passed_by_reference
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import Taken, parameters_of
 from rebsync.reverse.generated.ros1_timers import Timer, sent_later, with_rearming
+from rebsync.reverse.generated.sensor_functions import SensorFunctions
 from rebsync.reverse.generated.sensors import list_unseen
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction, CppParameter
@@ -128,6 +129,13 @@ class GeneratedBodies:
         return read
 
     def _read(self, cpp: Cpp, inside: Scope, body: Node, within: str) -> m.Block:
+        """A body, and what it asks of sensors besides what they saw."""
+        read = self._said(cpp, inside, body, within)
+        for source, unread in SensorFunctions(self.code, inside).acting(cpp, body):
+            self.findings.unreadable(source, unread, within)
+        return read
+
+    def _said(self, cpp: Cpp, inside: Scope, body: Node, within: str) -> m.Block:
         """A body as generated code says it, or else, if it is exact, as people's code says it."""
         marked = self.findings.mark()
         read = _checked(CppStatements(cpp, inside, self.findings, within), body)

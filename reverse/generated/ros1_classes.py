@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync.names import carry, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_CLASSES, RESERVED
-from rebsync.reverse.bodies.cpp_types import class_name
+from rebsync.reverse.bodies.cpp_types import Carried, carried, class_name
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.scope import (
     Around,
@@ -395,6 +395,18 @@ class Classes:
             posts=dict(posts_in_bodies(self.code, owner, self.roles, self.served)),
             enumerators=enumerators(self.code),
             enums=frozenset(e.enum for all_ in self.code.enumerators.values() for e in all_),
+            aliases=_aliases(self.code),
             messages=self.messages,
             unit=self.unit,
         )
+
+
+def _aliases(code: Code) -> dict[str, Carried]:
+    """What the model keeps of the types that the code names, each by one name only."""
+    found: dict[str, Carried] = {}
+    for name, aliases in code.aliases.items():
+        kept = carried(aliases[0].type)
+        is_one = len({text_of(alias.type) for alias in aliases}) == 1
+        if kept is not None and is_one and name not in code.all_classes:
+            found[name] = kept
+    return found

@@ -9,6 +9,8 @@ from collections.abc import Collection, Iterable, Iterator
 
 from tree_sitter import Node
 
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.python.model_plumbing import DECORATORS
 from rebsync.reverse.python.py_evaluator import PyEvaluator
 from rebsync.reverse.python.py_index import FUNCTION, Scope
 from rebsync.reverse.python.py_tree import decorating, field, named, text_of
@@ -19,6 +21,23 @@ Departure = tuple[Node, str]
 _PLAIN_ROOTS = frozenset({"builtins", "abc", "typing", "typing_extensions"})
 _METACLASS = "abc.ABCMeta"
 _GENERIC = frozenset({"typing.Generic", "typing.Protocol", "typing_extensions.Protocol"})
+# Of the names that Python looks for in a class, those that change no behaviour of its objects.
+_PLAIN_NAMES = frozenset({"__init__", "__str__", "__repr__", "__doc__"})
+# The libraries whose classes generated ones have above them, or may have.
+_PLAIN_BASES = frozenset({"rclpy", "abc", "typing", "builtins"})
+_HINT = "take it out: no model says this"
+
+
+def list_creation(
+    values: PyEvaluator, owner: Scope, functions: Iterable[Scope], findings: Findings
+) -> None:
+    """Lists what makes a generated class, or a function of it, another than is read."""
+    for node, why in (
+        *class_departures(values, owner, _PLAIN_BASES),
+        *special_names(owner, _PLAIN_NAMES),
+        *renamed_decorators(values, functions, DECORATORS | {"property"}),
+    ):
+        findings.unreadable(owner.py.source, Unread(owner.py.span(node), why, _HINT), owner.name)
 
 
 def class_departures(

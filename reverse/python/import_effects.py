@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import ast
 import warnings
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from typing import TypeGuard
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from typing import TypeAlias, TypeGuard
 
 from rebsync.reverse.build.built_python import files_of_import, imported_by
 from rebsync.reverse.findings import Findings, Unread
@@ -46,6 +46,7 @@ _IN_SETUP = _PLAIN | {
 # What launch files are made of: they describe what is started, and run before it.
 _LAUNCH = ("launch.", "launch_ros.", "ament_index_python.", "nav2_common.launch.", "xacro.")
 _DESCRIBES = frozenset({"add_action", "add_entity", "append", "extend", "perform"})
+_Function: TypeAlias = "ast.FunctionDef | ast.AsyncFunctionDef"
 _CLASS_HOOKS = frozenset({"__init_subclass__", "__set_name__"})
 _MAKING = frozenset({"__init__", "__new__", "__post_init__", "__call__"})
 _BINDS = (ast.Import, ast.ImportFrom, ast.Pass, ast.Global, ast.Nonlocal)
@@ -55,7 +56,7 @@ def list_import_effects(
     sources: Mapping[str, Source], generated: Collection[str], findings: Findings
 ) -> None:
     """Lists what modules do that generated ones import; these are given by their paths."""
-    trees = {path: _parsed(sources[path].text) for path in sources}
+    trees = {path: parsed(sources[path].text) for path in sources}
     reached = set[str]()
     waiting = [path for path, source in sources.items() if source.path in generated]
     while waiting:
@@ -77,21 +78,21 @@ def list_definition_effects(source: Source, own: Collection[str], findings: Find
 
     `own` are the names of these classes, which are read themselves.
     """
-    tree = _parsed(source.text)
+    tree = parsed(source.text)
     if tree is not None:
         _list(source, _ImportedCode(tree).defining(own), findings)
 
 
 def list_setup_effects(source: Source, findings: Findings) -> None:
     """Lists what `setup.py` does besides to say what is installed."""
-    tree = _parsed(source.text)
+    tree = parsed(source.text)
     if tree is not None:
         _list(source, _ImportedCode(tree, _IN_SETUP).acting(), findings)
 
 
 def list_launch_effects(source: Source, findings: Findings) -> None:
     """Lists what a launch file does itself besides to describe what is started."""
-    tree = _parsed(source.text)
+    tree = parsed(source.text)
     if tree is None:
         return
     code = _LaunchCode(tree)
@@ -108,7 +109,8 @@ def _list(source: Source, nodes: Iterable[ast.stmt], findings: Findings) -> None
         findings.unreadable(source, Unread(Span(start, start + len(line)), _WHY), "")
 
 
-def _parsed(text: str) -> ast.Module | None:
+def parsed(text: str) -> ast.Module | None:
+    """The tree of a module; None of what is no Python."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
@@ -182,7 +184,7 @@ class _ImportedCode:
                 case _:
                     pass
 
-    def _is_plain_head(self, node: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
+    def _is_plain_head(self, node: _Function) -> bool:
         """Whether to define a function evaluates nothing that may act but for its decorators."""
         args = node.args
         parts = [*args.defaults, *args.kw_defaults]
@@ -278,8 +280,7 @@ class _ImportedCode:
         name = self._name_of(function)
         made = self._classes.get(name)
         if made is not None:
-            acting = _MAKING | _CLASS_HOOKS
-            return acting.isdisjoint(n.name for n in made.body if _is_function(n))
+            return self._is_made_plainly(made)
         if name in self._plain or self._is_plain_function(name):
             return True
         if isinstance(function, ast.Attribute) and isinstance(function.value, ast.Constant):
@@ -288,6 +289,38 @@ class _ImportedCode:
             of_function(Language.PYTHON, full).effect in (Effect.NONE, Effect.READS)
             for full in (name, f"builtins.{name}")
         )
+
+    def _is_made_plainly(self, made: ast.ClassDef) -> bool:
+        """Whether to make an object of a class only gives it plain members."""
+        functions = [n for n in made.body if _is_function(n)]
+        making = [n for n in functions if n.name in _MAKING]
+        if not _CLASS_HOOKS.isdisjoint(f.name for f in functions):
+            return False
+        if not making:
+            return True
+        is_plain = not made.bases and all(
+            f.name != "__setattr__" and "setter" not in map(_last_name, f.decorator_list)
+            for f in functions
+        )
+        return is_plain and all(
+            f.name == "__init__" and f.args.args and all(map(self._only_fills(f), f.body))
+            for f in making
+        )
+
+    def _only_fills(self, function: _Function) -> Callable[[ast.stmt], bool]:
+        """Whether a statement of a constructor only puts a plain value into a member."""
+        own = function.args.args[0].arg
+
+        def only_fills(node: ast.stmt) -> bool:
+            match node:
+                case ast.Assign([ast.Attribute(ast.Name(name))], value) if name == own:
+                    return self._is_plain(value)
+                case ast.AnnAssign(ast.Attribute(ast.Name(name)), _, value) if name == own:
+                    return value is None or self._is_plain(value)
+                case _:
+                    return self._only_gives(node)
+
+        return only_fills
 
     def _name_of(self, node: ast.expr) -> str:
         """The full name of what is called, by the imports."""
@@ -323,9 +356,13 @@ def _is_name(target: ast.expr) -> bool:
     return isinstance(target, ast.Name)
 
 
+def _last_name(node: ast.expr) -> str:
+    return node.attr if isinstance(node, ast.Attribute) else ""
+
+
 def _is_made(value: ast.expr) -> bool:
     return isinstance(value, ast.Dict | ast.List | ast.Set)
 
 
-def _is_function(node: ast.stmt) -> TypeGuard[ast.FunctionDef | ast.AsyncFunctionDef]:
+def _is_function(node: ast.stmt) -> TypeGuard[_Function]:
     return isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)

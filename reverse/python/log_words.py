@@ -6,3 +6,5 @@ HARMLESS = frozenset({"str", "repr", "len", "format", "round"})
 LOOKS = HARMLESS | {"abs", "bool", "list", "sorted", "sum", "tuple"}  # by these names alone
 # What may be asked of what tells the time.
 ON_CLOCKS = frozenset({"now", "to_msg", "to_nsec", "to_sec"})
+# The methods of a logger of Python's library that only log.
+LEVELS = frozenset({"debug", "info", "warning", "error", "critical"})

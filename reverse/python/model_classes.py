@@ -18,14 +18,10 @@ from rebsync.reverse.bodies.building import is_default
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.own_parameters import Stored, with_own
-from rebsync.reverse.python.class_creation import (
-    class_departures,
-    renamed_decorators,
-    special_names,
-)
+from rebsync.reverse.python.class_creation import list_creation
 from rebsync.reverse.python.model_bodies import ModelBodies
 from rebsync.reverse.python.model_overloads import families
-from rebsync.reverse.python.model_plumbing import DECORATORS, Plumbing, odd_at_top
+from rebsync.reverse.python.model_plumbing import Plumbing, odd_at_top, set_in
 from rebsync.reverse.python.model_posts import learn_servers
 from rebsync.reverse.python.model_queues import length_of
 from rebsync.reverse.python.model_roles import EnvUse, PyRoles, PySends, plain_name, roles_of
@@ -45,11 +41,6 @@ from rebsync.reverse.python.runtime_files import is_runtime_file
 
 # What the set-up of a server shows, whatever a marker says.
 _SHOWN = frozenset({"priority", "globalPriority"}) | OFFERS
-# Of the names that Python looks for in a class, those that change no behaviour of its objects.
-_PLAIN_NAMES = frozenset({"__init__", "__str__", "__repr__", "__doc__"})
-# The libraries whose classes generated ones have above them, or may have.
-_PLAIN_BASES = frozenset({"rclpy", "abc", "typing", "builtins"})
-_HINT = "take it out: no model says this"
 
 
 @dataclass(eq=False)
@@ -132,27 +123,26 @@ class ModelClasses:
         """All of them in the order of the code, or those of a file."""
         wanted = [o for o in self._owners if path is None or o.py.source.path == path]
         for module in {id(o.module): o.module for o in wanted}.values():
+            counters = self._counters(module)
             for node in odd_at_top(module, self._named):
+                if counters.intersection(set_in(node)):
+                    continue
                 unread = Unread(module.py.span(node), "what this does is not in the model")
                 self.findings.unreadable(module.py.source, unread, "")
         for owner in wanted:
-            self._list_creation(owner)
+            functions = self._of(owner).functions.values()
+            list_creation(self._values, owner, functions, self.findings)
         return tuple(
             self._reactive(o) if self._has_mailbox(o) else self._interface(o)
             for o in wanted
             if not self._is_helping(o)
         )
 
-    def _list_creation(self, owner: Scope) -> None:
-        """Lists what makes a class, or a function of it, another than is read."""
-        functions = self._of(owner).functions.values()
-        for node, why in (
-            *class_departures(self._values, owner, _PLAIN_BASES),
-            *special_names(owner, _PLAIN_NAMES),
-            *renamed_decorators(self._values, functions, DECORATORS | {"property"}),
-        ):
-            unread = Unread(owner.py.span(node), why, _HINT)
-            self.findings.unreadable(owner.py.source, unread, owner.name)
+    def _counters(self, module: Scope) -> frozenset[str]:
+        """The variables of a module that only people are told of, whichever class counts."""
+        owners = [o for o in self._owners if o.module is module]
+        found = [self._bodies.names(o).silent.counters for o in owners]
+        return frozenset.intersection(*found) if found else frozenset()
 
     def arguments(self) -> dict[str, list[str]]:
         """The parameters that the constructors of classes read for their arguments, in order."""
@@ -199,7 +189,7 @@ class ModelClasses:
         functions = self._of(owner).functions.values()
         servers = tuple(self._server(owner, f, plain_name(f)) for f in functions)
         self._bodies.list_beyond(owner, None)
-        line = _once(self.line(owner)[1:])
+        line = self.line(owner)[1:]
         extends = tuple(class_name(c.name) for c in line if self._is_base(owner, c))
         span = owner.py.span(owner.node)
         return m.Interface(
@@ -241,7 +231,7 @@ class ModelClasses:
         members += [self._method(owner, f) for f in self._bodies.helpers(owner)]
         is_whole = self._is_alone(owner) and len(self.findings.all) == before
         self._bodies.list_beyond(owner, constructors if is_whole else None)
-        own = (c for c in _once(self.line(owner)[1:]) if not is_runtime_file(c.py.source))
+        own = (c for c in self.line(owner)[1:] if not is_runtime_file(c.py.source))
         above = (c for c in own if not self._is_helping(c))
         bases = [c for c in above if self._is_base(owner, c)]
         extends = [class_name(c.name) for c in bases if self._has_mailbox(c)]
@@ -260,7 +250,7 @@ class ModelClasses:
         """The functions of a class, and those that it has from classes that are only helpers."""
         own = self._of(owner).functions
         yield from own.values()
-        line = _once(self.line(owner)[1:])
+        line = self.line(owner)[1:]
         nearest = next((i for i, c in enumerate(line) if self._has_mailbox(c)), len(line))
         for above in filter(self._is_helping, line[:nearest]):
             yield from (f for n, f in self._of(above).functions.items() if n not in own)
@@ -394,11 +384,6 @@ class ModelClasses:
             for name, read, value in given
             if not is_default(read)
         )
-
-
-def _once(line: list[Scope]) -> list[Scope]:
-    """The classes above one, of which some may be above each other too."""
-    return list({id(c): c for c in line}.values())
 
 
 def _is_marked(owner: Scope) -> bool:

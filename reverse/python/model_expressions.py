@@ -178,6 +178,8 @@ class Expressions(ModelExpressionReader):
     def _attribute(self, node: Node) -> m.Expression:
         span, name = self.py.span(node), text_of(field(node, "attribute"))
         variable = self.names.variables.get(name)
+        if (stands := self.bound.get(text_of(node))) is not None:
+            return stands
         if (constant := self.names.constants.get(text_of(node))) is not None:
             return located(constant, span)
         is_own = text_of(field(node, "object")) == self.own

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
@@ -10,9 +10,9 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.python.log_words import LOOKS, ON_CLOCKS
+from rebsync.reverse.python.log_words import LEVELS, LOOKS, ON_CLOCKS
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import CLASS, PyCode, Scope
+from rebsync.reverse.python.py_index import CLASS, PyCode, Scope, has_splat
 from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
 
@@ -27,7 +27,9 @@ class Looks:
     `trusted` are names that stand for what Python and ROS have by them, "self" among them for a
     node of ROS 2; `functions` those of classes, of which one may be a property that does something;
     `makers` what makes messages. `own` are methods of the model, whose calls count as pure: who
-    leaves out the rest has to keep these.
+    leaves out the rest has to keep these. `loggers`, `tables` and `clocks` are names of the module
+    that stand for a logger of Python's library, a dictionary of literals, and what tells the time;
+    `records` are its classes whose objects only hold what they are made of, with their fields.
     """
 
     trusted: frozenset[str] = with_default(
@@ -36,6 +38,10 @@ class Looks:
     functions: frozenset[str] = frozenset()
     makers: frozenset[str] = frozenset()
     own: frozenset[str] = frozenset()
+    loggers: frozenset[str] = frozenset()
+    tables: frozenset[str] = frozenset()
+    clocks: frozenset[str] = frozenset()
+    records: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
 
     def is_pure(self, node: Node) -> bool:
         """Whether nothing happens where an expression is evaluated."""
@@ -55,11 +61,16 @@ class Looks:
             return called.partition(".")[0] in self.trusted
         if own_method(call) in libraries.own_name_methods():
             return self._is_node and own_method(call) not in self.functions
+        if called in self.clocks:
+            return not named(field(call, "arguments"))
         if function.type == "identifier":
-            return called in self.makers or (called in LOOKS and called in self.trusted)
+            is_built_in = called in LOOKS and called in self.trusted
+            return is_built_in or called in self.makers or self.makes_record(call)
         if function.type != "attribute":
             return False
         holder, name = field(function, "object"), text_of(field(function, "attribute"))
+        if name == "get" and text_of(holder) in self.tables:
+            return len(named(field(call, "arguments"))) in (1, 2)
         if name in ON_CLOCKS:
             return holder.type == "call" and not named(field(call, "arguments"))
         return name == "format" and holder.type in ("string", "concatenated_string")
@@ -67,7 +78,9 @@ class Looks:
     def logs(self, call: Node) -> bool:
         """Whether a call only logs what is there already."""
         called = text_of(field(call, "function"))
-        head = called.partition(".")[0]
+        head, _, method = called.partition(".")
+        if head in self.loggers and method in LEVELS:
+            return self.is_pure(field(call, "arguments"))
         if libraries.log_words().match(called) is None:
             return False
         if head in libraries.modules_of_logs() and head not in self.trusted:
@@ -75,6 +88,21 @@ class Looks:
         if called.startswith("self.get_logger") and not self._is_node:
             return False
         return self.is_pure(field(call, "arguments"))
+
+    def makes_record(self, call: Node) -> bool:
+        """Whether a call makes an object that only holds its arguments, one for each field."""
+        function = call.child_by_field_name("function")
+        fields = self.records.get(text_of(function)) if function is not None else None
+        given = named(field(call, "arguments")) if fields is not None else []
+        names = [text_of(field(a, "name")) for a in given if a.type == "keyword_argument"]
+        plain = fields[: len(given) - len(names)] if fields is not None else ()
+        is_whole = sorted([*plain, *names]) == sorted(fields or ()) and not has_splat(call)
+        return fields is not None and len(given) == len(fields) and is_whole
+
+    def tells_time(self, node: Node) -> bool:
+        """Whether a value is what a clock tells."""
+        called = text_of(field(node, "function")) if node.type == "call" else ""
+        return called in libraries.clocks() | self.clocks and self.is_pure(node)
 
     @property
     def _is_node(self) -> bool:

@@ -390,3 +390,10 @@ def _inner(statement: Node) -> Node | None:
 def _is_text(statement: Node) -> bool:
     inner = _inner(statement)
     return inner is not None and inner.type in ("string", "concatenated_string")
+
+
+def set_in(statement: Node) -> Iterator[str]:
+    """The variable that a statement at the top of a module makes."""
+    inner = named(statement)[0] if named(statement) else statement
+    if inner.type == "assignment":
+        yield text_of(field(inner, "left"))

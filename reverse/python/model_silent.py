@@ -15,6 +15,7 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1, PUBLISHER_METHOD
 from rebsync.reverse.python.model_locks import may_lock, waiting_methods
 from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
@@ -22,9 +23,11 @@ from rebsync.reverse.python.model_roles import PyRoles, is_of_node
 from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
 from rebsync.reverse.python.model_timers import Timers
 from rebsync.reverse.python.model_types import call_parts, string_value
+from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, is_label, named, nodes_in, text_of
+from rebsync.reverse.python.record_classes import records_in
 from rebsync.reverse.syntax.ancestors import ancestors, climb
 
 _SET_UP = ("__init__", "_wire")
@@ -32,6 +35,11 @@ _VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
 _LOCKS = {"threading.Lock": False, "threading.RLock": True}
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
+_LITERALS = frozenset({"integer", "float", "string", "none", "true", "false"})
+_TABLE = _LITERALS | {
+    *("dictionary", "pair", "string_start", "string_content", "string_end", "unary_operator"),
+    "comment",
+}
 _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
 _GROWING = frozenset({"append", "clear"})
 
@@ -40,8 +48,9 @@ _GROWING = frozenset({"append", "clear"})
 class Silent:
     """The silent members of a class: `texts` are told to people only, `locks` whether again.
 
-    `ticking` are timers that only log, as `timers` tells them. `locals` are the messages that a
-    function makes for people, by the function's node; `waiting` are methods that may lock.
+    `ticking` are timers that only log, as `timers` tells them. `locals` are what a function makes
+    or measures for people, by the function's node, and `counters` variables of the module;
+    `waiting` are methods that may lock.
     """
 
     texts: frozenset[str] = frozenset()
@@ -52,6 +61,7 @@ class Silent:
     timers: Timers = Timers()
     shown: dict[str, Shown] = with_default(default_factory=dict)
     waiting: frozenset[str] = frozenset()
+    counters: frozenset[str] = frozenset()
 
     @property
     def looks(self) -> Looks:
@@ -77,6 +87,8 @@ class Silent:
             return True
         if node.type == "if_statement":
             return all(map(self._branch_holds, [node, *node.children_by_field_name("alternative")]))
+        if node.type == "global_statement":
+            return self.counters.issuperset(map(text_of, named(node)))
         inner = named(node)[0] if node.type == "expression_statement" and named(node) else None
         if inner is None:
             return False
@@ -111,7 +123,12 @@ class Silent:
             node = field(node, "object")
         if node.type == "attribute":
             return text_of(field(node, "attribute")) in self.texts
-        return node.type == "identifier" and text_of(node) in self.locals.get(_function(node), ())
+        if node.type != "identifier":
+            return False
+        name = text_of(node)
+        if name in self.locals.get(_function(node), ()):
+            return True
+        return name in self.counters and _is_of_module(node, name)
 
     def _is_made(self, node: Node) -> bool:
         """Whether a value only takes up what is there, or is a parameter of the node's own."""
@@ -145,6 +162,15 @@ def silent_in(
     makers = frozenset(_makers(owner.module))
     modules = [*{id(c.module): c.module for c in line}.values()]
     looks = looks_in(code, modules, makers)
+    hidden = _hidden(code, owner.module)
+    records = records_in(code, owner.module)
+    looks = replace(
+        looks,
+        loggers=_loggers(owner.module) - hidden,
+        tables=_tables(code, owner.module) - hidden,
+        clocks=frozenset(n for n in owner.module.names if _is_clock(owner.module, n)) - hidden,
+        records={name: fields for name, fields in records.items() if name not in hidden},
+    )
     taken |= looks.functions
     made = {name: value for name, value in _made(functions) if name not in taken}
     members = {name: value for name, value in made.items() if not is_of_node(name)}
@@ -153,16 +179,17 @@ def silent_in(
     timers = Timers.of(code, {n: functions[n] for n in roles[0].ticking}, looks)
     locks = {n: _LOCKS[lock] for n, v in members.items() if (lock := _lock(owner.module, v))}
     found = Silent(
-        frozenset(n for n, v in members.items() if v.type in _VALUES or _own_parameter(v)),
+        frozenset(n for n, v in members.items() if _is_told(v, looks)),
         frozenset(n for n, v in publishers.items() if _is_publisher(v, makers)),
         frozenset(n for n, v in members.items() if timers.is_idle(v)),
         locks,
-        {f.node.id: frozenset(_messages(f, makers)) for f in functions.values()},
+        {f.node.id: _locals(f, makers, looks) for f in functions.values()},
         timers,
         {n: s for n, v in publishers.items() if (s := shown_by(code, owner.module, v, variables))},
         waiting_methods(code) if locks else frozenset(),
+        frozenset(_counters(code, owner.module)) - hidden,
     )
-    while members or any(found.locals.values()):
+    while members or found.counters or any(found.locals.values()):
         wrong = {n for module in modules for n in _odd(found, module.node)}
         if not wrong:
             break
@@ -185,6 +212,7 @@ def _without(silent: Silent, wrong: set[str]) -> Silent:
         locks=locks,
         locals=locals_,
         shown=shown,
+        counters=silent.counters - wrong,
     )
 
 
@@ -272,6 +300,128 @@ def _messages(function: Scope, makers: frozenset[str]) -> Iterator[str]:
             yield name
 
 
+def _is_told(value: Node, looks: Looks) -> bool:
+    """Whether a member may be for people only, by what the constructor puts there."""
+    return value.type in _VALUES or _own_parameter(value) or looks.tells_time(value)
+
+
+def _locals(function: Scope, makers: frozenset[str], looks: Looks) -> frozenset[str]:
+    """The locals of a function that are messages for people or records, or go by the clock."""
+    found = set(_messages(function, makers))
+    every = {
+        name: [b.value for b in bindings]
+        for name, bindings in function.names.items()
+        if all(b.how == "value" and not b.path for b in bindings)
+    }
+    while fresh := {
+        name
+        for name, values in every.items()
+        if name not in found
+        and all(map(looks.is_pure, values))
+        and any(_depends(value, found, looks) for value in values)
+    }:
+        found |= fresh
+    return frozenset(name for name in found if _is_set_first(function.node, name))
+
+
+def _is_set_first(function: Node, name: str) -> bool:
+    """Whether a local is set before all else that names it, in the block that has all of that."""
+    uses = [n for n in nodes_in(function) if n.type == "identifier" and text_of(n) == name]
+    uses = [n for n in uses if not is_label(n)]
+    statement = climb(uses[0], lambda n: n.type == "expression_statement")
+    block = statement.parent if statement is not None else None
+    if statement is None or block is None:
+        return False
+    if named(statement)[0].child_by_field_name("left") != uses[0]:
+        return False
+    return uses[-1].end_byte <= block.end_byte and len(uses) > 1
+
+
+def _depends(value: Node, on: Collection[str], looks: Looks) -> bool:
+    return any(
+        looks.tells_time(n)
+        or (n.type == "call" and looks.makes_record(n))
+        or (n.type == "identifier" and text_of(n) in on)
+        for n in nodes_in(value)
+    )
+
+
+def _counters(code: PyCode, module: Scope) -> Iterator[str]:
+    """The variables of a module that are made of a literal at its top, and that no other names."""
+    for name, bindings in module.names.items():
+        values = [b for b in bindings if b.node.parent and b.node.parent.parent == module.node]
+        others = [b for b in bindings if b not in values]
+        is_made = len(values) == 1 and values[0].how == "value" and not values[0].path
+        is_made = is_made and bool(others) and all(_counts(b, name) for b in bindings)
+        if is_made and not _is_named_elsewhere(code, module, name):
+            yield name
+
+
+def _counts(binding: Binding, name: str) -> bool:
+    """Whether a variable gets a number, or has one added that is written out."""
+    value = binding.value
+    if binding.how == "augmented":
+        return value.type == "integer" and text_of(binding.node).partition("=")[0][-1:] in "+-*"
+    if value.type == "binary_operator" and text_of(field(value, "operator")) in "+-*":
+        sides = field(value, "left"), field(value, "right")
+        return all(n.type == "integer" or text_of(n) == name for n in sides)
+    return binding.how == "value" and not binding.path and value.type in ("integer", "float")
+
+
+def _hidden(code: PyCode, module: Scope) -> frozenset[str]:
+    """The names that functions and classes of a module bind as their own."""
+    path = module.py.source.path
+    inner = (s for (of, _), s in code.scopes.items() if of == path and s is not module)
+    return frozenset(name for scope in inner for name in scope.names)
+
+
+def _is_named_elsewhere(code: PyCode, module: Scope, name: str) -> bool:
+    """Whether another module may look at a variable of a module, or change it."""
+    word = re.compile(rf"\b{re.escape(name)}\b")
+    others = (m for m in code.modules.values() if m is not module)
+    return any(word.search(m.py.source.text) for m in others)
+
+
+def _is_clock(module: Scope, name: str) -> bool:
+    """Whether a name of a module is imported, and is a function that tells the time."""
+    return _imported(module, name) in libraries.clocks()
+
+
+def _loggers(module: Scope) -> frozenset[str]:
+    """The variables of a module that only ever are a logger of Python's library."""
+    found = set[str]()
+    for name, bindings in module.names.items():
+        called, arguments = _parts(bindings[0].value) if len(bindings) == 1 else ("", [])
+        head, _, rest = called.partition(".")
+        whole = ".".join(filter(None, (_imported(module, head), rest)))
+        is_named = all(a.type in ("identifier", "string") for a in arguments)
+        if whole == "logging.getLogger" and bindings[0].how == "value" and is_named:
+            found.add(name)
+    return frozenset(found)
+
+
+def _tables(code: PyCode, module: Scope) -> frozenset[str]:
+    """The variables of a module that are a dictionary of literals, which nothing changes."""
+    found = set[str]()
+    for name, bindings in module.names.items():
+        value = bindings[0].value
+        is_made = len(bindings) == 1 and bindings[0].how == "value" and value.type == "dictionary"
+        if is_made and all(n.type in _TABLE for n in nodes_in(value)):
+            uses = (n for n in nodes_in(module.node) if n.type == "identifier")
+            names = [n for n in uses if text_of(n) == name and not is_label(n)]
+            if all(map(_is_looked_up, names)) and not _is_named_elsewhere(code, module, name):
+                found.add(name)
+    return frozenset(found)
+
+
+def _is_looked_up(node: Node) -> bool:
+    """Whether the name of a table stands where it is made, or asked for an element."""
+    above = node.parent
+    if above is None or above.type == "assignment":
+        return above is not None and above.child_by_field_name("left") == node
+    return above.type == "attribute" and text_of(field(above, "attribute")) == "get"
+
+
 # --- where they are used ------------------------------------------------------------------------
 
 
@@ -287,7 +437,9 @@ def _odd(silent: Silent, root: Node) -> set[str]:
                 found.add(name)
         elif node.type == "identifier" and not is_label(node):
             name = text_of(node)
-            is_local = name in silent.locals.get(_function(node), ())
+            is_local = name in silent.counters or any(
+                name in silent.locals.get(f.id, ()) for f in _functions(node)
+            )
             if is_local and not _is_quiet(silent, node, name):
                 found.add(name)
         elif node.type == "string_content" and text_of(node) in members:
@@ -302,6 +454,8 @@ def _is_quiet(silent: Silent, node: Node, name: str) -> bool:
             return name in silent.locks and text_of(above) == f"self.{name}"
         if above.type == "expression_statement" and _sets_up(above, name):
             return True
+        if above.type == "global_statement":
+            return name in silent.counters
         if silent.holds(above):
             return True
     return False
@@ -312,12 +466,25 @@ def _sets_up(statement: Node, name: str) -> bool:
     inner = named(statement)[0]
     function = _enclosing(statement)
     is_first = function is not None and text_of(field(function, "name")) in _SET_UP
-    is_made = inner.type == "assignment" and text_of(field(inner, "left")) == f"self.{name}"
-    return is_first and is_made
+    left = text_of(field(inner, "left")) if inner.type == "assignment" else ""
+    return (is_first and left == f"self.{name}") or (function is None and left == name)
 
 
 def _enclosing(node: Node) -> Node | None:
     return climb(node, lambda n: n.type == "function_definition")
+
+
+def _functions(node: Node) -> Iterator[Node]:
+    """The functions that something is in."""
+    return (n for n in ancestors(node) if n.type == "function_definition")
+
+
+def _is_of_module(node: Node, name: str) -> bool:
+    """Whether a function says that a variable is the module's."""
+    function = _enclosing(node)
+    statements = nodes_in(function) if function is not None else ()
+    said = (n for n in statements if n.type == "global_statement")
+    return any(name in map(text_of, named(n)) for n in said)
 
 
 def _function(node: Node) -> int:

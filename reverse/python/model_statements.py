@@ -16,6 +16,7 @@ from rebsync.reverse.python import model_aliases as aliases
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python import model_inner as inner_functions
 from rebsync.reverse.python import model_loops as loops
+from rebsync.reverse.python import model_records as records
 from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_users as users
 from rebsync.reverse.python.model_failing import failing, may_fail, methods_of
@@ -64,7 +65,10 @@ class Statements(ModelStatementReader):
                     found.append(m.Continue(span=self.expressions.py.span(node)))
                     waiting.pop(0)
                     continue
-                if (read_behind := aliases.behind(self, node, list(waiting))) is not None:
+                read_behind = aliases.behind(self, node, list(waiting))
+                if read_behind is None:
+                    read_behind = records.behind(self, node, list(waiting))
+                if read_behind is not None:
                     self.findings.statements[self.within] += 1
                     return iter([*found, *read_behind])
                 sent = filled(self.expressions, node, waiting)

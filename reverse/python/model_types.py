@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 
 from tree_sitter import Node
 
@@ -12,7 +13,8 @@ from rebsync.names import uncarry
 from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import Py, field, named, text_of
+from rebsync.reverse.python.py_tree import Py, field, named, nodes_in, parse, text_of
+from rebsync.source import Source
 
 _PLAIN = {
     "Byte": "byte",
@@ -24,6 +26,7 @@ _PLAIN = {
     "None": "void",
 }
 _MARKER = re.compile(r"#\s*rebsync:\s*(.*?)\s*$")
+_QUOTES = "\"'"
 _UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(")
 
 
@@ -38,6 +41,8 @@ def type_of(node: Node | None) -> m.Type | None:
         return None
     if node.type == "type":
         return type_of(named(node)[0]) if named(node) else None
+    if node.type == "string":
+        return _quoted(text_of(node))
     if node.type in ("identifier", "none"):
         plain = _PLAIN.get(text_of(node))
         return m.Type(plain) if plain is not None else None
@@ -48,6 +53,14 @@ def type_of(node: Node | None) -> m.Type | None:
     else:
         return None
     return _generic(text_of(head), parameters)
+
+
+@lru_cache(maxsize=256)
+def _quoted(text: str) -> m.Type | None:
+    """The type that an annotation in quotes says."""
+    annotation = parse(Source("", f"x: {text.strip(_QUOTES)}")).root
+    types = [n for n in nodes_in(annotation) if n.type == "type"]
+    return type_of(types[0]) if types and not annotation.has_error else None
 
 
 def _generic(head: str, parameters: list[Node]) -> m.Type | None:

@@ -5,14 +5,19 @@ They may look at what the model has, and do what they like with the rest.
 
 from __future__ import annotations
 
+import ast
 import re
+import textwrap
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
+from rebsync.reverse.python.import_effects import parsed
 from rebsync.reverse.python.log_words import HARMLESS
 from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.user_effects import UserEffects, names_in
+from rebsync.source import Source
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
@@ -21,6 +26,7 @@ _BLOCK = re.compile(r"^[ \t]*#\s*rebsync:\s*(user\s+\S+|end\b)", re.MULTILINE)
 _LEAVING = frozenset(
     {"return_statement", "break_statement", "continue_statement", "raise_statement", "yield"}
 )
+_PLAIN = frozenset({"values", "msg", "srv"})  # modules of a package that only have values
 _STORING = {
     "assignment": "left",
     "augmented_assignment": "left",
@@ -52,6 +58,42 @@ def _blocks(text: str) -> tuple[tuple[int, int], ...]:
 
 def check(reader: ModelExpressionReader, node: Node) -> None:
     """Unread: a statement of a user's block does something to what the model has."""
+    _check_part(reader, node)
+    effects, functions = _effects(reader.py.source)
+    indented = " " * node.start_point.column + text_of(node)
+    waiting: list[ast.AST] = [ast.parse(textwrap.dedent(indented))]
+    reached = set[str]()
+    while waiting:
+        part = waiting.pop()
+        for _, why in effects.acting(part):
+            raise reader.unread(node, why)
+        fresh = (set(names_in(part)) & functions.keys()) - reached
+        reached |= fresh
+        waiting += (functions[name] for name in fresh)
+
+
+@lru_cache(maxsize=8)
+def _effects(source: Source) -> tuple[UserEffects, dict[str, ast.stmt]]:
+    """What the names of a module do, and its functions and classes."""
+    tree = parsed(source.text) or ast.Module([], [])
+    own = source.path.rpartition("/")[0].rpartition("/")[2]
+    imports = (n for n in ast.walk(tree) if isinstance(n, ast.ImportFrom))
+    modelled = frozenset(
+        a.asname or a.name
+        for node in imports
+        for a in node.names
+        if _is_of_package(node, own) and (node.module or "").rpartition(".")[2] not in _PLAIN
+    )
+    kinds = (ast.FunctionDef, ast.ClassDef)
+    functions: dict[str, ast.stmt] = {n.name: n for n in ast.walk(tree) if isinstance(n, kinds)}
+    return UserEffects.of(tree, modelled), functions
+
+
+def _is_of_package(node: ast.ImportFrom, own: str) -> bool:
+    return node.level > 0 or (node.module or "").partition(".")[0] == own
+
+
+def _check_part(reader: ModelExpressionReader, node: Node) -> None:
     if node.type in _LEAVING:
         raise reader.unread(node, "a user's block must be run through")
     if node.type in _STORING:
@@ -62,7 +104,7 @@ def check(reader: ModelExpressionReader, node: Node) -> None:
         _check_name(reader, node)
         return
     for child in named(node):
-        check(reader, child)
+        _check_part(reader, child)
 
 
 def _check_stored(reader: ModelExpressionReader, target: Node) -> None:

@@ -45,6 +45,7 @@ from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import field, named, parse, text_of, unparsed
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.python.sensor_effects import list_sensor_effects
 from rebsync.source import Source
 
 _WHY = "what this belongs to is no node of the model: only what it asks of ROS is read"
@@ -179,6 +180,7 @@ def read_python(
         for module in {id(o.module): o.module for o in classes.owners}.values():
             names = {o.name for o in classes.owners if o.module is module}
             list_definition_effects(module.py.source, names, findings)
+        list_sensor_effects(python.sources, _read_paths(python), findings)
     is_people = partial(_is_people, own=own)
     scripts = scripts_of(files or {})
     entries = entries_of(files or {})

@@ -42,14 +42,23 @@ def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
     for name, path in sorted(paths.items()):
         with suppress(RebsyncError):  # what cannot be read, extraction lists
             source = Source(path, compiled_text(name, _text(read_bytes(path))))
-            for fact in _told(name, source, package):
+            for fact in _told(name, source, package, _beside(name, paths)):
                 found.setdefault(fact.key, []).append(fact)
     return found
 
 
 @lru_cache(maxsize=256)  # most texts are there as they were and as they are, and asked for again
-def _told(name: str, source: Source, package: str) -> tuple[Fact, ...]:
-    return tuple(_of_file(name, source, package))
+def _told(name: str, source: Source, package: str, beside: tuple[str, ...]) -> tuple[Fact, ...]:
+    return tuple(_of_file(name, source, package, beside))
+
+
+def _beside(name: str, paths: Iterable[str]) -> tuple[str, ...]:
+    """The files in the folder of a `setup.py`, which may look for them; none for other files."""
+    folder, _, last = name.rpartition("/")
+    if last != "setup.py":
+        return ()
+    inside = f"{folder}/" if folder else ""
+    return tuple(sorted(p.removeprefix(inside) for p in paths if p.startswith(inside)))
 
 
 def _text(data: bytes) -> str:
@@ -57,7 +66,7 @@ def _text(data: bytes) -> str:
     return data.removeprefix(BOM).decode("utf-8", "replace").replace("\r\n", "\n")
 
 
-def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
+def _of_file(name: str, source: Source, package: str, beside: tuple[str, ...]) -> Iterable[Fact]:
     match name.rpartition("/")[2]:
         case last if last.endswith((".msg", ".srv", ".action")):
             return facts_of_message(source, package)
@@ -76,6 +85,6 @@ def _of_file(name: str, source: Source, package: str) -> Iterable[Fact]:
         case _ if is_python(name, source):
             from rebsync.reverse.scaffold.python import facts_in_python
 
-            return facts_in_python(name, source, package)
+            return facts_in_python(name, source, package, beside)
         case last:
             return facts_in_cpp(Path(last).stem, source)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import groupby
 from pathlib import Path
 
@@ -26,6 +26,7 @@ from rebsync.reverse.scaffold.python_trees import (
     span_of,
     tree_of,
 )
+from rebsync.reverse.scaffold.setup_file import SetupFile
 from rebsync.source import Source
 
 _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
@@ -33,16 +34,17 @@ _CONNECTING = {"subscribe": "subscribe", "subscribe_on_bridge": "subscribeOnBrid
 _UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(")
 _FILLS = re.compile(r"_local\d+\.\w+ = \w+\Z")
 _OF_ROS = frozenset({"rospy", "rclpy"})
-_ENTRY = re.compile(r"\s*(\w+)\s*=\s*([\w.]+:\w+)\s*\Z")
 
 
-def facts_in_python(name: str, source: Source, package: str) -> Iterator[Fact]:
-    """The facts in a file of Python, of a package of that name."""
+def facts_in_python(
+    name: str, source: Source, package: str, beside: Collection[str] = ()
+) -> Iterator[Fact]:
+    """The facts in a file of Python, of a package of that name; `beside` is what its folder has."""
     tree = None if MODULE.match(name) else tree_of(source)
     if tree is None:
         return  # it is of the run-time part, or extraction lists it
     if name.rpartition("/")[2] == "setup.py":
-        yield from _entries(source, tree, package)
+        yield from SetupFile(source, tree, package, beside).facts()
         return
     classes = [c for c in tree.body if isinstance(c, ast.ClassDef) and _is_node(c)]
     found = [f for c in classes for f in _Class.of(source, tree, c).facts()]
@@ -238,48 +240,6 @@ def _program(stem: str, source: Source, tree: ast.Module) -> Iterator[Fact]:
                 yield Fact(PLAYED, stem, name, name, source, span_of(source, node))
             case _:
                 pass
-
-
-def _entries(source: Source, tree: ast.Module, package: str) -> Iterator[Fact]:
-    """The programs that are installed, and the packages of Python."""
-    for node in ast.walk(tree):
-        match node:
-            case ast.Constant(str(text)) if (entry := _ENTRY.match(text)) is not None:
-                value = re.sub(rf"^{re.escape(package)}\.", "", entry[2])
-                span = span_of(source, node)
-                yield Fact("installed program", "", entry[1], value, source, span)
-            case ast.keyword("data_files", ast.List(listed)):
-                for each in listed:
-                    for name, text in _installed(each):
-                        yield Fact("installed file", "", name, text, source, span_of(source, each))
-            case ast.keyword("packages" | "package_dir" as name, value):
-                text = plain(value).replace(f"'{package}'", "package_name")
-                yield Fact("Python package", "", name, text, source, span_of(source, value))
-            case _:
-                pass
-
-
-def _installed(entry: ast.expr) -> Iterator[tuple[str, str]]:
-    """Where files are installed to, and what they are; one by one where they are listed."""
-    match entry:
-        case ast.Tuple([to, ast.List(files)]) if all(map(_path, files)):
-            for file in files:
-                yield f"{plain(to)}/{_path(file).rpartition('/')[2]}", _path(file)
-        case ast.Tuple([to, *files]):
-            yield plain(to), ", ".join(map(plain, files))
-        case _:
-            yield plain(entry), ""
-
-
-def _path(file: ast.expr) -> str:
-    """A path that is written out, perhaps with names in it; empty for what computes one."""
-    match file:
-        case ast.Constant(str(text)):
-            return text
-        case ast.JoinedStr():
-            return plain(file).removeprefix("f").strip("'")
-        case _:
-            return ""
 
 
 def _imports(source: Source, tree: ast.Module, node: ast.ClassDef, package: str) -> Iterator[Fact]:

@@ -30,7 +30,8 @@ FILES = (
     *("harmless.toml", "library.toml", "forms.toml", "posts.toml", "shown.toml"),
     *("messages.toml", "natural.toml", "natural_python.toml"),
     *("natural_rclpy.toml", "natural_sensors.toml", "joined.toml", "months.toml"),
-    *("early.toml", "compiled_python.toml", "compiled_cpp.toml"),
+    *("early.toml", "compiled_python.toml", "compiled_cpp.toml", "sensors.toml"),
+    *("helpers_python.toml", "helpers_cpp.toml", "builds.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 

@@ -1,0 +1,160 @@
+"""The facts of a `setup.py`: programs and files that are installed, and the packages of Python.
+
+What it looks for in the folder, by `glob` and `find_packages`, are the files that are there.
+"""
+
+from __future__ import annotations
+
+import ast
+import posixpath
+import re
+from collections.abc import Collection, Iterator
+from fnmatch import fnmatchcase
+
+from rebsync.records import dataclass
+from rebsync.reverse.scaffold.fact import Fact
+from rebsync.reverse.scaffold.python_trees import bindings, plain, span_of
+from rebsync.source import Source
+
+_ENTRY = re.compile(r"\s*(\w+)\s*=\s*([\w.]+:\w+)\s*\Z")
+_INIT = "/__init__.py"
+_PACKAGE = "{package_name}"  # stands for the name of the package in paths
+_TESTS = frozenset({"test", "tests"})
+
+
+@dataclass(frozen=True, slots=True)
+class SetupFile:
+    """A `setup.py` of a package of a name; `files` are the paths of those in its folder."""
+
+    source: Source
+    tree: ast.Module
+    package: str
+    files: Collection[str]
+
+    def facts(self) -> Iterator[Fact]:
+        """All of them."""
+        for node in ast.walk(self.tree):
+            match node:
+                case ast.Constant(str(text)) if (entry := _ENTRY.match(text)) is not None:
+                    value = re.sub(rf"^{re.escape(self.package)}\.", "", entry[2])
+                    yield self._fact("installed program", entry[1], value, node)
+                case ast.keyword("data_files", ast.List(listed)):
+                    for each in listed:
+                        for name, text in self._installed(each):
+                            yield self._fact("installed file", name, text, each)
+                case ast.keyword("packages" | "package_dir" as name, value):
+                    yield self._fact("Python package", name, self._packages(value), value)
+                case _:
+                    pass
+
+    def _fact(self, kind: str, name: str, value: str, node: ast.AST) -> Fact:
+        return Fact(kind, "", name, value, self.source, span_of(self.source, node))
+
+    def _installed(self, entry: ast.expr) -> Iterator[tuple[str, str]]:
+        """Where files are installed to, and what they are; one by one where they are known."""
+        match entry:
+            case ast.Tuple([to, from_]):
+                folder, files = self._text(to), self._listed(from_)
+                if folder is not None and files is not None:
+                    for file in files:
+                        last = file.rpartition("/")[2]
+                        yield self._named(f"{folder}/{last}"), self._named(file)
+                    return
+            case _:
+                pass
+        yield plain(entry), ""
+
+    def _named(self, path: str) -> str:
+        return re.sub(rf"\b{re.escape(self.package)}(?![^/.])", _PACKAGE, path)
+
+    def _listed(self, node: ast.expr) -> list[str] | None:
+        """The files that a list, or a look into the folder, gives."""
+        match node:
+            case ast.List(elements):
+                texts = [self._text(e) for e in elements]
+                return [t for t in texts if t is not None] if None not in texts else None
+            case ast.Call(function, [pattern], []) if self._full(function) == "glob.glob":
+                text = self._text(pattern)
+                return [f for f in self.files if _matches(f, text)] if text is not None else None
+            case _:
+                return None
+
+    def _packages(self, node: ast.expr) -> str:
+        """The packages of Python that are installed; those of tests do not count."""
+        match node:
+            case ast.Call(function, [], keywords) if self._full(
+                function
+            ) == "setuptools.find_packages" and all(k.arg == "exclude" for k in keywords):
+                excluded = [self._listed(k.value) for k in keywords]
+                if None not in excluded:
+                    return self._found({e for each in excluded if each for e in each})
+            case _:
+                pass
+        return plain(node).replace(f"'{self.package}'", "package_name")
+
+    def _found(self, excluded: Collection[str]) -> str:
+        folders = {f.removesuffix(_INIT) for f in self.files if f.endswith(_INIT)}
+        whole = (f for f in folders if all(above in folders for above in _above(f)))
+        names = sorted(f.replace("/", ".") for f in whole)
+        found = [n for n in names if not any(fnmatchcase(n, pattern) for pattern in excluded)]
+        plain_ = [n for n in found if n.partition(".")[0] not in (*_TESTS, self.package)]
+        is_whole = {n for n in names if n.partition(".")[0] == self.package} <= {*found}
+        return "[package_name]" if is_whole and not plain_ and self.package in found else str(found)
+
+    def _text(self, node: ast.expr) -> str | None:
+        """The text that an expression gives, as far as it is known."""
+        match node:
+            case ast.Constant(str(text)):
+                return text
+            case ast.Name(name):
+                return self._constant(name)
+            case ast.JoinedStr(values):
+                parts = [self._text(v) for v in values]
+                return "".join(p for p in parts if p is not None) if None not in parts else None
+            case ast.FormattedValue(value, -1, None):
+                return self._text(value)
+            case ast.BinOp(left, ast.Add(), right):
+                first, second = self._text(left), self._text(right)
+                return first + second if first is not None and second is not None else None
+            case ast.Call(function, arguments, []) if self._full(function) == "os.path.join":
+                parts = [self._text(a) for a in arguments]
+                known = [p for p in parts if p is not None]
+                return posixpath.join(*known) if known and None not in parts else None
+            case _:
+                return None
+
+    def _constant(self, name: str) -> str | None:
+        """What a name of the file stands for, if it is bound once."""
+        stores = [
+            n
+            for n in ast.walk(self.tree)
+            if isinstance(n, ast.Name) and n.id == name and not isinstance(n.ctx, ast.Load)
+        ]
+        for statement in self.tree.body if len(stores) == 1 else ():
+            match statement:
+                case ast.Assign([ast.Name(own)], ast.Constant(str(text))) if own == name:
+                    return text
+                case _:
+                    pass
+        return None
+
+    def _full(self, function: ast.expr) -> str:
+        """The full name of what is called, by the imports."""
+        first, _, rest = ast.unparse(function).partition(".")
+        of = bindings(self.tree).get(first)
+        return ".".join(filter(None, (of[0] if of is not None else "", rest)))
+
+
+def _above(folder: str) -> list[str]:
+    """The folders that one is in."""
+    parts = folder.split("/")
+    return ["/".join(parts[:n]) for n in range(1, len(parts))]
+
+
+def _matches(file: str, pattern: str) -> bool:
+    """Whether `glob` finds a file: no name that begins with a dot, and a star within one name."""
+    names, patterns = file.split("/"), pattern.split("/")
+    return len(names) == len(patterns) and all(
+        fnmatchcase(n, p) and (not n.startswith(".") or p.startswith("."))
+        for n, p in zip(names, patterns, strict=True)
+    )
