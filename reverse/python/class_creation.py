@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterable, Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.libraries.python import clients
 from rebsync.reverse.python.model_plumbing import DECORATORS
 from rebsync.reverse.python.py_evaluator import PyEvaluator
 from rebsync.reverse.python.py_index import FUNCTION, Scope
@@ -23,8 +24,8 @@ _METACLASS = "abc.ABCMeta"
 _GENERIC = frozenset({"typing.Generic", "typing.Protocol", "typing_extensions.Protocol"})
 # Of the names that Python looks for in a class, those that change no behaviour of its objects.
 _PLAIN_NAMES = frozenset({"__init__", "__str__", "__repr__", "__doc__"})
-# The libraries whose classes generated ones have above them, or may have.
-_PLAIN_BASES = frozenset({"rclpy", "abc", "typing", "builtins"})
+# The libraries besides those of ROS whose classes generated ones may have above them.
+_PLAIN_BASES = frozenset({"abc", "typing", "builtins"})
 _HINT = "take it out: no model says this"
 
 
@@ -33,7 +34,7 @@ def list_creation(
 ) -> None:
     """Lists what makes a generated class, or a function of it, another than is read."""
     for node, why in (
-        *class_departures(values, owner, _PLAIN_BASES),
+        *class_departures(values, owner, _PLAIN_BASES | {c.name for c in clients()}),
         *special_names(owner, _PLAIN_NAMES),
         *renamed_decorators(values, functions, DECORATORS | {"property"}),
     ):
