@@ -13,6 +13,7 @@ import pytest
 
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.roundtrip.conform.components.dense import DenseRun, TopicChanges
+from rebsync.roundtrip.conform.components.signals import Signal
 
 P, Q = Atom(0), Atom(1)
 FORMULAS: tuple[Formula, ...] = (
@@ -127,3 +128,10 @@ def test_verdicts_are_those_of_all_runs(number: int) -> None:
                 expected = found.verdict == "satisfied"
                 assert values(formula, drawn)[0] == expected, (seed, found, drawn)
     assert said & {"violated", "satisfied"}
+
+
+def test_until_looks_no_further_than_its_bound() -> None:
+    reached = Signal(((8, 9),), ((-inf, 8), (9, inf)))
+    holds = Signal(((0, 10),), ((-inf, 0), (10, inf)))
+    found = reached.until(holds, 3)
+    assert found == Signal(((5, 9),), ((-inf, 5), (9, inf)))
