@@ -22,7 +22,8 @@ FORMS = (
     "at most 3 messages on TOPIC",
 )
 _SECONDS = {"ms": Fraction(1, 1000), "min": Fraction(60), "minute": Fraction(60)}
-_QUOTED = re.compile(r"\\(.)", re.DOTALL)
+_ESCAPE = re.compile(r"\\(.)")
+_ESCAPED = {"n": "\n", "t": "\t", "r": "\r"}
 _MOST = 9
 _MOST_MESSAGES = 1000
 _LONGEST = 1000
@@ -109,7 +110,7 @@ class _Builder(Transformer[Token, q.Question]):
 
     def text(self, text: Token) -> q.Operand:
         start = text.start_pos or 0
-        plain = _QUOTED.sub(r"\1", str(text)[1:-1])
+        plain = _ESCAPE.sub(lambda found: _ESCAPED.get(found[1], found[1]), str(text)[1:-1])
         return q.QuotedText(plain, Span(start, start + len(text)))
 
     def boolean(self, truth: Token) -> q.Operand:

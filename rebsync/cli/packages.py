@@ -154,11 +154,27 @@ def _problem(
     code = {line: f"{_shown(place.source.path)}:{place.line}" for line, place in places.items()}
     markers = {n: places[n] for n in unreadable_lines(source, analysis.model) if n in places}
     checked = properties_of(properties, analysis) if properties is not None else Properties()
-    unread = _listed(closed, Grade.UNREADABLE, markers)
+    unread = _listed(closed, Grade.UNREADABLE, markers) + _unmatched(path)
     steps = _steps(source, parsed, places)
     listed = unread, _listed(closed, Grade.APPROXIMATED, steps)
     told = closed.assumptions, closed.gaps, *listed, code, TextNumbers(*closed.texts)
     return Problem(source, analysis, checked, properties, *told)
+
+
+def _unmatched(path: str) -> tuple[CodePlace, ...]:
+    """Subscriptions that get nothing of a publisher, as their qualities of service never match."""
+    from rebsync.checker.problem import CodePlace
+    from rebsync.reverse.files.parallel import each
+    from rebsync.reverse.files.reading import all_listings
+    from rebsync.rosgraph.analysis import analysed
+    from rebsync.rosgraph.reading import read_package
+
+    packages = list(each(all_listings([path]), read_package))
+    found = (f for f in analysed(packages, path).findings if f.code == "RS991")
+    return tuple(
+        CodePlace(f"{_shown(f.place.source.path)}:{f.place.line} ({f.message})", None)
+        for f in found
+    )
 
 
 def _listed(

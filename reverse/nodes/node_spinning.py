@@ -25,6 +25,8 @@ from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
 
 _NEVER = "this program never lets messages be served: the model serves them"
 _OTHER = "this program lets only the messages of other nodes be served"
+_REMOVED = "the node may be taken out of its executor here"
+_GROUP = "no executor is known to get this group: what it has may never be called"
 _ENDED = "the node ends here, before its program lets messages be served"
 _NAMES = ("identifier", "field_identifier", "type_identifier")
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement", "for_range_loop"})
@@ -49,6 +51,8 @@ def note_spinning(bodies: Bodies, start: Start | None) -> None:
 
 def _unserved(program: _Spun, start: Start) -> tuple[Node, str] | None:
     """The place in `main` that keeps a node from being served, and why."""
+    if (removed := program.taken_out()) is not None:
+        return removed
     serving = list(program.serving())
     if not any(map(program.counts, serving)):
         return None if program.is_handed_on() else (program.body, _NEVER)
@@ -56,6 +60,8 @@ def _unserved(program: _Spun, start: Start) -> tuple[Node, str] | None:
     if start.made is None or made is None:
         return None
     own = [node for function, node in serving if function is program.main]
+    if len(own) == len(serving) and (shut := program.shut_down(own)) is not None:
+        return shut, _ENDED
     if len(own) == len(serving) and (ended := program.ended(made, own)) is not None:
         return ended, _ENDED
     is_node = any(c.roots for c in start.unit.lineage)  # others are served by a node that they get
@@ -119,6 +125,38 @@ class _Spun:
             if not loop.guard and not inside(loop.node, "break_statement", "return_statement")
             for after in later(loop.node)
         )
+
+    def taken_out(self) -> tuple[Node, str] | None:
+        """What takes the node out of an executor, or makes a group that is in none."""
+        names = {"remove_node", "create_callback_group", "add_callback_group"}
+        calls = [c for f in self._functions() for c in self.code.calls_of(f) if c.name in names]
+        if not any(c.name == "add_callback_group" for c in calls):
+            for call in calls:
+                apart = len(call.arguments) > 1 and text_of(call.arguments[1]) != "true"
+                if call.name == "create_callback_group" and apart:
+                    return call.node, _GROUP
+        return next(((c.node, _REMOVED) for c in calls if c.name == "remove_node"), None)
+
+    def _functions(self) -> list[CppFunction]:
+        owned = [f for c in self.code.classes.values() for f in self.code.functions_of(c)]
+        free = [f for found in self.code.definitions.values() for f in found]
+        return [f for f in (*owned, *free) if f.body is not None]
+
+    def shut_down(self, serving: list[Node]) -> Node | None:
+        """What shuts the client library down before all places that serve messages."""
+        first = min(node.start_byte for node in serving)
+        words = libraries.named(Kind.SHUTDOWN)
+        for call in calls_in(self.body):
+            if call.name.rpartition("::")[2] not in words or call.node.start_byte > first:
+                continue
+            around = [
+                n
+                for n in ancestors(call.node, lambda n: n.id == self.body.id)
+                if n.id != self.body.id
+            ]
+            if not any(n.type == "lambda_expression" or _leaves(n, call.node) for n in around):
+                return call.node
+        return None
 
     def is_handed_on(self) -> bool:
         """Whether something that is not known may let messages be served."""
@@ -217,6 +255,14 @@ class _Spun:
 
 
 _ASSIGNS = "assignment_expression"
+
+
+def _leaves(block: Node, call: Node) -> bool:
+    """Whether a block in which a call stands ends the function behind it."""
+    behind = (n for n in named(block) if n.start_byte > call.start_byte)
+    return block.type == "compound_statement" and any(
+        n.type in ("return_statement", "throw_statement") for n in behind
+    )
 
 
 def _is_spinning(call: CppCall) -> bool:

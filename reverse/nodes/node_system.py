@@ -31,6 +31,7 @@ from rebsync.reverse.nodes.node_presence import STAND_IN, makes_generated
 from rebsync.reverse.nodes.node_programs import Program
 from rebsync.reverse.nodes.node_servers import servers
 from rebsync.reverse.nodes.node_setup import Setup
+from rebsync.reverse.nodes.node_signals import note_signals
 from rebsync.reverse.nodes.node_signatures import Signatures
 from rebsync.reverse.nodes.node_spinning import note_spinning
 from rebsync.reverse.nodes.node_starts import first_functions, opening
@@ -247,6 +248,7 @@ class _ClassReader:
         note_locks(node.bodies)
         note_unmodelled(node.bodies)
         note_spinning(node.bodies, alike[0].start if alike else None)
+        note_signals(node.bodies)
         note_helpers(node.bodies, self._helpers)
         return read
 

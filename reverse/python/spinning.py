@@ -26,7 +26,7 @@ from rebsync.reverse.python.py_index import CLASS, LAMBDA, MODULE, Scope, argume
 from rebsync.reverse.python.py_tree import field, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import Class, External, Function, Instance, Made, Module, Value
-from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.ancestors import ancestors, climb
 
 _SERVED = (SubscriptionFact, TimerFact, ServiceFact)
 _LOOPS = frozenset({"while_statement", "for_statement"})
@@ -37,6 +37,7 @@ _LIVING = frozenset(
     | {"run", "run_forever", "app_run", "show", "start"}
 )
 _UNSPUN = "nothing spins this node: it is not known to serve anything"
+_REMOVED = "a node is taken out of its executor: this one is not known to serve anything"
 _ENDING = "the program of this node runs to its end: nothing is served from then on"
 
 
@@ -70,6 +71,8 @@ def list_unserved(
             continue  # it only publishes, which nobody has to serve
         if unit.library.flat:
             unserved = _UNSPUN if not _is_spun(values, unit, running) else ""
+            if any(running.reaches(s) for _, s in values.code.by_callee.get("remove_node", ())):
+                unserved = _REMOVED
         else:
             callbacks = {s.body.id for s in servers[unit.name].values()}
             unserved = _ENDING if not _lives(values, unit, running, made, callbacks) else ""
@@ -131,7 +134,7 @@ def _spins(values: PyValues, running: _Running) -> Iterator[_Spin]:
     for name in sorted(names):
         for call, scope in values.code.by_callee.get(name, ()):
             is_once = name in libraries.serving()
-            if not running.reaches(scope) or _is_optional(call):
+            if not running.reaches(scope) or _is_optional(call) or _is_over(values, call, scope):
                 continue
             if not is_once or _goes_round(values, call, scope):
                 yield from _spin(values, field(call, "function"), call, scope)
@@ -167,6 +170,24 @@ def _goes_round(values: PyValues, call: Node, scope: Scope) -> bool:
     calls = values.code.by_callee.get(above.name, ()) if above is not None else ()
     return any(
         n.type in _LOOPS for other, _ in calls for n in ancestors(other, lambda n: n.type in _APART)
+    )
+
+
+def _is_over(values: PyValues, call: Node, scope: Scope) -> bool:
+    """Whether the client library is shut down before a call in its function."""
+    for name in ("shutdown", "try_shutdown", "signal_shutdown"):
+        for other, of in values.code.by_callee.get(name, ()):
+            if of is scope and other.start_byte < call.start_byte and not _is_left(other):
+                return True
+    return False
+
+
+def _is_left(call: Node) -> bool:
+    """Whether the block that a call stands in ends its function behind it."""
+    block = climb(call, lambda n: n.type in ("block", "module"))
+    behind = (n for n in block.named_children if n.start_byte > call.start_byte) if block else ()
+    return any(
+        n.type in ("return_statement", "raise_statement") or "exit(" in text_of(n) for n in behind
     )
 
 
@@ -244,6 +265,8 @@ def _keeps(values: PyValues, call: Node, scope: Scope) -> bool:
     if any(isinstance(w, Function) for w in ways):
         return False  # whose body says so
     known = [w.name for w in ways if isinstance(w, External)]
+    if _is_over(values, call, scope):
+        return False
     return name in _LIVING or not known or any(libraries.kind_of(n) is Kind.SPIN for n in known)
 
 
