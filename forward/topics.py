@@ -7,7 +7,7 @@ the message type, which is named after the class that declares the server first.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 from rebsync.model import (
     Interface,
@@ -83,6 +83,10 @@ class Topics:
             for c in model.classes
             for s in declared_servers(c)
         }
+        self._signatures = {
+            name: dict.fromkeys(signature(s.name, s.declaration.parameters) for s in info.servers)
+            for name, info in analysis.classes.items()
+        }
         self._families = self._unite(model)
         self.class_types = {c.name: carry(c.name, NO_CLASSES) for c in model.classes}
         self._used_types = set(self.class_types.values()) | RUNTIME_CLASSES
@@ -105,17 +109,12 @@ class Topics:
         declaration = server.declaration
         return self.of(server.owner, signature(server.name, declaration.parameters))
 
-    def signatures(self, class_name: str) -> Iterator[Signature]:
-        """The servers that a class declares or inherits."""
-        for server in self._analysis.classes[class_name].servers:
-            yield signature(server.name, server.declaration.parameters)
-
     def subscriber(self, class_name: str, wanted: Signature) -> str:
         """The reactive class in the lineage that makes the subscription: the topmost to have it."""
         lineage = self._analysis.classes[class_name].lineage
         for name in reversed(lineage):
             info = self._analysis.classes[name]
-            if not info.is_interface and wanted in set(self.signatures(name)):
+            if not info.is_interface and wanted in self._signatures[name]:
                 return name
         return class_name
 
@@ -126,7 +125,7 @@ class Topics:
         self._families = families
         for c in model.classes:
             lineage = self._analysis.classes[c.name].lineage
-            for wanted in set(self.signatures(c.name)):
+            for wanted in self._signatures[c.name]:
                 places = [(n, wanted) for n in lineage if (n, wanted) in self._declared]
                 for other in places[1:]:
                     first, second = self._find(places[0]), self._find(other)
@@ -195,14 +194,14 @@ class Topics:
     def _named_keys(self) -> dict[tuple[str, Signature], str]:
         """The last segment of each family's topic; no class has two of one name."""
         keys: dict[tuple[str, Signature], str] = {}
-        for root in sorted(self._roots(), key=self._is_overloaded):
+        classes = {root: self._classes_of(root) for root in self._roots()}
+        for root in sorted(classes, key=self._is_overloaded):
             name, types = root[1]
             key = free_name(name, RUNTIME_TOPICS)
             if self._is_overloaded(root):
                 words = (graph_name(t.partition("[")[0]) + _lengths(t) for t in types)
                 key = f"{key}_{'_'.join(words) or 'void'}"
-            met = self._classes_of(root)
-            keys[root] = unique(key, {k for r, k in keys.items() if met & self._classes_of(r)})
+            keys[root] = unique(key, {k for r, k in keys.items() if classes[root] & classes[r]})
         return keys
 
     def _classes_of(self, root: tuple[str, Signature]) -> frozenset[str]:
@@ -211,17 +210,17 @@ class Topics:
         return frozenset(
             name
             for name in self._order
-            if wanted in set(self.signatures(name))
+            if wanted in self._signatures[name]
             and self._find(self._declaring(name, wanted)) == root
         )
 
     def _is_overloaded(self, root: tuple[str, Signature]) -> bool:
         """Whether some class has another server of the same name beside one of this family."""
         name = root[1][0]
-        members = {place for place in self._declared if self._find(place) == root}
         for class_name, info in self._analysis.classes.items():
-            same = {s for s in self.signatures(class_name) if s[0] == name}
-            if len(same) > 1 and any((n, root[1]) in members for n in info.lineage):
+            same = [s for s in self._signatures[class_name] if s[0] == name]
+            places = ((n, root[1]) for n in info.lineage if (n, root[1]) in self._declared)
+            if len(same) > 1 and any(self._find(place) == root for place in places):
                 return True
         return False
 
