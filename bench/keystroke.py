@@ -3,9 +3,10 @@
     python bench/keystroke.py [--edits N]
 
 A real client types a character into a body in the middle of the model and asks for completion, for
-the outline, and for what the name at the cursor is; then it waits for the diagnostics. Printed are
-the median and the longest time of each in milliseconds, and the ratio to the goal of 100 ms. The
-server waits 150 ms for the next keystroke before it sends diagnostics: that is taken off.
+the outline, for what the name at the cursor is, or for the colours; then it waits for the
+diagnostics. Printed are the median and the longest time of each in milliseconds, and the ratio to
+the goal of 100 ms. The server waits 150 ms for the next keystroke before it sends diagnostics: that
+is taken off.
 """
 
 from __future__ import annotations
@@ -78,6 +79,9 @@ QUESTIONS: dict[str, Question] = {
     ),
     "hover": lambda client, document, place: client.text_document_hover_async(
         lsp.HoverParams(document, place)
+    ),
+    "colours": lambda client, document, place: client.text_document_semantic_tokens_full_async(
+        lsp.SemanticTokensParams(document)
     ),
 }
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 from lsprotocol import types as lsp
 
 from rebsync.files import MODEL, PROPERTY
+from rebsync.lsp.colours import LEGEND
 
 SELECTOR = [{"pattern": f"**/*{suffix}"} for suffix in (MODEL, PROPERTY)]
+_TOKENS = "textDocument/semanticTokens"
 # By method: the capability of the server, and that of the client.
 _FEATURES = {
     lsp.TEXT_DOCUMENT_COMPLETION: ("completion_provider", "completion"),
@@ -16,11 +18,13 @@ _FEATURES = {
     lsp.TEXT_DOCUMENT_FORMATTING: ("document_formatting_provider", "formatting"),
     lsp.TEXT_DOCUMENT_FOLDING_RANGE: ("folding_range_provider", "folding_range"),
     lsp.TEXT_DOCUMENT_RENAME: ("rename_provider", "rename"),
+    _TOKENS: ("semantic_tokens_provider", "semantic_tokens"),
 }
 
 _OPTIONS: dict[str, dict[str, object]] = {
     lsp.TEXT_DOCUMENT_COMPLETION: {"triggerCharacters": [".", "@"]},
     lsp.TEXT_DOCUMENT_RENAME: {"prepareProvider": True},
+    _TOKENS: {"legend": LEGEND, "full": True},
 }
 
 

@@ -18,6 +18,7 @@ from rebsync import __version__
 from rebsync.files import MODEL
 from rebsync.grammars.formatting import format_text
 from rebsync.lsp.border import CODE, in_code, in_model, model_path, packages_of
+from rebsync.lsp.colours import LEGEND, semantic_tokens
 from rebsync.lsp.completion import completion
 from rebsync.lsp.document import Document, ModelDocument
 from rebsync.lsp.drift import (
@@ -205,6 +206,14 @@ def folding_range(
     ls: RebsyncServer, document: Document, params: lsp.FoldingRangeParams
 ) -> list[lsp.FoldingRange]:
     return folding(document)
+
+
+@server.feature(lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, LEGEND)
+@of_document
+def tokens(
+    ls: RebsyncServer, document: Document, params: lsp.SemanticTokensParams
+) -> lsp.SemanticTokens:
+    return semantic_tokens(document)
 
 
 @server.feature(lsp.TEXT_DOCUMENT_HOVER)
