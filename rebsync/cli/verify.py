@@ -232,6 +232,10 @@ def _one(model: str, given: dict[str, Any], output: str) -> Status:
         if given["export"]:
             return Status.CLEAN if whole else Status.UNDETERMINED
     result = _verified(problem, options)
+    if not _is_package(model):
+        from rebsync.roundtrip.verdict.property_cache import save_verdicts
+
+        save_verdicts(problem, options, result)
     _write(result, problem, given, output)
     return STATUS_OF[result.verdict]
 

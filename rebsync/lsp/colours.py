@@ -30,21 +30,27 @@ LEGEND = lsp.SemanticTokensLegend(
     [t.value for t in (*dict.fromkeys(_TYPES.values()), _Type.Parameter, _Type.Decorator)],
     [_Modifier.Declaration.value, _Modifier.Readonly.value],
 )
+_NUMBERS = {name: number for number, name in enumerate(LEGEND.token_types)}
 
 
 def semantic_tokens(document: Document) -> lsp.SemanticTokens:
     """The names of a document, each by its distance from the one before, as the protocol says."""
+    source = document.source
     data: list[int] = []
-    before = lsp.Position(0, 0)
+    line_before, before = 1, 0
     for start, (end, type_, modifiers) in sorted(_names(document).items()):
-        at = document.text_position(start)
-        name = document.source.text[start:end]
-        column = at.character - (before.character if at.line == before.line else 0)
-        length = len(name.encode("utf-16-le", "surrogatepass")) // 2
-        type_number = LEGEND.token_types.index(type_)
-        data += (at.line - before.line, column, length, type_number, modifiers)
-        before = at
+        line = source.position(start).line
+        if line != line_before:
+            before = source.start_of(line)
+        column, length = _utf16(source.text[before:start]), _utf16(source.text[start:end])
+        data += (line - line_before, column, length, _NUMBERS[type_], modifiers)
+        line_before, before = line, start
     return lsp.SemanticTokens(data)
+
+
+def _utf16(text: str) -> int:
+    """How many units of the protocol a text has."""
+    return len(text) if text.isascii() else len(text.encode("utf-16-le", "surrogatepass")) // 2
 
 
 def _names(document: Document) -> dict[int, tuple[int, str, int]]:

@@ -18,6 +18,7 @@ _FEATURES = {
     lsp.TEXT_DOCUMENT_FORMATTING: ("document_formatting_provider", "formatting"),
     lsp.TEXT_DOCUMENT_FOLDING_RANGE: ("folding_range_provider", "folding_range"),
     lsp.TEXT_DOCUMENT_RENAME: ("rename_provider", "rename"),
+    lsp.TEXT_DOCUMENT_INLAY_HINT: ("inlay_hint_provider", "inlay_hint"),
     _TOKENS: ("semantic_tokens_provider", "semantic_tokens"),
 }
 

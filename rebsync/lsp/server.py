@@ -35,6 +35,7 @@ from rebsync.lsp.navigation import definitions, entity_at, hover, references
 from rebsync.lsp.outline import folding, outline
 from rebsync.lsp.registration import registered_later
 from rebsync.lsp.renaming import RenameRefused, renamed
+from rebsync.lsp.verdicts import VERDICTS, verdict_hints
 from rebsync.lsp.workspace import Documents
 
 DELAY = 0.15  # seconds without a keystroke before diagnostics are sent
@@ -214,6 +215,22 @@ def tokens(
     ls: RebsyncServer, document: Document, params: lsp.SemanticTokensParams
 ) -> lsp.SemanticTokens:
     return semantic_tokens(document)
+
+
+@server.feature(lsp.TEXT_DOCUMENT_INLAY_HINT)
+@of_document
+def inlay_hint(
+    ls: RebsyncServer, document: Document, params: lsp.InlayHintParams
+) -> list[lsp.InlayHint]:
+    if isinstance(document, ModelDocument):
+        return []
+    return list(verdict_hints(document, params.range))
+
+
+@server.command(VERDICTS)
+async def verdicts(ls: RebsyncServer) -> None:
+    """Lets the editor ask for verdicts again, when it has run `rebsync verify`."""
+    await ls.workspace_inlay_hint_refresh_async(None)
 
 
 @server.feature(lsp.TEXT_DOCUMENT_HOVER)
