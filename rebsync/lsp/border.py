@@ -7,7 +7,6 @@ from pathlib import Path
 
 from lsprotocol import types as lsp
 
-from rebsync import model as m
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import read_source
 from rebsync.lsp.document import ModelDocument, Text
@@ -41,7 +40,7 @@ def in_code(
     document: ModelDocument, entity: Entity, packages: Iterable[ManagedPackage]
 ) -> list[lsp.Location]:
     """The places of generated code whose markers name an element of a model."""
-    wanted = set(_marker_names(document, entity))
+    wanted = set(marker_names(document, entity))
     found = []
     for package in packages:
         for text in _generated(package):
@@ -59,7 +58,7 @@ def in_model(text: Text, position: lsp.Position, document: ModelDocument) -> lis
         for each in document.occurrences:
             if each.declares is None:
                 continue
-            if element.name in _marker_names(document, each.entity):
+            if element.name in marker_names(document, each.entity):
                 return [lsp.Location(document.uri, document.range(each.span))]
     return []
 
@@ -78,20 +77,16 @@ def _generated(package: ManagedPackage) -> Iterator[Text]:
                 continue
 
 
-def _marker_names(document: ModelDocument, entity: Entity) -> Iterator[str]:
+def marker_names(document: ModelDocument, entity: Entity) -> Iterator[str]:
     """How markers name an element: those of overridden servers each have a class of their own."""
-    owners = [entity.owner] if entity.owner else [""]
+    owners = [entity.owner]
     if entity.kind in ("msgsrv", "method"):
-        owners = [c.name for c in document.parts.whole.model.classes if _declares(c, entity)]
+        found = document.families.items()
+        owners = [
+            owner for (owner, name), root in found if (root, name) == (entity.owner, entity.name)
+        ]
     for owner in owners:
         yield f"{entity.kind} {f'{owner}.' if owner else ''}{entity.name}"
-
-
-def _declares(class_: m.ReactiveClass | m.Interface, entity: Entity) -> bool:
-    return any(
-        isinstance(member, m.MessageServer | m.Method) and member.name == entity.name
-        for member in m.children(class_)
-    )
 
 
 def _lines(text: Text, element: MarkedElement) -> lsp.Range:

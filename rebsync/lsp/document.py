@@ -7,10 +7,11 @@ from typing import TypeAlias
 
 from lsprotocol import types as lsp
 
-from rebsync.diagnostics import Diagnostic
+from rebsync.diagnostics import Diagnostic, Severity
+from rebsync.forward.topics import Topics
 from rebsync.grammars.properties import ParsedProperties, parse_properties
 from rebsync.lint import analysed, lint, model_findings, property_findings, unless_ignored
-from rebsync.lsp.occurrences import Occurrence, of_model, of_properties
+from rebsync.lsp.occurrences import Occurrence, families, of_model, of_properties
 from rebsync.lsp.parts import Layout, ParsedParts, in_text, parse_parts
 from rebsync.records import dataclass
 from rebsync.source import Source, Span
@@ -93,6 +94,17 @@ class ModelDocument(Text):
     def occurrences(self) -> tuple[Occurrence, ...]:
         """Where names are declared and used."""
         return tuple(of_model(self.analysis))
+
+    @cached_property
+    def families(self) -> dict[tuple[str, str], str]:
+        """By class and name of each server and method the class that stands for its family."""
+        return families(self.analysis.classes.values())
+
+    @cached_property
+    def topics(self) -> Topics | None:
+        """The topics that the generator has for servers; None where the model has errors."""
+        is_wrong = any(found.severity is Severity.ERROR for found in self.findings)
+        return None if is_wrong else Topics(self.parts.whole.model, self.analysis)
 
 
 @dataclass(frozen=True)

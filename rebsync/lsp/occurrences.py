@@ -108,7 +108,7 @@ class _Resolver:
 
     def __init__(self, analysis: Analysis) -> None:
         self.analysis = analysis
-        self.roots = _roots(analysis.classes.values())
+        self.roots = families(analysis.classes.values())
         self.members: dict[int, StateSymbol | KnownRebecSymbol | Callable] = {}
         for info in analysis.classes.values():
             for variable in info.variables.values():
@@ -180,7 +180,7 @@ def _ancestors(of: m.ReactiveClass | m.Interface) -> Iterator[tuple[str, Span]]:
             yield from zip(of.extends, of.extends_spans, strict=True)
 
 
-def _roots(classes: Iterable[ClassInfo]) -> dict[tuple[str, str], str]:
+def families(classes: Iterable[ClassInfo]) -> dict[tuple[str, str], str]:
     """For each callable of each class one class of all that declare it, by union-find."""
     parent: dict[tuple[str, str], tuple[str, str]] = {}
 
