@@ -31,12 +31,14 @@ from rebsync.lsp.drift import (
     sync_command,
 )
 from rebsync.lsp.findings import diagnostics, quick_fixes
+from rebsync.lsp.generation import with_generated_files
 from rebsync.lsp.navigation import definitions, entity_at, hover, references
 from rebsync.lsp.outline import folding, outline
 from rebsync.lsp.registration import registered_later
 from rebsync.lsp.renaming import RenameRefused, renamed
 from rebsync.lsp.verdicts import VERDICTS, verdict_hints
 from rebsync.lsp.workspace import Documents
+from rebsync.roundtrip.package.managed import ManagedPackage
 
 DELAY = 0.15  # seconds without a keystroke before diagnostics are sent
 LONG_DELAY = 1.0  # the same for those of a text with errors of syntax, read as a whole
@@ -67,6 +69,7 @@ class RebsyncServer(LanguageServer):
         self.waiting: dict[str, asyncio.TimerHandle] = {}
         self.outlines: dict[str, list[lsp.DocumentSymbol]] = {}
         self.drifts: dict[str, PackageDrift] = {}
+        self.packages_by_model: dict[str, list[ManagedPackage]] = {}
 
     def open_text(self, uri: str) -> str | None:
         """The text of a document that is open in the editor."""
@@ -89,7 +92,8 @@ class RebsyncServer(LanguageServer):
         every = self.documents.related(document)
         for each in every if isinstance(document, ModelDocument) else [document]:
             if self.open_text(each.uri) is not None:
-                found = [*diagnostics(each, exact=exact), *self.drift_at(each.uri)]
+                found = diagnostics(each, exact=exact)
+                found += [d for d in self.drift_at(each.uri) if d not in found]
                 self.text_document_publish_diagnostics(
                     lsp.PublishDiagnosticsParams(each.uri, found)
                 )
@@ -102,6 +106,12 @@ class RebsyncServer(LanguageServer):
             path = to_fs_path(uri)
             if path is not None and not is_saved(path, document.source):
                 yield path
+
+    async def packages(self, model: str) -> list[ManagedPackage]:
+        """The packages of a model; looked for once until some file is saved."""
+        if model not in self.packages_by_model:
+            self.packages_by_model[model] = await asyncio.to_thread(packages_of, model)
+        return self.packages_by_model[model]
 
     def drift_at(self, uri: str) -> list[lsp.Diagnostic]:
         """What is different between models and code at a file."""
@@ -151,6 +161,7 @@ def did_change(ls: RebsyncServer, params: lsp.DidChangeTextDocumentParams) -> No
 
 @server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
 async def did_save(ls: RebsyncServer, params: lsp.DidSaveTextDocumentParams) -> None:
+    ls.packages_by_model.clear()
     path = to_fs_path(params.text_document.uri)
     if path is not None and path.endswith((*CODE, MODEL)):
         await ls.check(path)
@@ -234,9 +245,16 @@ async def verdicts(ls: RebsyncServer) -> None:
 
 
 @server.feature(lsp.TEXT_DOCUMENT_HOVER)
-@of_document
-def text_hover(ls: RebsyncServer, document: Document, params: lsp.HoverParams) -> lsp.Hover | None:
-    return hover(document, params.position)
+async def text_hover(ls: RebsyncServer, params: lsp.HoverParams) -> lsp.Hover | None:
+    document = ls.documents.document(params.text_document.uri)
+    if document is None:
+        return None
+    shown, found = hover(document, params.position), entity_at(document, params.position)
+    model = ls.documents.related(document)[0]
+    if shown is None or found is None or not isinstance(model, ModelDocument):
+        return shown
+    packages = await ls.packages(model.source.path)
+    return with_generated_files(shown, model, found.entity, packages)
 
 
 @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)

@@ -32,6 +32,15 @@ def made_from(folder: Path) -> str | None:
         return None
 
 
+def recorded_files(folder: Path) -> dict[str, list[str]]:
+    """The generated files of a package, each with the elements that it marks; none if damaged."""
+    try:
+        record = json.loads(read_source(f"{folder}/{MANIFEST}").text)
+        return {name: [*record["elements"].get(name, ())] for name in record["files"]}
+    except (RebsyncError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return {}
+
+
 def _options(config: Config) -> dict[str, object]:
     """The settings as they are recorded; an option that is off is as if there were none."""
     from rebsync.config import APART

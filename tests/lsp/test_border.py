@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from ast import literal_eval
 from collections.abc import Sequence
@@ -48,6 +49,59 @@ def test_an_element_leads_to_its_code_and_back(folder: Path, in_editor: InEditor
         (declared,) = back
         assert isinstance(declared, lsp.Location)
         assert (declared.uri, declared.range.start) == (uri, place)
+
+    in_editor(play)
+
+
+def test_a_server_leads_to_the_code_of_its_own_class_and_back(in_editor: InEditor) -> None:
+    model = HELLO.parent / "experiment2/experiment2.rebeca"
+    text = model.read_text(encoding="utf-8")
+    second = text.index("reactiveclass", text.index("msgsrv begin"))
+    before = text[: text.index("msgsrv begin", second) + len("msgsrv ")]
+    place = lsp.Position(before.count("\n"), len(before) - before.rindex("\n") - 1)
+
+    async def play(client: Editor) -> None:
+        document = _of(client.open(model))
+        found = await client.text_document_implementation_async(
+            lsp.ImplementationParams(document, place)
+        )
+        assert isinstance(found, Sequence)
+        (code,) = found
+        assert isinstance(code, lsp.Location)
+        inside = lsp.Position(code.range.start.line + 1, 0)
+        back = await client.text_document_definition_async(
+            lsp.DefinitionParams(_of(code.uri), inside)
+        )
+        assert isinstance(back, Sequence)
+        (declared,) = back
+        assert isinstance(declared, lsp.Location)
+        assert declared.range.start == place
+
+    in_editor(play)
+
+
+@pytest.mark.parametrize(
+    ("element", "files"),
+    [
+        ("walk() {", ["msg/WalkerWalk.msg", "src/walker.cpp"]),
+        ("steps;", ["include/hello/walker.h", "msg/WalkerState.msg"]),
+        ("Walker(2)", ["include/hello/walker.h", "msg/WalkerState.msg", "src/walker.cpp"]),
+        ("walker()", ["launch/hello.launch"]),
+    ],
+)
+def test_an_element_tells_its_files(
+    element: str, files: list[str], folder: Path, in_editor: InEditor
+) -> None:
+    model = folder / "hello.rebeca"
+
+    async def play(client: Editor) -> None:
+        place = at(model.read_text(encoding="utf-8"), element)
+        params = lsp.HoverParams(_of(client.open(model)), place)
+        shown = await client.text_document_hover_async(params)
+        assert shown is not None
+        assert isinstance(shown.contents, lsp.MarkupContent)
+        links = dict(re.findall(r"\[(.*?)\]\((.*?)\)", shown.contents.value))
+        assert links == {name: (folder / "hello" / name).as_uri() for name in files}
 
     in_editor(play)
 
