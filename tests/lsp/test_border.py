@@ -139,3 +139,19 @@ def test_a_change_of_the_code_is_taken_into_the_model(folder: Path, in_editor: I
 
     in_editor(play)
     assert model.read_text(encoding="utf-8") == before.replace("after(1)", "after(2)") != before
+
+
+def test_a_mistake_that_the_check_meets_too_is_shown_once(
+    folder: Path, in_editor: InEditor
+) -> None:
+    model = folder / "hello.rebeca"
+    text = model.read_text(encoding="utf-8")
+    model.write_text(text.replace("self.walk", "self.wolk", 1), encoding="utf-8")
+
+    async def play(client: Editor) -> None:
+        uri = client.open(model)
+        (typed,) = await client.diagnostics(uri)
+        client.text_document_did_save(lsp.DidSaveTextDocumentParams(_of(uri)))
+        assert await client.diagnostics(uri) == [typed]
+
+    in_editor(play)
