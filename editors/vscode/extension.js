@@ -7,8 +7,11 @@ const { LanguageClient } = require("vscode-languageclient/node");
 
 const LANGUAGES = ["rebeca", "rebeca-property", "cpp", "python"];
 const LARGEST = 256 * 1024 * 1024; // bytes of a page
+// VS Code puts a background behind all code of a page that says nothing else.
+const PLAIN_CODE = "<style>code { background: none; color: inherit; }</style>";
 
 let client;
+let report; // the text of the last check
 
 /** The program, which a workspace may not choose: see "scope" in package.json. */
 function program() {
@@ -18,9 +21,17 @@ function program() {
 async function activate(context) {
   const register = (name, task) =>
     context.subscriptions.push(vscode.commands.registerCommand(name, task));
-  register("rebsync.verify", () => onModel("Verification", "verify"));
+  report = vscode.window.createOutputChannel("Rebsync");
+  context.subscriptions.push(report);
+  register("rebsync.verify", async () => {
+    await onModel("Verification", "verify");
+    if (client.isRunning()) {
+      await vscode.commands.executeCommand("rebsync.verdicts"); // of the server
+    }
+  });
   register("rebsync.simulate", () => onModel("Simulation", "simulate"));
   register("rebsync.graph", showGraph);
+  register("rebsync.diff", showDiff);
   register("rebsync.check", checkAll);
   client = new LanguageClient(
     "rebsync",
@@ -46,8 +57,12 @@ async function onModel(title, command) {
     return;
   }
   await editor.document.save();
-  const model = editor.document.fileName.replace(/\.property$/, ".rebeca");
+  const model = modelOf(editor);
   await showPage(`${title}: ${path.basename(model)}`, [command, model, "--format", "html"]);
+}
+
+function modelOf(editor) {
+  return editor.document.fileName.replace(/\.property$/, ".rebeca");
 }
 
 async function showGraph() {
@@ -57,18 +72,47 @@ async function showGraph() {
   }
 }
 
-function checkAll() {
+/** Shows the page that compares the model of the active editor with the code of its package. */
+async function showDiff() {
+  const editor = vscode.window.activeTextEditor;
+  if (editor === undefined) {
+    return;
+  }
+  await editor.document.save();
+  const model = modelOf(editor);
+  const packages = await packagesOf(model);
+  const chosen =
+    packages.length > 1 ? await vscode.window.showQuickPick(packages) : packages[0];
+  if (chosen !== undefined) {
+    const title = `Diff: ${path.basename(chosen)}`;
+    await showPage(title, ["diff", model, chosen, "--format", "html"]);
+  } else if (packages.length === 0) {
+    vscode.window.showErrorMessage(`No package of the workspace is made from ${model}`);
+  }
+}
+
+/** The folders of the packages whose manifest names a model. */
+async function packagesOf(model) {
+  const found = [];
+  for (const file of await vscode.workspace.findFiles("**/.rebsync/manifest.json")) {
+    const text = Buffer.from(await vscode.workspace.fs.readFile(file)).toString();
+    if (text.includes(`"name": ${JSON.stringify(path.basename(model))}`)) {
+      found.push(path.dirname(path.dirname(file.fsPath)));
+    }
+  }
+  return found.sort();
+}
+
+async function checkAll() {
   const folder = workspaceFolder();
   if (folder === undefined) {
     return;
   }
-  const terminal = vscode.window.createTerminal({
-    name: "rebsync check",
-    shellPath: program(),
-    shellArgs: ["check", folder],
-    cwd: folder,
-  });
-  terminal.show();
+  const text = await withProgress("Check of packages", ["check", folder]);
+  if (text !== undefined) {
+    report.replace(text);
+    report.show(true);
+  }
 }
 
 function workspaceFolder() {
@@ -79,19 +123,24 @@ function workspaceFolder() {
 
 /** Runs rebsync, and shows the page that it writes, whatever its verdict. */
 async function showPage(title, args) {
-  const page = await vscode.window.withProgress(
-    { location: vscode.ProgressLocation.Notification, title, cancellable: true },
-    (_, cancelled) => output(args, cancelled),
-  );
+  const page = await withProgress(title, args);
   if (page !== undefined) {
     const panel = vscode.window.createWebviewPanel("rebsync", title, vscode.ViewColumn.Beside, {
       enableScripts: true,
       retainContextWhenHidden: true,
     });
-    panel.webview.html = page;
+    panel.webview.html = page.replace("<head>", `<head>${PLAIN_CODE}`);
   }
 }
 
+function withProgress(title, args) {
+  return vscode.window.withProgress(
+    { location: vscode.ProgressLocation.Notification, title, cancellable: true },
+    (_, cancelled) => output(args, cancelled),
+  );
+}
+
+/** What rebsync writes, whatever its exit status; undefined where that is nothing. */
 function output(args, cancelled) {
   return new Promise((resolve) => {
     const child = execFile(program(), args, { maxBuffer: LARGEST }, (error, out, err) => {
