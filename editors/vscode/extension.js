@@ -68,7 +68,8 @@ function modelOf(editor) {
 async function showGraph() {
   const folder = workspaceFolder();
   if (folder !== undefined) {
-    await showPage(`Graph: ${path.basename(folder)}`, ["graph", folder, "--format", "html"]);
+    const title = `Graph: ${path.basename(folder)}`;
+    await showPage(title, ["graph", folder, "--format", "html"], vscode.ViewColumn.Active);
   }
 }
 
@@ -122,10 +123,10 @@ function workspaceFolder() {
 }
 
 /** Runs rebsync, and shows the page that it writes, whatever its verdict. */
-async function showPage(title, args) {
+async function showPage(title, args, column = vscode.ViewColumn.Beside) {
   const page = await withProgress(title, args);
   if (page !== undefined) {
-    const panel = vscode.window.createWebviewPanel("rebsync", title, vscode.ViewColumn.Beside, {
+    const panel = vscode.window.createWebviewPanel("rebsync", title, column, {
       enableScripts: true,
       retainContextWhenHidden: true,
     });
