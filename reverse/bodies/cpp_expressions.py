@@ -342,8 +342,10 @@ class CppExpressions(CppExpressionReader):
         if (compared := cpp_texts.compared(self, node, operator, left, right)) is not None:
             return compared
         operator = cpp_widths.exact(self, operator, sides)
-        cpp_widths.check(self, node, operator, sides)
         operator, left, right = operands(self.scope, operator, left, right)
+        if (found := cpp_widths.ordered(self, operator, sides, (left, right))) is not None:
+            return found
+        cpp_widths.check(self, node, operator, sides)
         return binary(operator, left, right, self.cpp.span(node))
 
     def assign(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:

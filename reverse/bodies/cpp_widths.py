@@ -15,6 +15,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.intervals import Interval, exactly, of_bits
+from rebsync.reverse.bodies.building import binary, is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_misread import ChainOperand
 from rebsync.reverse.bodies.cpp_ranges import (
@@ -42,6 +43,8 @@ _WORD = re.compile(r"[A-Za-z_]\w*")
 _PLACES = frozenset(
     {"identifier", "qualified_identifier", "field_expression", "subscript_expression"}
 )
+_ORDERS = frozenset({"<", ">", "<=", ">="})
+_ZERO = m.IntLiteral(0)
 _OBSERVES = COMPARES | {"/", "%", ">>", "<<"}
 
 
@@ -75,6 +78,39 @@ def exact(reader: CppExpressionReader, operator: str, sides: Sequence[Node]) -> 
     return "!=" if right.values == exactly(0) and right.bits <= 32 else operator
 
 
+def ordered(
+    reader: CppExpressionReader,
+    operator: str,
+    sides: Sequence[Node],
+    values: tuple[m.Expression, m.Expression],
+) -> m.Expression | None:
+    """`<` and its like where the wider type has no sign, by the signs of the model's numbers.
+
+    None where these compare alike, and where one of 64 bits may be more than an `int` can be.
+    """
+    if operator not in _ORDERS or not reader.scope.open:
+        return None
+    left, right = (range_of(reader.cpp, reader.scope, side) for side in sides)
+    if left is None or right is None or max(left.bits, right.bits) not in (32, 64):
+        return None
+    bits = max(left.bits, right.bits)
+    if any(bits == 64 and not side.fits for side in (left, right)):
+        return None
+    signs = [side.values.low < 0 or not side.fits for side in (left, right)]
+    if not any(signs) or not all(is_calm(value) for value in values):
+        return None
+    one, other = values
+    plain = binary(operator, one, other)
+    if operator in (">", ">="):
+        one, other, signs = other, one, signs[::-1]
+    if not signs[0]:  # the greater one may be too large for the sign
+        return binary("||", plain, binary("<", other, _ZERO))
+    if not signs[1]:
+        return binary("&&", plain, binary(">=", one, _ZERO))
+    low, high = binary("<", one, _ZERO), binary("<", other, _ZERO)
+    return m.Conditional(binary("==", low, high), plain, high)
+
+
 def check(reader: CppExpressionReader, node: Node, operator: str, sides: Sequence[Node]) -> None:
     """Raises where an operator looks at a number that an `int` need not hold."""
     if not _is_asked(reader, node):
@@ -96,8 +132,8 @@ def check(reader: CppExpressionReader, node: Node, operator: str, sides: Sequenc
         if (looks or not known) and max(left.bits, right.bits) > INT_BITS:
             _raise(reader, node)
         return
-    bits = max(left.bits, right.bits)
-    if bits == INT_BITS or (operator in ("==", "!=") and bits == 32):
+    bits, equals = max(left.bits, right.bits), operator in ("==", "!=")
+    if bits == INT_BITS or (equals and (bits == 32 or (left.fits and right.fits))):
         return
     for side, found in zip(sides, (left, right), strict=True):
         if not as_type(found, bits).fits:

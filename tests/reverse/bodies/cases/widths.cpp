@@ -49,3 +49,15 @@ void Node::onNumbersWithoutSign() {
   sum += 7;
   level_ = sum * 2;
 }
+void Node::onOrders() {
+  unsigned u = limit_;
+  if (count_ < u) limit_ = 1;
+  if (u >= 7) limit_ = 2;
+  size_t few = 3;
+  if (few > count_) limit_ = 3;
+  if (count_ == few) limit_ = 4;
+  long signed_too = 3;
+  if (count_ < signed_too) limit_ = 5;
+  size_t any = limit_;
+  if (count_ < any) limit_ = 6;
+}
