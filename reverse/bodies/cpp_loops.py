@@ -12,7 +12,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies import cpp_special
 from rebsync.reverse.bodies.building import binary, is_calm, negated
 from rebsync.reverse.bodies.cpp_algorithms import plain_type, whole_array
-from rebsync.reverse.bodies.cpp_conversions import place_of, type_in
+from rebsync.reverse.bodies.cpp_conversions import converted_to, place_of, type_in
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -120,10 +120,12 @@ def _listed(reader: CppStatementReader, node: Node, over: Node) -> tuple[m.Expre
     values = named(over)
     kept = reader.scope.carried(part(node, "type"))
     of = kept.type if kept is not None else m.Type("int")
-    wide = kept.wide if kept is not None else 0
-    local = Variable(reader.fresh("values"), m.Type(of.name, (len(values),)), wide=wide)
+    bits, wide = (kept.bits, kept.wide) if kept is not None else (0, 0)
+    array = m.Type(of.name, (len(values),))
+    local = Variable(reader.fresh("values"), array, bits, (), wide)
     reader.meaning(f"in {node.start_byte}", local)
-    initial = m.ArrayInitializer(tuple(reader.expressions.read(v) for v in values))
+    inner = Variable("", of, bits, (), wide)
+    initial = m.ArrayInitializer(tuple(reader.expressions.stored(v, inner) for v in values))
     return m.Name(local.name), reader.local(over, local, initial)
 
 
@@ -142,9 +144,9 @@ def _element(
     wide = place_of(reader.scope, element).wide
     local = Variable(reader.fresh(name), of, wide=wide)
     if kept is not None:
-        local = Variable(local.name, kept.type, wide=kept.wide)
+        local = Variable(local.name, kept.type, kept.bits, (), kept.wide)
     reader.meaning(name, local, own=True)
-    return (reader.local(declarator, local, element),)
+    return (reader.local(declarator, local, converted_to(reader.scope, element, local)),)
 
 
 def filled(reader: CppStatementReader, node: Node) -> m.Statement | None:

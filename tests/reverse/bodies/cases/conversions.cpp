@@ -43,3 +43,8 @@ void Node::onCounting() {
   limit_ = a[3] + b[0];
   limit_ = on_ ? count_ : on_;
 }
+void Node::onElements() {
+  for (uint8_t x : grid_) count_ += x;
+  for (bool x : grid_) count_ += x;
+  for (uint8_t x : {1, 300}) count_ += x;
+}
