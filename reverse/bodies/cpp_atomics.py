@@ -12,8 +12,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.building import binary
-from rebsync.reverse.bodies.cpp_conversions import operands
+from rebsync.reverse.bodies.cpp_conversions import converted_to, operands
 from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.cpp_widths import check
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_tree import text_of
 
@@ -41,6 +42,7 @@ def call(
     if name == "store":
         return m.Assign("=", written, reader.stored(given[0], place), span)
     if name in _ADDS:
+        check(reader, node, _ADDS[name], (target, given[0]))
         sides = operands(reader.scope, _ADDS[name], written, reader.read(given[0]))
-        return m.Assign("=", written, binary(*sides), span)
+        return m.Assign("=", written, converted_to(reader.scope, binary(*sides), place), span)
     return None

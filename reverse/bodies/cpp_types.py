@@ -34,6 +34,7 @@ _WIDE = {
     **dict.fromkeys(("uint64_t", "size_t", "u_long", "u_int64_t", "uintptr_t"), 64),
 }
 _TIMES = frozenset({"Time", "Duration", "WallTime", "WallDuration", "SteadyTime"})
+_ATOMIC = re.compile(r"(?:::)?std::atomic(?:_(?=bool$|int$)| ?< ?)((?:\w|:| )*\w) ?>?$")
 _SCOPES = re.compile(r"^(?:::)?(?:std::)?")
 
 
@@ -98,7 +99,9 @@ def carried(node: Node, enums: Collection[str] = (), *, texts: bool = True) -> C
     if kind == "type_descriptor":
         return carried(part(node, "type"), enums, texts=texts)
     text = text_of(node)
-    if kind == "template_type" or (kind == "qualified_identifier" and "<" in text):
+    if texts and (atomic := _ATOMIC.match(text)) is not None:
+        text = atomic[1]
+    elif kind == "template_type" or (kind == "qualified_identifier" and "<" in text):
         array = type_of(node)
         return Carried(array) if array is not None else None
     if (known := _spelled(text)) is not None:
