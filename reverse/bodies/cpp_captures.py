@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -61,8 +62,26 @@ def declared(reader: CppStatementReader, node: Node) -> tuple[Lambda, list[m.Sta
         whole = INT if of in (BYTE, SHORT) else of
         local = Variable(reader.fresh(text_of(name)), whole)
         names[text_of(name)] = local
+        reader.meaning(f"{text_of(name)} of {node.start_byte}", local)
         statements.append(reader.local(capture, local, read))
+    for copied in dict.fromkeys(_copied(Lambda(node, reader.scope, frozenset(names)))):
+        if not _is_copy(reader, reader.scope, node, copied):
+            statements += _kept(reader, node, copied, names)
     return Lambda(node, reader.scope.with_locals(names), frozenset(names)), statements
+
+
+def _kept(
+    reader: CppStatementReader, node: Node, name: str, names: dict[str, Meaning]
+) -> Iterator[m.Statement]:
+    """A local of the model for a copied local that changes later, if it is a plain variable."""
+    match reader.scope.locals.get(name):
+        case Variable(of_model, type_) as original if type_ is not None and not type_.dimensions:
+            local = replace(original, name=reader.fresh(name))
+            names[name] = local
+            reader.meaning(f"{name} of {node.start_byte}", local)
+            yield reader.local(node, local, m.Name(of_model))
+        case m.IntLiteral() | m.FloatLiteral() | m.BoolLiteral() as value:
+            names[name] = value
 
 
 def check(reader: CppStatementReader, held: Lambda) -> None:
@@ -94,7 +113,7 @@ def _copied(held: Lambda) -> Iterator[str]:
     captures = part(held.node, "captures")
     texts, copies = [text_of(c) for c in captures.children], False
     for before, child in zip(["", *texts], captures.children, strict=False):
-        if child.type == "identifier" and before != "&":
+        if child.type == "identifier" and before != "&" and text_of(child) not in held.own:
             yield text_of(child)
         copies = copies or (child.type == "lambda_default_capture" and text_of(child) == "=")
     if copies:

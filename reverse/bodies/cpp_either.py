@@ -23,17 +23,22 @@ from rebsync.reverse.syntax.cpp_tree import part, text_of
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
+_MOST = 5  # references behind such a one
+
 
 def behind(
     reader: CppStatementReader, node: Node, rest: Sequence[Node]
 ) -> list[m.Statement] | None:
     """The statements behind such a declaration, with what decides; None for another statement."""
-    declared = _reference(node) if has_mailbox(reader.scope) else None
+    can_be = has_mailbox(reader.scope) or reader.scope.open
+    declared = _reference(node) if can_be else None
     value = only_value(declared) if declared is not None else None
     while value is not None and value.type == "parenthesized_expression":
         value = value.named_children[0]
     if declared is None or value is None or value.type != "conditional_expression":
         return None
+    if sum(_reference(later) is not None for later in rest) > _MOST:
+        return None  # each may double what follows
     ways = [resolve(reader.scope, part(value, w)) for w in ("consequence", "alternative")]
     places = [w for w in ways if isinstance(w, Variable)]
     if len(places) != len(ways) or len(set(map(_kind, places))) != 1:

@@ -15,6 +15,7 @@ from rebsync.reverse.bodies.cpp_conversions import as_boolean, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
+from rebsync.reverse.bodies.cpp_return_types import return_type, returns_in
 from rebsync.reverse.bodies.cpp_roots import is_element
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
@@ -367,9 +368,13 @@ def _result(
 ) -> Meaning | None:
     """Where the value that a function returns is kept; sets what `return` does in it."""
     if result is None or text_of(result) in ("auto", ""):
-        if any(named(n) for n in _returned(body)):
+        if not any(named(n) for n in returns_in(body)):
+            return None
+        kept = return_type(inside, body)
+        if kept is None or not inside.scope.open:
             raise reader.unread(body, "the type of what this gives is not written")
-        return None
+        inside.returns = place_of("", kept)
+        return place_of(reader.fresh("result", inlining=True), kept)
     if text_of(result) == "void":
         return None
     type_ = message_type(reader.scope, text_of(result))
@@ -388,13 +393,3 @@ def _result(
         raise inside.unread(body, "the model has no numbers of the type that this gives")
     inside.returns = place_of("", kept)
     return place_of(reader.fresh("result", inlining=True), kept)
-
-
-def _returned(body: Node) -> Iterator[Node]:
-    waiting = [body]
-    while waiting:
-        current = waiting.pop()
-        if current.type == "return_statement":
-            yield current
-        elif current.type != "lambda_expression":
-            waiting += current.named_children

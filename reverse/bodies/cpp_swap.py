@@ -56,6 +56,7 @@ def _three(
 ) -> Iterator[m.Statement]:
     one, other = places
     local = Variable(reader.fresh("swapped"), kept.type, kept.bits, (), kept.wide)
+    reader.meaning(f"swapped {node.start_byte}", local)
     span = reader.cpp.span(node)
     yield reader.local(node, local, one)
     yield m.ExpressionStatement(m.Assign("=", one, other), (), span)

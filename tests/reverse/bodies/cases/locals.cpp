@@ -27,3 +27,45 @@ void Node::onLocals() {
   int msgsrv = 1;
   limit_ = msgsrv;
 }
+void Node::onCopiedCaptures() {
+  int lim = 2;
+  auto before = [lim]() { return lim; };
+  lim = count_;
+  limit_ = before() * 10 + lim;
+  uint8_t octet = 3;
+  auto all = [=] { return octet; };
+  octet += 254;
+  count_ = all();
+  auto keeps = [lim]() mutable { return ++lim; };
+  lim = 5;
+  count_ = keeps();
+}
+void Node::onUnwrittenResults() {
+  auto most = [](int x) {
+    if (x > 3) return 3;
+    return x;
+  };
+  limit_ = most(count_);
+  auto found = [&](int x) {
+    if (x > 3) return on_;
+    return x < 2;
+  };
+  on_ = found(count_);
+  auto own = [&](int x) {
+    if (x > 3) {
+      uint8_t x = 4;
+      return x;
+    }
+    return x;
+  };
+  limit_ = own(count_);
+}
+void Node::onEither() {
+  auto& chosen = on_ ? count_ : limit_;
+  chosen = 7;
+  limit_ += 1;
+}
+void Node::onSwaps() {
+  std::swap(count_, limit_);
+  std::swap(grid_[0], limit_);
+}
