@@ -1,8 +1,10 @@
-"""Structured bindings: `auto& [x, y] = cell;` names the elements of an array."""
+"""Structured bindings: `auto& [x, y] = cell;` names the elements of an array, or the
+members of a structure."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
@@ -35,6 +37,10 @@ def bound(
     """The locals that have the elements, or what the names of references stand for."""
     if value is None:
         raise reader.unread(node, "this binds nothing")
+    record = resolve(reader.scope, value)
+    if isinstance(record, Record) and not record.type and len(record.fields) == len(names):
+        yield from _fields(reader, node, dict(zip(names, record.fields.values(), strict=True)), copies)
+        return
     try:
         whole = reader.expressions.read(value)
     except Unread:
@@ -58,3 +64,16 @@ def bound(
         local = Variable(reader.fresh(name), inner)
         reader.meaning(name, local, own=True)
         yield reader.local(node, local, element)
+
+
+def _fields(
+    reader: CppStatementReader, node: Node, fields: Mapping[str, Variable], copies: bool
+) -> Iterator[m.Statement]:
+    """The same for all the members of a plain structure, in their order."""
+    for name, field in fields.items():
+        if not copies:
+            reader.meaning(name, field)
+            continue
+        local = replace(field, name=reader.fresh(name), domain=())
+        reader.meaning(name, local, own=True)
+        yield reader.local(node, local, m.Name(field.name))

@@ -216,8 +216,8 @@ def _constructed(
                     passed = {p.name: (function.cpp, value) for p, value in given}
                     yield from _constructed(other, state, passed)
         stores = state.stored(meaning, values)
-        if stores is not None:
-            instead[entry.id] = (stores,)
+        if stores:
+            instead[entry.id] = stores
         elif not values:
             instead[entry.id] = state.zeros(meaning)
     yield StartStatements(function, tuple(nodes), instead, arguments)

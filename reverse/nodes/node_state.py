@@ -19,6 +19,7 @@ from rebsync.reverse.bodies.known_functions import is_matrix
 from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variable
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
+from rebsync.reverse.nodes.node_declarations import declarations, pair_of, stands_in
 from rebsync.reverse.nodes.node_names import Names, model_word
 from rebsync.reverse.nodes.node_taken import UsedNames
 from rebsync.reverse.nodes.node_units import Unit
@@ -106,9 +107,7 @@ class State:
         if given.value is not None and not is_null(given.value):
             braces = given.value.type == "initializer_list"
             values = named(given.value) if braces else [given.value]
-            stores = self.stored(meaning, values)
-            if stores is not None:
-                self.initial.append((given.cpp, stores))
+            self.initial += [(given.cpp, each) for each in self.stored(meaning, values)]
 
     def _leave(self, name: str, meaning: Member, type_: Node, cpp: Cpp, node: Node) -> None:
         """Keeps in mind that a variable has no value yet: times and messages have theirs."""
@@ -144,20 +143,26 @@ class State:
             case _:
                 return ()
 
-    def stored(self, meaning: Member | None, values: list[Node]) -> Stores | None:
-        """What a variable of the model holds from the start; one of several parts as its first."""
+    def stored(self, meaning: Member | None, values: list[Node]) -> tuple[Stores, ...]:
+        """What a variable of the model holds from the start; one of several parts as its first,
+        unless there is a value for each.
+        """
         match meaning:
             case Variable(name, m.Type(dimensions=(_, *_))) if values:
                 around = _parent(values[0])
                 braces = around.type == "initializer_list"
-                return Stores(m.Name(name), around if braces else values[0])
+                return (Stores(m.Name(name), around if braces else values[0]),)
             case Variable(name) if values:
-                return Stores(m.Name(name), values[0] if len(values) == 1 else _parent(values[0]))
+                value = values[0] if len(values) == 1 else _parent(values[0])
+                return (Stores(m.Name(name), value),)
+            case Record(fields, "") if len(values) == len(fields) > 1:
+                pairs = zip(fields.values(), values, strict=True)
+                return tuple(Stores(m.Name(field_.name), value) for field_, value in pairs)
             case Record(fields) if values and fields:
                 first = next(iter(fields.values()))
-                return Stores(m.Name(first.name), _parent(values[0]))
+                return (Stores(m.Name(first.name), _parent(values[0])),)
             case _:
-                return None
+                return ()
 
     def meaning(
         self, name: str, type_: Node, declarator: Node | None, cpp: Cpp, taken: Container[str]
@@ -181,6 +186,11 @@ class State:
             return Variable(given, kept.type, kept.bits, domain, kept.wide)
         if is_matrix(text_of(type_)):
             return Outside(indexed=True)
+        if (pair := pair_of(type_)) is not None:
+            halves = zip(("first", "second"), pair, strict=True)
+            both = {name: self._field(wish, name, each, cpp) for name, each in halves}
+            fields = {name: field for name, field in both.items() if field is not None}
+            return Record(fields) if len(fields) == len(both) else Outside()
         return self._struct(text_of(type_).rpartition("::")[2], wish)
 
     def _free(self, taken: Container[str], wishes: Sequence[str], other: str) -> list[str]:
@@ -246,14 +256,20 @@ class State:
             return Outside(reaches=type_ in self.units)
         fields: dict[str, Variable] = {}
         for member in owner.fields:
-            kept = carried(member.type, self.enums)
-            if kept is not None and not kept.type.dimensions:
-                given = self._new([f"{wish}_{member.name}"], kept.type)
-                fields[member.name] = place_of(given, kept)
-                self._note_wide(given, kept, member.cpp, member.type)
+            field_ = self._field(wish, member.name, member.type, member.cpp)
+            if field_ is not None:
+                fields[member.name] = field_
                 if member.value is not None:
-                    self.initial.append((member.cpp, Stores(m.Name(given), member.value)))
+                    self.initial.append((member.cpp, Stores(m.Name(field_.name), member.value)))
         return Record(fields)
+
+    def _field(self, wish: str, name: str, type_: Node, cpp: Cpp) -> Variable | None:
+        kept = carried(type_, self.enums)
+        if kept is None or kept.type.dimensions:
+            return None
+        given = self._new([f"{wish}_{name}"], kept.type)
+        self._note_wide(given, kept, cpp, type_)
+        return place_of(given, kept)
 
     # --- variables of functions -----------------------------------------------------------------
 
@@ -264,7 +280,7 @@ class State:
 
         Those that are declared `within` a loop live for one round only.
         """
-        if not any(_stands_in(function, word) for word in (("static",) if only_static else names)):
+        if not any(stands_in(function, word) for word in (("static",) if only_static else names)):
             return {}
         key = function.node.id, frozenset(names), only_static
         if key not in self.outlived:
@@ -276,7 +292,7 @@ class State:
     ) -> dict[int, tuple[Stores, ...]]:
         instead: dict[int, tuple[Stores, ...]] = {}
         local = self.local.setdefault(function.node.id, {})
-        for node in _declarations(self.code, function):
+        for node in declarations(self.code, function):
             if within is not None and within.start_byte <= node.start_byte < within.end_byte:
                 continue
             static = any(text_of(c) == "static" for c in node.named_children)
@@ -379,22 +395,3 @@ def _value(declarator: Node) -> Node | None:
         inside = named(value)
         return inside[0] if len(inside) == 1 else None
     return value
-
-
-def _stands_in(function: CppFunction, word: str) -> bool:
-    """Whether a word is in the body of a function at all."""
-    if function.body is None or word.encode() not in function.cpp.words:
-        return False
-    at, end = function.body.start_byte, function.body.end_byte
-    return function.cpp.original.find(word.encode(), at, end) >= 0
-
-
-def _declarations(code: Code, function: CppFunction) -> Iterator[Node]:
-    """Those of a body itself, not of lambdas in it."""
-    end = -1
-    for node in code.inside(function.cpp, function.body, "declaration", "lambda_expression"):
-        if node.start_byte >= end:
-            if node.type == "declaration":
-                yield node
-            else:
-                end = node.end_byte
