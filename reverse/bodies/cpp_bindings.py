@@ -39,7 +39,9 @@ def bound(
         raise reader.unread(node, "this binds nothing")
     record = resolve(reader.scope, value)
     if isinstance(record, Record) and not record.type and len(record.fields) == len(names):
-        yield from _fields(reader, node, dict(zip(names, record.fields.values(), strict=True)), copies)
+        yield from _fields(
+            reader, node, dict(zip(names, record.fields.values(), strict=True)), copies
+        )
         return
     try:
         whole = reader.expressions.read(value)

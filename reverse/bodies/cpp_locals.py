@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_bindings, cpp_captures, cpp_messages, cpp_plain_locals
+from rebsync.reverse.bodies import (
+    cpp_bindings,
+    cpp_captures,
+    cpp_messages,
+    cpp_optionals,
+    cpp_plain_locals,
+)
 from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, number_of, only_value, taken_apart
@@ -153,6 +159,13 @@ def _declared(reader: CppStatementReader, declared: DeclaratorParts) -> Iterator
         return
     if declared.kind in _REFERS:
         yield from _reference(reader, declared, value)
+        return
+    if declared.kind == "identifier" and (
+        optional := cpp_optionals.declare(
+            reader, declared.node, declared.name, declared.type, declared.value
+        )
+    ):
+        yield from optional
         return
     if declared.kind == "function_declarator":
         yield from _called_or_made(reader, declared)

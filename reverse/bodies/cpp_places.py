@@ -7,9 +7,18 @@ from dataclasses import replace
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Publishes, Record, Scope
+from rebsync.reverse.bodies.scope import (
+    Itself,
+    Meaning,
+    Outside,
+    Publishes,
+    Record,
+    Scope,
+    Variable,
+)
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
+HELD = "*"  # the path of the value in an optional
 _SAME = frozenset({"std::move", "std::ref", "std::cref", "boost::ref", "boost::cref"})
 
 
@@ -23,7 +32,8 @@ def resolve(scope: Scope, node: Node) -> Meaning | None:
         case "parenthesized_expression" if len(named(node)) == 1:
             return resolve(scope, named(node)[0])
         case "pointer_expression":
-            return resolve(scope, part(node, "argument"))
+            inner = resolve(scope, part(node, "argument"))
+            return _held(inner) if text_of(node).startswith("*") else inner
         case "field_expression":
             return _field(scope, node)
         case "call_expression":
@@ -58,6 +68,11 @@ def _field(scope: Scope, node: Node) -> Meaning | None:
             return None
 
 
+def _held(meaning: Meaning | None) -> Meaning | None:
+    """The value of an optional; what else a pointer leads to has the pointer's meaning."""
+    return meaning.fields.get(HELD, meaning) if isinstance(meaning, Record) else meaning
+
+
 def is_this(node: Node) -> bool:
     """Whether it is `this` or `(*this)`."""
     while node.type == "parenthesized_expression" and len(named(node)) == 1:
@@ -71,8 +86,12 @@ def _handed_on(scope: Scope, node: Node) -> Meaning | None:
     """`pointer.get()`, `std::move(message)`."""
     function, arguments = part(node, "function"), named(part(node, "arguments"))
     if function.type == "field_expression" and not arguments:
-        if text_of(part(function, "field")) == "get":
-            return resolve(scope, part(function, "argument"))
+        match text_of(part(function, "field")):
+            case "get":
+                return resolve(scope, part(function, "argument"))
+            case "value":
+                held = _held(resolve(scope, part(function, "argument")))
+                return held if isinstance(held, Variable) else None
         return None
     if function.type == "field_expression" and text_of(part(function, "field")) == "at":
         return _element(scope, part(function, "argument"), arguments)

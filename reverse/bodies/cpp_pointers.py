@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _GIVEN = re.compile(r"(?:std::move|(?:(?:std|boost)::)?make_(?:shared|unique)\b)")
-_NULL = ("nullptr", "NULL")
+_NULL = ("nullptr", "NULL", "std::nullopt", "nullopt")
 # Where it counts whether a pointer points to something.
 _TESTS = (
     r"!\s*(?:this->)?{name}\b(?!\s*(?:->|\.))",

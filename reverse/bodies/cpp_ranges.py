@@ -22,9 +22,9 @@ from rebsync.intervals import (
 )
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_conversions import variable_of
-from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.cpp_places import HELD, resolve
 from rebsync.reverse.bodies.cpp_types import Carried
-from rebsync.reverse.bodies.scope import Called, Inline, Lambda, Scope, Variable
+from rebsync.reverse.bodies.scope import Called, Inline, Lambda, Meaning, Record, Scope, Variable
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.static.constants import constant
@@ -237,8 +237,12 @@ def _cast(cpp: Cpp, scope: Scope, to: Node, values: Sequence[Node]) -> Ranged | 
 
 def _called(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
     function, arguments = part(node, "function"), named(part(node, "arguments"))
+    if isinstance(place := resolve(scope, node), Variable):
+        return _variable(scope, place)
     if function.type == "field_expression":
         name = text_of(part(function, "field"))
+        if name == "value_or":
+            return _or_other(scope, resolve(scope, part(function, "argument")))
         if name in ("load", "get"):
             return _named(cpp, scope, part(function, "argument"))
         if name in _SIZES:
@@ -264,6 +268,14 @@ def _called(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
     if plain.rpartition("::")[2] in ("min", "max", "clamp"):
         return _widest(cpp, scope, arguments, given.rstrip(">"))
     return _result(scope, plain.rpartition("::")[2])
+
+
+def _or_other(scope: Scope, optional: Meaning | None) -> Ranged | None:
+    """The value of an optional, or another one of its type."""
+    held = optional.fields.get(HELD) if isinstance(optional, Record) else None
+    if held is None or held.wide:
+        return all_of(held.wide if held is not None else 64)
+    return _variable(scope, held)
 
 
 def _widest(cpp: Cpp, scope: Scope, arguments: Sequence[Node], given: str) -> Ranged | None:

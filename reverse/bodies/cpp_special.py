@@ -13,6 +13,7 @@ from rebsync.reverse.bodies import (
     cpp_inline,
     cpp_mailbox,
     cpp_messages,
+    cpp_optionals,
     cpp_plain_locals,
     cpp_pointers,
     cpp_swap,
@@ -73,7 +74,7 @@ def read(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None
                 return _starts(reader, value, timer)
             if value.type == "assignment_expression" and _is_message(reader, target):
                 raise reader.unread(node, "messages are copied one at a time")
-            return cpp_messages.assign(reader, target, value)
+            return cpp_optionals.assign(reader, target, value)
         case "binary_expression" if _streams(node):
             Effects(reader.cpp, reader.scope).check(node)
             return iter(()) if reader.scope.open else failing(reader, node)
@@ -137,8 +138,7 @@ def _streams(node: Node) -> bool:
 
 
 def _called(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None:
-    function = part(node, "function")
-    name = text_of(function)
+    name = text_of(function := part(node, "function"))
     if (sends := cpp_messages.published(reader, node)) is not None:
         return sends
     if (length := pause(reader.expressions, node)) is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from functools import lru_cache
 
 from tree_sitter import Node
@@ -65,6 +65,15 @@ def _of_template(node: Node) -> Type | None:
             return Type(class_name(text_of(arguments[0])))
         case _:
             return None
+
+
+def arguments_of(type_: Node, name: str) -> Sequence[Node]:
+    """The types that `std::name<...>` has in its angle brackets; nothing of other types."""
+    if type_.type == "qualified_identifier" and text_of(part(type_, "scope")) == "std":
+        type_ = part(type_, "name")
+        if type_.type == "template_type" and text_of(part(type_, "name")) == name:
+            return named(part(type_, "arguments"))
+    return ()
 
 
 def class_name(text: str) -> str:

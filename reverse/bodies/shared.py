@@ -85,7 +85,8 @@ def names_of(meanings: Iterable[Meaning]) -> Iterator[str]:
         match meaning:
             case Variable(name) | m.Name(name):
                 yield name
-            case Record(fields):
+            case Record(fields, there=there):
                 yield from (v.name for v in fields.values())
+                yield there
             case Publishes(targets):
                 yield from (t.known for t in targets if t.known is not None)

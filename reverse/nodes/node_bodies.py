@@ -287,8 +287,11 @@ class Bodies:
         """What runs before the node serves messages."""
         found: list[m.Statement] = []
         for cpp, stores in self.state.initial:
-            assert isinstance(stores.value, Node)
-            found += self._known(cpp, stores.value, stores)
+            match stores:
+                case Stores(m.Name() as place, m.BoolLiteral() as value):
+                    found.append(m.ExpressionStatement(m.Assign("=", place, value)))
+                case Stores(_, Node() as value):
+                    found += self._known(cpp, value, stores)
         given = {p.name: Variable(p.name, p.type) for p in self.setup.parameters}
         for step in self.opening.steps:
             if not step.nodes:

@@ -1,4 +1,4 @@
-"""What stands in the bodies of functions, and of which parts a variable is made."""
+"""What declarations of variables, and bodies of functions, say by how they are written."""
 
 from __future__ import annotations
 
@@ -6,18 +6,11 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
+from rebsync import model as m
+from rebsync.reverse.bodies.cpp_pointers import is_null
+from rebsync.reverse.bodies.scope import Stores
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-
-
-def pair_of(type_: Node) -> tuple[Node, Node] | None:
-    """The two types of a `std::pair`; None for other types."""
-    if type_.type == "qualified_identifier" and text_of(part(type_, "scope")) == "std":
-        type_ = part(type_, "name")
-        if type_.type == "template_type" and text_of(part(type_, "name")) == "pair":
-            first, second = named(part(type_, "arguments"))
-            return first, second
-    return None
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 
 
 def stands_in(function: CppFunction, word: str) -> bool:
@@ -37,3 +30,26 @@ def declarations(code: Code, function: CppFunction) -> Iterator[Node]:
                 yield node
             else:
                 end = node.end_byte
+
+
+def number_of(code: Code, cpp: Cpp, node: Node) -> int | None:
+    text = text_of(node)
+    if text.isdecimal():
+        return int(text)
+    found = code.constants_for(cpp).get(text)
+    return int(text_of(found[1])) if found is not None and text_of(found[1]).isdecimal() else None
+
+
+def stored_in_optional(there: m.Name, held: m.Name, value: Node) -> tuple[Stores, ...]:
+    """What an optional holds from the start: of other values than literals it is not read."""
+    if is_null(value):
+        return (Stores(there, m.BoolLiteral(False)),)
+    if value.type in ("number_literal", "unary_expression", "true", "false"):
+        return (Stores(held, value), Stores(there, m.BoolLiteral(True)))
+    around = value.parent or value
+    return (Stores(held, around), Stores(there, around))
+
+
+def is_static(node: Node) -> bool:
+    """Whether there is one of a variable for all objects."""
+    return any(text_of(c) == "static" for c in node.named_children)

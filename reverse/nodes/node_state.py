@@ -10,16 +10,23 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_messages import is_pointer, zero_of
+from rebsync.reverse.bodies.cpp_places import HELD
 from rebsync.reverse.bodies.cpp_pointees import is_changed
 from rebsync.reverse.bodies.cpp_pointers import is_null, is_tested
-from rebsync.reverse.bodies.cpp_types import Carried, carried, is_time, wider
+from rebsync.reverse.bodies.cpp_types import Carried, arguments_of, carried, is_time, wider
 from rebsync.reverse.bodies.cpp_unknowns import domain_near
 from rebsync.reverse.bodies.cpp_widths import place_of
 from rebsync.reverse.bodies.known_functions import is_matrix
 from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variable
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
-from rebsync.reverse.nodes.node_declarations import declarations, pair_of, stands_in
+from rebsync.reverse.nodes.node_declarations import (
+    declarations,
+    is_static,
+    number_of,
+    stands_in,
+    stored_in_optional,
+)
 from rebsync.reverse.nodes.node_names import Names, model_word
 from rebsync.reverse.nodes.node_taken import UsedNames
 from rebsync.reverse.nodes.node_units import Unit
@@ -87,7 +94,7 @@ class State:
             for member in (*above.fields, *above.others):
                 outside = self.code.statics.get((above.name, member.name))
                 self._add(member, outside if member.value is None else None)
-                if member.value is None and not _is_static(member.node):
+                if member.value is None and not is_static(member.node):
                     left = self.members[member.name]
                     self._leave(member.name, left, member.type, member.cpp, member.type)
 
@@ -155,6 +162,8 @@ class State:
             case Variable(name) if values:
                 value = values[0] if len(values) == 1 else _parent(values[0])
                 return (Stores(m.Name(name), value),)
+            case Record(fields, there=there) if HELD in fields and values:
+                return stored_in_optional(m.Name(there), m.Name(fields[HELD].name), values[0])
             case Record(fields, "") if len(values) == len(fields) > 1:
                 pairs = zip(fields.values(), values, strict=True)
                 return tuple(Stores(m.Name(field_.name), value) for field_, value in pairs)
@@ -186,11 +195,16 @@ class State:
             return Variable(given, kept.type, kept.bits, domain, kept.wide)
         if is_matrix(text_of(type_)):
             return Outside(indexed=True)
-        if (pair := pair_of(type_)) is not None:
+        if pair := arguments_of(type_, "pair"):
             halves = zip(("first", "second"), pair, strict=True)
             both = {name: self._field(wish, name, each, cpp) for name, each in halves}
             fields = {name: field for name, field in both.items() if field is not None}
             return Record(fields) if len(fields) == len(both) else Outside()
+        if inner := arguments_of(type_, "optional"):
+            held = self._field(wish, "value", inner[0], cpp)
+            if held is None or held.type == TEXT:
+                return Outside()
+            return Record({HELD: held}, there=self._new([f"{wish}_is_there"], BOOLEAN))
         return self._struct(text_of(type_).rpartition("::")[2], wish)
 
     def _free(self, taken: Container[str], wishes: Sequence[str], other: str) -> list[str]:
@@ -233,7 +247,7 @@ class State:
         at: Node | None = declarator
         while at is not None and at.type == "array_declarator":
             size = at.child_by_field_name("size")
-            length = _number(self.code, cpp, size) if size is not None else None
+            length = number_of(self.code, cpp, size) if size is not None else None
             if length is None or length < 1:
                 return Outside()
             lengths.insert(0, length)
@@ -349,20 +363,8 @@ def zeros(place: m.Expression, type_: m.Type) -> Iterator[Stores]:
         yield from zeros(m.Index(place, m.IntLiteral(index)), inner)
 
 
-def _is_static(node: Node) -> bool:
-    return any(text_of(c) == "static" for c in node.named_children)
-
-
 def _parent(node: Node) -> Node:
     return node.parent if node.parent is not None else node
-
-
-def _number(code: Code, cpp: Cpp, node: Node) -> int | None:
-    text = text_of(node)
-    if text.isdecimal():
-        return int(text)
-    found = code.constants_for(cpp).get(text)
-    return int(text_of(found[1])) if found is not None and text_of(found[1]).isdecimal() else None
 
 
 def _declarator(node: Node, name: str) -> Node | None:
