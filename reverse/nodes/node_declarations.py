@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_pointers import is_null
+from rebsync.reverse.bodies.cpp_pointers import is_null, is_tested
 from rebsync.reverse.bodies.scope import Stores
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
@@ -53,3 +54,10 @@ def stored_in_optional(there: m.Name, held: m.Name, value: Node) -> tuple[Stores
 def is_static(node: Node) -> bool:
     """Whether there is one of a variable for all objects."""
     return any(text_of(c) == "static" for c in node.named_children)
+
+
+def is_asked(name: str, functions: Sequence[CppFunction]) -> bool:
+    """Whether some function asks whether an optional is there, or does not care."""
+    asks = re.compile(rf"\b{re.escape(name)}\s*(?:\.\s*(?:has_value|value|value_or)\b|[=!]=)")
+    texts = [text_of(function.node) for function in functions]
+    return any(is_tested(name, text) or asks.search(text) is not None for text in texts)

@@ -22,6 +22,7 @@ from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.nodes.node_declarations import (
     declarations,
+    is_asked,
     is_static,
     number_of,
     stands_in,
@@ -121,6 +122,8 @@ class State:
         match meaning:
             case Variable(of_model, kept) if not is_time(type_) and kept != TEXT:
                 self.unset[of_model] = UnsetVariable(name, meaning, cpp, node)
+            case Record({"*": held}) if not is_asked(name, self.unit.functions):
+                self.unset[held.name] = UnsetVariable(name, held, cpp, node)
             case Record(fields, ""):
                 owner = self.code.classes.get(text_of(type_).rpartition("::")[2])
                 for member in owner.fields if owner is not None else ():
@@ -151,9 +154,7 @@ class State:
                 return ()
 
     def stored(self, meaning: Member | None, values: list[Node]) -> tuple[Stores, ...]:
-        """What a variable of the model holds from the start; one of several parts as its first,
-        unless there is a value for each.
-        """
+        """What a variable holds from the start; where parts have no value each, the first all."""
         match meaning:
             case Variable(name, m.Type(dimensions=(_, *_))) if values:
                 around = _parent(values[0])
