@@ -23,8 +23,20 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.syntax.cpp_tree import Cpp, named
 from rebsync.source import Span
 
+
+@dataclass(frozen=True, slots=True)
+class Exchange:
+    """A call that stores `value` in `target`, or what an operator makes of both, and gives what
+    was there.
+    """
+
+    target: Node
+    value: Node
+    operator: str = ""
+
+
 # Reads the call of a function whose body stands in its place: what the call gives, if anything.
-Inlines = Callable[[Node, Inline | Lambda, Sequence[Node]], Meaning | None]
+Inlines = Callable[[Node, Inline | Lambda | Exchange, Sequence[Node]], Meaning | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +119,6 @@ class CppExpressionReader(ABC):
 
     @abstractmethod
     def inlined(
-        self, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
+        self, node: Node, function: Inline | Lambda | Exchange, arguments: Sequence[Node]
     ) -> m.Expression:
         """What a call gives for which the function's body stands."""

@@ -31,7 +31,7 @@ from rebsync.reverse.bodies.cpp_conversions import (
     type_in,
 )
 from rebsync.reverse.bodies.cpp_effects import Effects
-from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader, Exchange
 from rebsync.reverse.bodies.cpp_literals import in_range, is_bare_macro, literal, text_in
 from rebsync.reverse.bodies.cpp_misread import Chain, ChainOperand, Operation, chain_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
@@ -375,7 +375,7 @@ class CppExpressions(CppExpressionReader):
     # --- calls ----------------------------------------------------------------------------------
 
     def inlined(
-        self, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
+        self, node: Node, function: Inline | Lambda | Exchange, arguments: Sequence[Node]
     ) -> m.Expression:
         """What a call gives for which the function's body stands."""
         if self.inlines is None:

@@ -15,6 +15,7 @@ from rebsync.reverse.bodies import cpp_algorithms, cpp_atomics, cpp_optionals, c
 from rebsync.reverse.bodies.building import binary, cast, chosen, is_calm, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.cpp_expression_reader import Exchange
 from rebsync.reverse.bodies.cpp_literals import lower
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_time import is_flat, time_called, to_seconds
@@ -93,6 +94,8 @@ def call(
             return _magnitude(reader, arguments[0], plain)
         case "floor" | "ceil" | "round" | "trunc", 1:
             return _rounded(reader, arguments[0])
+        case "exchange", 2 if name.startswith("std::"):
+            return reader.inlined(node, Exchange(*arguments), ())
         case "isnan", 1:
             (value,) = _calm(reader, arguments)
             return binary("!=", value, value)

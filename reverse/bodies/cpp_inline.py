@@ -81,7 +81,7 @@ def inlined(
         reader.shared.running.pop()
         reader.shared.depth -= depth
     if len(reader.before) > needed:
-        _check_place(reader, node)
+        check_place(reader, node)
     return found
 
 
@@ -210,7 +210,7 @@ def _trailing(declarator: Node | None) -> Node | None:
     return None
 
 
-def _check_place(reader: CppStatementReader, node: Node) -> None:
+def check_place(reader: CppStatementReader, node: Node) -> None:
     """Raises `Unread` where the call is not run once, and first of all in its statement."""
     below, above = node, node.parent
     while above is not None and not below.type.endswith(("_statement", "declaration")):

@@ -11,6 +11,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, is_calm, is_effect
+from rebsync.reverse.bodies.cpp_expression_reader import Exchange
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 from rebsync.reverse.bodies.cpp_unknowns import Demote
 from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Variable
@@ -116,7 +117,7 @@ class CppStatementReader(ABC):
 
     @abstractmethod
     def inlined(
-        self, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
+        self, node: Node, function: Inline | Lambda | Exchange, arguments: Sequence[Node]
     ) -> Meaning | None:
         """What a call gives for which the function's body stands, now in `before`."""
 

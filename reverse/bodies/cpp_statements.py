@@ -15,6 +15,7 @@ from rebsync.reverse.bodies import (
     cpp_control,
     cpp_counts,
     cpp_either,
+    cpp_exchange,
     cpp_failing,
     cpp_inline,
     cpp_locals,
@@ -26,6 +27,7 @@ from rebsync.reverse.bodies import (
 )
 from rebsync.reverse.bodies.building import cell, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_effects import Effects, touching
+from rebsync.reverse.bodies.cpp_expression_reader import Exchange
 from rebsync.reverse.bodies.cpp_expressions import MOVE
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
@@ -274,9 +276,12 @@ class CppStatements(CppStatementReader):
     # --- what others read with ------------------------------------------------------------------
 
     def inlined(
-        self, node: Node, function: Inline | Lambda, arguments: Sequence[Node]
+        self, node: Node, function: Inline | Lambda | Exchange, arguments: Sequence[Node]
     ) -> Meaning | None:
         """What a call gives for which the function's body stands, now in `before`."""
+        if isinstance(function, Exchange):
+            cpp_inline.check_place(self, node)
+            return cpp_exchange.exchanged(self, node, function)
         return cpp_inline.inlined(self, node, function, arguments)
 
     def inside(self, cpp: Cpp, scope: Scope, own: set[str] | frozenset[str]) -> CppStatements:
