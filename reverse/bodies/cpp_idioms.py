@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_algorithms, cpp_atomics, cpp_optionals, cpp_texts
+from rebsync.reverse.bodies import cpp_algorithms, cpp_atomics, cpp_optional_calls, cpp_texts
 from rebsync.reverse.bodies.building import binary, cast, chosen, is_calm, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
@@ -216,7 +216,7 @@ def member_call(
     """The call of a function of an array, an atomic object, a time or a node handle."""
     if (found := cpp_texts.call(reader, node, target, name, arguments)) is not None:
         return found
-    if (kept := cpp_optionals.call(reader, node, target, name, arguments)) is not None:
+    if (kept := cpp_optional_calls.call(reader, node, target, name, arguments)) is not None:
         return kept
     if (held := cpp_atomics.call(reader, node, target, name, arguments)) is not None:
         return held
