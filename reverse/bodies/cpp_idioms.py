@@ -95,7 +95,7 @@ def call(
         case "floor" | "ceil" | "round" | "trunc", 1:
             return _rounded(reader, arguments[0])
         case "exchange", 2 if name.startswith("std::"):
-            return reader.inlined(node, Exchange(*arguments), ())
+            return reader.inlined(node, Exchange(arguments[0], arguments[1]), ())
         case "isnan", 1:
             (value,) = _calm(reader, arguments)
             return binary("!=", value, value)
