@@ -20,6 +20,7 @@ class Shared : public rclcpp::Node {
 
   void on(std_msgs::msg::Int32::ConstSharedPtr message) {
     const int before = count_.fetch_add(1);
+    if (before == 0) count_.store(254);
     send(before);
   }
 

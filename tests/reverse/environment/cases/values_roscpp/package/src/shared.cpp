@@ -19,6 +19,7 @@ class Shared {
 
   void on(const std_msgs::Int32::ConstPtr& message) {
     const int before = count_.fetch_add(1);
+    if (before == 0) count_.store(254);
     send(before);
   }
 
