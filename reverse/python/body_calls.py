@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -12,25 +14,20 @@ from rebsync import precedence
 from rebsync.intervals import unsigned
 from rebsync.literals import exact_literal_of
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight, whole_number
-from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import NotWhole, Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.python import body_timers
-from rebsync.reverse.python.body_arguments import arguments
-from rebsync.reverse.python.body_effects import is_harmless, is_still
+from rebsync.reverse.python import body_functions, body_timers
+from rebsync.reverse.python.body_floats import as_number
 from rebsync.reverse.python.body_scope import (
     REAL,
     STRING,
     TRUTH,
     WHOLE,
-    Frame,
-    Nobody,
     Value,
     unknown,
 )
-from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import Scope, arguments_of, has_splat, last_name
+from rebsync.reverse.python.py_index import arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.unknowns import Open
 
@@ -45,7 +42,7 @@ def called(reader: BodyExpressionReader, node: Node) -> Value:
     function = field(node, "function")
     own = reader.reading.function(function, reader.frame)
     if own is not None:
-        return value_of_method(reader, own, node)
+        return body_functions.value_of_call(reader, own, node)
     stopped = body_timers.is_stopped(reader.reading, node, reader.frame)
     if stopped is not None:
         return Value(stopped, TRUTH)
@@ -98,19 +95,20 @@ def _builtin(
             return Value(reader.condition(only), TRUTH)
         case "int", [only]:
             value = reader.read(only)
-            if value.kind == WHOLE:
-                return value
-            if value.kind == TRUTH:
-                return _as_number(value)
-            raise unknown(reader.frame, node, "whether its int holds this number")
+            if value.kind in (WHOLE, TRUTH):
+                return as_number(value)
+            known = _rounded(reader, only, int)
+            if known is None:
+                raise unknown(reader.frame, node, "whether its int holds this number")
+            return known
+        case "round", [only] if reader.reading.unit.version == 3:
+            value = as_number(reader.read(only))
+            return value if value.kind == WHOLE else _rounded(reader, only, round)
         case "str", [only]:
             value = reader.read(only)
             return value if value.kind == STRING and not value.mixed else None
         case "float", [only]:
-            value = reader.read(only)
-            if value.kind == TRUTH:
-                value = _as_number(value)
-            return Value(reader.real(value, node), REAL)
+            return Value(reader.real(as_number(reader.read(only)), node), REAL)
         case "abs", [only]:
             value = reader.read(only)
             if value.kind in (TRUTH, STRING) or not is_calm(value.expression):
@@ -130,8 +128,15 @@ def _builtin(
             return None
 
 
-def _as_number(value: Value) -> Value:
-    return Value(chosen(value.expression, m.IntLiteral(1), m.IntLiteral(0)), WHOLE)
+def _rounded(
+    reader: BodyExpressionReader, node: Node, to_whole: Callable[[float], int]
+) -> Value | None:
+    """A float that is known as the whole number that Python makes of it."""
+    match reader.reading.values.ways(node, reader.frame.scope):
+        case (float() as number,) if math.isfinite(number):
+            return reader.reading.constant((to_whole(number),))
+        case _:
+            return None
 
 
 def _better(
@@ -144,12 +149,13 @@ def _better(
     if not calm or TRUTH in (best.kind, other.kind):
         raise Unread(reader.frame.span(node), f'"{name}" of these is not read')
     kind = best.kind if best.kind == other.kind else REAL
+    mixed = kind == REAL and (best.mixed or other.mixed or WHOLE in (best.kind, other.kind))
     if kind == REAL:
         one, two = reader.real(best, node), reader.real(other, node)
     else:
         one, two = reader.need(best, node, "one"), reader.need(other, node, "other")
     sign = "<" if name == "min" else ">"
-    return Value(chosen(binary(sign, two, one), two, one), kind)
+    return Value(chosen(binary(sign, two, one), two, one), kind, mixed=mixed)
 
 
 def _random(
@@ -192,37 +198,3 @@ def units(reader: BodyExpressionReader, node: Node) -> m.Expression:
         why = f"{float(value):g} s is no multiple of the model's unit of time"
         raise NotWhole(reader.frame.span(node), why, "set time_unit in rebsync.toml", value)
     return m.IntLiteral(int(found))
-
-
-def value_of_method(reader: BodyExpressionReader, own: Scope, call: Node) -> Value:
-    """The value of a function that only computes it from what it is given."""
-    span = reader.frame.span(call)
-    body = body_of(own)
-    if is_still(reader.reading, own):
-        quiet = all(is_harmless(reader.reading, n, reader.frame) for n in _given(call))
-        if quiet and not (len(body) == 1 and body[0].type == "return_statement"):
-            raise Unknown(span, f'the model cannot know what "{own.name}" gives', "")
-    if len(body) != 1 or body[0].type != "return_statement" or own.decorators:
-        raise Unread(span, f'the value of "{own.name}" is not read')
-    inner = Frame(own, server=reader.frame.server, outer=reader.frame)
-    for parameter, node, given in arguments(own, call, span):
-        if node is None or not given:
-            ways = reader.reading.values.ways(node, own) if node is not None else ()
-            inner.bound[parameter.name] = reader.reading.constant(ways) or Nobody()
-            continue
-        value = reader.read(node)
-        if not is_calm(value.expression):
-            raise Unread(span, f'the value of "{own.name}" is not read')
-        inner.bound[parameter.name] = value
-    returned = named(body[0])
-    if has_splat(call):
-        raise Unread(span, "what stars unpack into the arguments is not read")
-    if not returned or inner.scope.node.id in reader.running:
-        raise Unread(span, f'the value of "{own.name}" is not read')
-    running = (*reader.running, own.node.id)
-    return type(reader)(reader.reading, inner, reader.within, running).read(returned[0])
-
-
-def _given(call: Node) -> list[Node]:
-    plain, keywords = arguments_of(call)
-    return [*plain, *keywords.values()]

@@ -245,7 +245,7 @@ def _is_safe_name(reading: Reading, node: Node, frame: Frame) -> bool:
             return _is_looked_at(node)
     elif text_of(field(node, "attribute")) in libraries.acting_methods():
         return False
-    return reading.function(node, frame) is None
+    return reading.function(node, frame) is None or getter(reading, node, frame) is not None
 
 
 def _is_looked_at(node: Node) -> bool:
@@ -258,8 +258,29 @@ def _is_looked_at(node: Node) -> bool:
 
 def is_still(reading: Reading, own: Scope) -> bool:
     """Whether a function of the node changes nothing: it only computes what it gives."""
-    if not set(own.decorators) <= HARMLESS_DECORATORS:
+    return HARMLESS_DECORATORS.issuperset(own.decorators) and _changes_nothing(reading, own)
+
+
+def getter(reading: Reading, node: Node, frame: Frame) -> Scope | None:
+    """The function that `self.name` calls, where that is a property that changes nothing."""
+    if node.type != "attribute" or field(node, "object").type != "identifier":
+        return None
+    own = reading.function(node, frame)
+    return own if own is not None and is_getter(reading, own) else None
+
+
+def is_getter(reading: Reading, own: Scope) -> bool:
+    """Whether a method is a property that is only read, and that changes nothing."""
+    if own.decorators != ["property"] or reading.values.is_stored(own.name):
         return False
+    lineage = reading.unit.lineage
+    bound_here = [b for c in lineage for b in c.names.get(own.name, ())]
+    is_plain = all(b.how == "scope" for b in bound_here)
+    is_set = any(own.name in c.attributes or len(c.names.get(own.name, ())) > 1 for c in lineage)
+    return is_plain and not is_set and _changes_nothing(reading, own)
+
+
+def _changes_nothing(reading: Reading, own: Scope) -> bool:
     return is_quiet_body(reading, own, 0) and not any(
         b.how in ("value", "augmented") and scope_of_binding(b, own)
         for above in reading.unit.lineage

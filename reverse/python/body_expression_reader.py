@@ -123,6 +123,14 @@ class BodyExpressionReader(ABC):
         """The comparison with a number in `node`."""
 
     @abstractmethod
+    def joined(self, asked: m.Expression, one: Value, other: Value, node: Node) -> Value:
+        """One of two values, as a condition says."""
+
+    @abstractmethod
+    def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
+        """An operation on two numbers."""
+
+    @abstractmethod
     def condition(self, node: Node) -> m.Expression:
         """A condition; one that nobody knows may be true or false, and is listed."""
 

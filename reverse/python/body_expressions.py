@@ -18,10 +18,16 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, negated, tight
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.python import body_calls, body_presence, body_tables, body_texts
+from rebsync.reverse.python import (
+    body_calls,
+    body_functions,
+    body_presence,
+    body_tables,
+    body_texts,
+)
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
-from rebsync.reverse.python.body_floats import doubled, is_zero
+from rebsync.reverse.python.body_floats import as_number, doubled, is_zero
 from rebsync.reverse.python.body_scope import (
     REAL,
     STRING,
@@ -135,7 +141,10 @@ class PyExpressions(BodyExpressionReader):
             case _:
                 if "_parameter(" in text_of(node):
                     return body_calls.parameter(self, node)
-                raise unknown(self.frame, node, f'"{short(node)}"')
+                found = body_functions.value_of_property(self, node)
+                if found is None:
+                    raise unknown(self.frame, node, f'"{short(node)}"')
+                return found
 
     def _variable(self, variable: Var, node: Node) -> Value:
         kind = self.reading.learnt.kind(variable.key)
@@ -167,7 +176,8 @@ class PyExpressions(BodyExpressionReader):
         value, operator = self.read(inner), text_of(field(node, "operator"))
         if value.kind == STRING:
             raise unknown(self.frame, node, f'"{short(node)}"')
-        if value.kind == TRUTH or (operator == "~" and value.kind != WHOLE):
+        value = as_number(value)
+        if operator == "~" and value.kind != WHOLE:
             raise Unread(self._span(node), f'"{operator}" of such a value is not read')
         if operator == "+":
             return value
@@ -179,8 +189,9 @@ class PyExpressions(BodyExpressionReader):
         """An operation on two numbers."""
         if STRING in (left.kind, right.kind):
             raise unknown(self.frame, node, f'"{short(node)}"')
-        if TRUTH in (left.kind, right.kind):
-            raise Unread(self._span(node), "arithmetic with truth values is not read")
+        if left.kind == right.kind == TRUTH and operator in _BITS:
+            return self._bits_of_truth(operator, left, right, node)
+        left, right = as_number(left), as_number(right)
         if left.kind == right.kind == WHOLE:
             return self._whole(operator, left, right, node)
         if operator in ("*", "+", "-", "/"):
@@ -190,6 +201,13 @@ class PyExpressions(BodyExpressionReader):
             sides = self.real(left, node), self.real(right, node)
             return Value(doubled(operator, *sides, self._span(node)), REAL)
         raise Unread(self._span(node), f'"{operator}" of floats has no like in the model')
+
+    def _bits_of_truth(self, operator: str, left: Value, right: Value, node: Node) -> Value:
+        """`|`, `&` and `^` of two truth values, both of which are looked at."""
+        if not is_calm(right.expression):
+            raise Unread(self._span(node), f'"{operator}" of such values is not read')
+        sign = {"|": "||", "&": "&&", "^": "!="}[operator]
+        return Value(binary(sign, left.expression, right.expression, self._span(node)), TRUTH)
 
     def _whole(self, operator: str, left: Value, right: Value, node: Node) -> Value:
         if operator in _RING:
@@ -262,20 +280,18 @@ class PyExpressions(BodyExpressionReader):
         if node.type == "comparison_operator":
             return Value(self._compared(node), TRUTH)
         sign = "&&" if text_of(field(node, "operator")) == "and" else "||"
-        one = self._side(field(node, "left"), node)
-        other = self._side(field(node, "right"), node)
-        return Value(binary(sign, one, other, self._span(node)), TRUTH)
-
-    def _side(self, side: Node, node: Node) -> m.Expression:
-        """One side of `and` or `or`, of which the value is the last that was looked at."""
+        left, right = field(node, "left"), field(node, "right")
         if is_asked(node):
-            return self.condition(side)
-        value = self.read(side)
-        if value.kind == STRING:
-            raise unknown(self.frame, node, f'"{short(node)}"')
-        if value.kind != TRUTH:
-            raise Unread(self._span(node), '"and" and "or" of other than truth values')
-        return bare(value.expression)
+            sides = self.condition(left), self.condition(right)
+            return Value(binary(sign, *sides, self._span(node)), TRUTH)
+        one, other = self.read(left), self.read(right)
+        if one.kind == other.kind == TRUTH:
+            sides = bare(one.expression), bare(other.expression)
+            return Value(binary(sign, *sides, self._span(node)), TRUTH)
+        if not is_calm(one.expression):
+            raise Unread(self._span(node), '"and" and "or" of such values')
+        ways = (other, one) if sign == "&&" else (one, other)
+        return self.joined(self.truth(one, left), *ways, node)
 
     def _compared(self, node: Node) -> m.Expression:
         operands = named(node)
@@ -286,6 +302,8 @@ class PyExpressions(BodyExpressionReader):
             listed = body_tables.elements(self, operands[1])
             if listed is not None:
                 return self._one_of(operands[0], listed, node, signs == ["in"])
+        if (same := self._is_truth(operands, signs, node)) is not None:
+            return same
         if (same := body_texts.identical(self, operands, signs, node)) is not None:
             return same
         if len(signs) != len(operands) - 1 or not set(signs) <= _COMPARES:
@@ -299,6 +317,15 @@ class PyExpressions(BodyExpressionReader):
             found = one if found is None else binary("&&", found, one, self._span(node))
         assert found is not None
         return found
+
+    def _is_truth(self, operands: list[Node], signs: list[str], node: Node) -> m.Expression | None:
+        """`x is True`, where it is known that x is no number; None for other comparisons."""
+        if len(operands) != 2 or operands[1].type not in ("true", "false"):
+            return None
+        if signs not in (["is"], ["is not"]) or (left := self.read(operands[0])).kind != TRUTH:
+            return None
+        sign = "==" if signs == ["is"] else "!="
+        return binary(sign, left.expression, self.read(operands[1]).expression, self._span(node))
 
     def compared(
         self, sign: str, left: Value, right: Value, node: Node, number: int
@@ -324,8 +351,8 @@ class PyExpressions(BodyExpressionReader):
     def _pair(
         self, left: Value, right: Value, node: Node, number: int
     ) -> tuple[m.Expression, m.Expression]:
-        if (left.kind == TRUTH) != (right.kind == TRUTH):
-            raise Unread(self._span(node), "a truth value is compared with a number")
+        if not left.kind == right.kind == TRUTH:
+            left, right = as_number(left), as_number(right)
         for side, value in (("left", left), ("right", right)):
             if value.kind == WHOLE:
                 self.need(value, node, f"{side} {number}")
@@ -336,7 +363,10 @@ class PyExpressions(BodyExpressionReader):
     def _conditional(self, node: Node) -> Value:
         then, condition, otherwise = named(node)
         asked = self.condition(condition)
-        one, other = self.read(then), self.read(otherwise)
+        return self.joined(asked, self.read(then), self.read(otherwise), node)
+
+    def joined(self, asked: m.Expression, one: Value, other: Value, node: Node) -> Value:
+        """One of two values, as a condition says."""
         if STRING in (one.kind, other.kind) and one.kind != other.kind:
             raise unknown(self.frame, node, f'"{short(node)}"')
         if TRUTH in (one.kind, other.kind) and one.kind != other.kind:
@@ -345,7 +375,9 @@ class PyExpressions(BodyExpressionReader):
             mixed = one.kind == STRING and (one.mixed or other.mixed)
             found = chosen(asked, one.expression, other.expression)
             return Value(found, one.kind, mixed=mixed)
-        return Value(chosen(asked, self.real(one, then), self.real(other, otherwise)), REAL)
+        sides = self.real(one, node, "one"), self.real(other, node, "other")
+        mixed = one.mixed or other.mixed or WHOLE in (one.kind, other.kind)
+        return Value(chosen(asked, *sides), REAL, mixed=mixed)
 
 
 def _is_float(value: Value) -> bool:

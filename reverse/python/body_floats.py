@@ -1,9 +1,10 @@
-"""Floats: Python's have 64 bits, the literals of the model 32."""
+"""Floats: Python's have 64 bits, the literals of the model 32. Truth values that are numbers."""
 
 from __future__ import annotations
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, binary, cast
+from rebsync.reverse.bodies.building import bare, binary, cast, chosen
+from rebsync.reverse.python.body_scope import TRUTH, WHOLE, Value
 from rebsync.source import Span
 from rebsync.static.types import DOUBLE
 
@@ -36,3 +37,14 @@ def is_zero(literal: m.FloatLiteral | m.IntLiteral) -> bool:
         if isinstance(literal, m.IntLiteral)
         else not float(literal.text.rstrip("fFdD"))
     )
+
+
+def as_number(value: Value) -> Value:
+    """A truth value as Python computes with it, 1 or 0; other values as they are."""
+    if value.kind != TRUTH:
+        return value
+    match bare(value.expression):
+        case m.BoolLiteral(truth):
+            return Value(m.IntLiteral(int(truth)), WHOLE)
+        case expression:
+            return Value(chosen(expression, m.IntLiteral(1), m.IntLiteral(0)), WHOLE)

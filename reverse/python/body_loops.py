@@ -1,38 +1,36 @@
-"""Loops of Python: over numbers, by conditions, and those that keep a node running."""
+"""Loops of Python by conditions, and those that keep a node running."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, binary
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.python import body_variables
 from rebsync.reverse.python.body_effects import is_log
 from rebsync.reverse.python.body_node_loops import EndlessLoop, forever
-from rebsync.reverse.python.body_rounds import leaves_nothing
-from rebsync.reverse.python.body_scope import WHOLE, Key, Value
-from rebsync.reverse.python.py_index import arguments_of, last_name
-from rebsync.reverse.python.py_tree import field, is_label, named, text_of
+from rebsync.reverse.python.py_index import last_name
+from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.syntax.ancestors import ancestors
-from rebsync.static.types import INT
+from rebsync.static.types import BOOLEAN
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
-_RANGES = ("builtins.range", "builtins.xrange")
 _APART = frozenset({"while_statement", "for_statement", "function_definition", "lambda"})
 
 
 def while_(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     """`while c:` as it is; of a node that starts, one that goes on for ever as a server."""
     span = reader.frame.span(node)
-    if node.child_by_field_name("alternative") is not None:
-        raise Unread(span, "a loop with an else branch is not read")
+    if reader.frame.is_start and node.child_by_field_name("alternative") is not None:
+        raise Unread(span, "a loop of a node that starts with an else branch is not read")
     if reader.frame.is_start and _spins(reader, node):
         reader.is_over = True
         return
@@ -47,7 +45,45 @@ def while_(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     before = set(reader.frame.assigned)
     body = reader.block(field(node, "body"))
     reader.frame.assigned = before
-    yield m.While(condition, body, (), span)
+    yield from with_else(reader, node, m.While(condition, body, (), span))
+
+
+def with_else(
+    reader: BodyStatementReader, node: Node, loop: m.While | m.For
+) -> Iterator[m.Statement]:
+    """A loop with its else branch, which runs unless a `break` ends the loop."""
+    otherwise = node.child_by_field_name("alternative")
+    if otherwise is None:
+        yield loop
+        return
+    body, name = field(otherwise, "body"), reader.reading.fresh("completed")
+    marked = _marked(loop.body, name)
+    if marked == loop.body:
+        yield loop
+        yield from reader.statements(named(body))
+        return
+    yield body_variables.declared(name, BOOLEAN, m.BoolLiteral(True))
+    yield replace(loop, body=marked)
+    before = set(reader.frame.assigned)
+    yield m.If(m.Name(name), reader.block(body), None, (), reader.frame.span(otherwise))
+    reader.frame.assigned = before
+
+
+def _marked(statement: m.Statement, name: str) -> m.Statement:
+    """The body of a loop where each `break` of it first says that the loop is not completed."""
+    match statement:
+        case m.Block(statements):
+            unset = m.ExpressionStatement(m.Assign("=", m.Name(name), m.BoolLiteral(False)))
+            found: list[m.Statement] = []
+            for inner in statements:
+                found += [unset] if isinstance(inner, m.Break) else []
+                found.append(_marked(inner, name))
+            return replace(statement, statements=tuple(found))
+        case m.If(_, then, otherwise):
+            last = _marked(otherwise, name) if otherwise is not None else None
+            return replace(statement, then=_marked(then, name), otherwise=last)
+        case _:
+            return statement
 
 
 def _spins(reader: BodyStatementReader, node: Node) -> bool:
@@ -118,110 +154,3 @@ def _started(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     reader.loops.append(EndlessLoop(name, node, reader.frame, reader.running, reader.only))
     reader.is_over = True
     yield m.ExpressionStatement(m.Call(m.Self(), name), (), reader.frame.span(node))
-
-
-def for_(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
-    """`for i in range(...)` as a loop of the model that counts."""
-    span = reader.frame.span(node)
-    target, over = field(node, "left"), field(node, "right")
-    name = (
-        reader.reading.external(field(over, "function"), reader.frame)
-        if over.type == "call"
-        else ""
-    )
-    if node.child_by_field_name("alternative") is not None:
-        raise Unread(span, "a loop with an else branch is not read")
-    if name not in _RANGES and leaves_nothing(reader, node):
-        return
-    if name not in _RANGES or target.type != "identifier":
-        raise Unread(span, "what this loop goes through is not in the model")
-    variable = text_of(target)
-    if not _only_here(reader, node, variable):
-        raise Unread(span, f'"{variable}" is used outside of this loop, or changed in it')
-    plain, _ = arguments_of(over)
-    if not 1 <= len(plain) <= 3:
-        raise Unread(span, "what this loop goes through is not in the model")
-    values = [_whole(reader, argument) for argument in plain]
-    low = values[0] if len(values) > 1 else m.IntLiteral(0)
-    high = values[1] if len(values) > 1 else values[0]
-    step = _step(reader, values[2] if len(values) > 2 else m.IntLiteral(1), node)
-    if not isinstance(bare(high), m.IntLiteral):
-        end = reader.reading.fresh(f"{variable}_end")
-        yield m.Local(m.Declaration(INT, (m.Declarator(end, high),)), (), span)
-        high = m.Name(end)
-    yield _counted(reader, node, variable, low, high, step)
-
-
-def _whole(reader: BodyStatementReader, node: Node) -> m.Expression:
-    value = reader.expressions.read(node)
-    if value.kind != WHOLE:
-        raise Unread(reader.frame.span(node), "a loop over other than whole numbers is not read")
-    return reader.expressions.need(value, node, "range")
-
-
-def _step(reader: BodyStatementReader, step: m.Expression, node: Node) -> int:
-    match step:
-        case m.IntLiteral(value) if 0 < value < 1 << 16:
-            return value
-        case m.Unary("-", m.IntLiteral(value)) if 0 < value < 1 << 16:
-            return -value
-        case _:
-            raise Unread(reader.frame.span(node), "the step of this loop is not known")
-
-
-def _counted(
-    reader: BodyStatementReader,
-    node: Node,
-    variable: str,
-    low: m.Expression,
-    high: m.Expression,
-    step: int,
-) -> m.Statement:
-    """A loop of the model. Its last step may leave the `int` only where that is near its end."""
-    frame, span = reader.frame, reader.frame.span(node)
-    key: Key = "local", node.id, variable
-    name = reader.reading.fresh(variable, key)
-    reader.reading.learnt.join(key, WHOLE)
-    reader.reading.wide.add(name)
-    outer = frame.bound.get(variable)
-    frame.bound[variable] = Value(m.Name(name), WHOLE)
-    before = set(frame.assigned)
-    body = reader.block(field(node, "body"))
-    frame.assigned = before
-    del frame.bound[variable]
-    if outer is not None:
-        frame.bound[variable] = outer
-    by = m.IntLiteral(abs(step))
-    counts: m.Expression = m.Assign("+=" if step > 0 else "-=", m.Name(name), by)
-    if abs(step) == 1:
-        counts = m.Postfix("++" if step > 0 else "--", m.Name(name))
-    condition = binary("<" if step > 0 else ">", m.Name(name), high)
-    declared = m.Declaration(INT, (m.Declarator(name, low),))
-    return m.For(declared, condition, (counts,), body, (), span)
-
-
-def _only_here(reader: BodyStatementReader, node: Node, variable: str) -> bool:
-    """Whether a loop's variable is only read, and only in such loops over it."""
-    scope = reader.frame.scope
-    bindings = scope.names.get(variable, [])
-    if variable in scope.outer or scope.kind not in ("function", "lambda"):
-        return False
-    if any(b.how != "loop" for b in bindings):
-        return False
-    loops = [b.node for b in bindings]
-    inner = [n for n in loops if n != node and _holds(node, n)]
-    if inner:
-        return False
-    waiting = [scope.node]
-    while waiting:
-        current = waiting.pop()
-        if current in loops:
-            continue
-        if current.type == "identifier" and text_of(current) == variable and not is_label(current):
-            return False
-        waiting += current.named_children
-    return True
-
-
-def _holds(outer: Node, inner: Node) -> bool:
-    return outer.start_byte <= inner.start_byte and inner.end_byte <= outer.end_byte

@@ -14,6 +14,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import (
+    body_for,
     body_loops,
     body_match,
     body_messages,
@@ -131,7 +132,7 @@ class PyStatements(BodyStatementReader):
             case "while_statement":
                 yield from body_loops.while_(self, node)
             case "for_statement":
-                yield from body_loops.for_(self, node)
+                yield from body_for.for_(self, node)
             case "return_statement":
                 yield from self._return(node)
             case "break_statement":

@@ -17,9 +17,9 @@ from rebsync.reverse.python import (
     body_methods,
     body_setup,
     body_switches,
+    body_together,
 )
-from rebsync.reverse.python.body_effects import is_harmless, may_be_of_message
-from rebsync.reverse.python.body_expressions import short
+from rebsync.reverse.python.body_effects import may_be_of_message
 from rebsync.reverse.python.body_reading import field_key
 from rebsync.reverse.python.body_scope import (
     OTHER,
@@ -28,7 +28,7 @@ from rebsync.reverse.python.body_scope import (
     Value,
     Var,
 )
-from rebsync.reverse.python.body_variables import change, forget, give
+from rebsync.reverse.python.body_variables import change, forget, give, outside
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.texts import no_text
 
@@ -59,8 +59,9 @@ def assignment(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]
     if value.type in _CONTAINERS and len(targets) == 1 and targets[0].type in _PLACES:
         yield from _contained(reader, targets[0], value, node)
         return
-    if len(targets) > 1 and value.type not in ("integer", "float", "true", "false", "none"):
-        raise Unread(reader.frame.span(node), "several variables get one value")
+    if len(targets) > 1 and value.type not in body_together.LITERALS:
+        yield from body_together.chained(reader, targets, value, node)
+        return
     for target in targets:
         yield from _assigned(reader, target, value, node)
 
@@ -83,7 +84,9 @@ def _assigned(
         if known is not None:
             yield from known
             return
-    if value.type in ("identifier", "attribute") and _is_changed(reader, target, value):
+    if value.type in ("identifier", "attribute") and body_together.is_changed(
+        reader, target, value
+    ):
         raise Unread(reader.frame.span(node), "another name for an object that is changed")
     match meaning:
         case Var(key) | Message(key, _, _, _, "") if not path and type_ is not None:
@@ -144,21 +147,6 @@ def _kept(
     return body_copies.kept(reader, target, reader, node, value)
 
 
-def _is_changed(reader: BodyStatementReader, *names: Node) -> bool:
-    """Whether code sets fields of what has one of some names, other than the object itself."""
-    holders = {text_of(name) for name in names} - {reader.frame.scope.self_name, "self"}
-    code = reader.reading.code
-    scopes = (*code.scopes.values(), *code.modules.values())
-    return any(holder.partition("[")[0] in holders for s in scopes for holder, _ in s.stores)
-
-
-def outside(reader: BodyStatementReader, value: Node, node: Node) -> None:
-    """A value that goes where the model has nothing."""
-    if is_harmless(reader.reading, value, reader.frame):
-        return
-    raise Unread(reader.frame.span(node), f'what "{short(value)}" does is not known')
-
-
 def _variable(
     reader: BodyStatementReader, variable: Var, target: Node, value: Node, node: Node, since: int
 ) -> Iterator[m.Statement]:
@@ -203,13 +191,15 @@ def _field(
 def _unpacked(
     reader: BodyStatementReader, target: Node, value: Node, node: Node
 ) -> Iterator[m.Statement]:
-    """`a, b = 1, 2`: where the values are plain, one after the other."""
+    """`a, b = b, a`: all values are there before the first target gets one."""
     targets = named(target)
-    values = named(value) if value.type in ("expression_list", "tuple") else []
-    plain = all(v.type in ("integer", "float", "true", "false", "none") for v in values)
-    if len(values) == len(targets) and plain:
-        for one, other in zip(targets, values, strict=True):
-            yield from _assigned(reader, one, other, node)
+    values = named(value) if value.type in ("expression_list", "tuple", "list") else []
+    if len(values) == len(targets) and all(t.type in _PLACES for t in targets):
+        if all(v.type in body_together.LITERALS for v in values):
+            for one, other in zip(targets, values, strict=True):
+                yield from _assigned(reader, one, other, node)
+        else:
+            yield from body_together.unpacked(reader, targets, values, node)
         return
     outside(reader, value, node)
     for inner in targets:

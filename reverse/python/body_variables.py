@@ -10,6 +10,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.body_effects import is_harmless
+from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_reading import field_key
 from rebsync.reverse.python.body_scope import (
     OTHER,
@@ -102,6 +104,13 @@ def forget(reader: BodyStatementReader, target: Node) -> None:
             reader.reading.learnt.join(key, OTHER)
         case _:
             return
+
+
+def outside(reader: BodyStatementReader, value: Node, node: Node) -> None:
+    """A value that goes where the model has nothing."""
+    if is_harmless(reader.reading, value, reader.frame):
+        return
+    raise Unread(reader.frame.span(node), f'what "{short(value)}" does is not known')
 
 
 def declared(name: str, type_: m.Type, value: m.Expression | None) -> m.Statement:

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.python.body_effects import is_getter
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.class_creation import class_departures
 from rebsync.reverse.python.py_evaluator import lineage
@@ -92,7 +93,7 @@ def _decorated(
     unknown = set(inner.decorators) - _PLAIN_DECORATORS
     if not unknown or not _is_used(scope.module.node, name):
         return
-    if inner.kind == CLASS:
+    if inner.kind == CLASS or is_getter(reading, inner):
         return
     yield scope, node, f'what "@{sorted(unknown)[0]}" makes of "{name}" is not read'
 
