@@ -76,6 +76,8 @@ class PyExpressions(BodyExpressionReader):
                 return Value(shown, inner.kind, inner.single, inner.mixed)
             case "identifier" | "attribute":
                 return self._place(node)
+            case "named_expression" if node.id in self.reading.stored:
+                return self._place(field(node, "name"))
             case "unary_operator" | "not_operator":
                 return self._unary(node)
             case "string" | "concatenated_string" if (text := text_in(node)) is not None:

@@ -1,4 +1,7 @@
-"""`match` on values that stand in the code: texts and whole numbers."""
+"""The branches of `if` and `match`, with what is stored on the way to them.
+
+`match` is read of values that stand in the code, and of names that take all.
+"""
 
 from __future__ import annotations
 
@@ -11,69 +14,126 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, is_calm
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.python.body_scope import Value
+from rebsync.reverse.python.body_scope import TRUTH, Value, Var
+from rebsync.reverse.python.body_together import kept
+from rebsync.reverse.python.body_variables import give
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
+    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
-# A branch: what is asked (None: nothing), and the block that then runs; first the node of both.
-Way: TypeAlias = "tuple[Node, Callable[[], m.Expression] | None, Node]"
-_VALUES = frozenset({"string", "concatenated_string", "integer"})
+# What is stored before a branch is chosen, and what is asked; None: nothing, it is taken.
+Asked: TypeAlias = "tuple[list[m.Statement], m.Expression | None]"
+# A branch: what is asked, and the block that then runs; first the node of both.
+Way: TypeAlias = "tuple[Node, Callable[[], Asked], Node]"
+_VALUES = frozenset({"string", "concatenated_string", "integer", "float", "true", "false"})
+# Expressions of which the first part is always evaluated, and first of all.
+_FIRST = frozenset(
+    {"comparison_operator", "parenthesized_expression", "boolean_operator", "binary_operator"}
+    | {"not_operator"}
+)
 
 
-def ways(reader: BodyExpressionReader, node: Node) -> list[Way]:
-    """The branches of a `match`, up to the first that takes everything.
+def asked(reader: BodyStatementReader, node: Node) -> Asked:
+    """A condition. What it stores first of all, as `n` in `(n := f()) > 3`, is stored before."""
+    at = node
+    while at.type in _FIRST and named(at):
+        at = named(at)[0]
+    if at.type != "named_expression":
+        return [], reader.expressions.condition(node)
+    name, value = field(at, "name"), reader.expressions.read(field(at, "value"))
+    stored = _stored(reader, name, value)
+    reader.reading.stored.add(at.id)
+    try:
+        return stored, reader.expressions.condition(node)
+    finally:
+        reader.reading.stored.discard(at.id)
 
-    Unread: a pattern binds names, or looks into a container or an object.
-    """
+
+def _stored(reader: BodyStatementReader, name: Node, value: Value) -> list[m.Statement]:
+    meaning, _ = reader.expressions.meaning(name)
+    if not isinstance(meaning, Var):
+        raise Unread(reader.frame.span(name), f'what "{text_of(name)}" is is not in the model')
+    return list(give(reader, meaning, text_of(name), value, name))
+
+
+def subject(reader: BodyStatementReader, node: Node) -> tuple[list[m.Statement], Value]:
+    """What a `match` looks at, in a local where a name that takes it may change it."""
     subjects = node.children_by_field_name("subject")
     if len(subjects) != 1:
         raise _unread(reader, node)
-    subject = reader.read(subjects[0])
-    if not is_calm(subject.expression):
-        raise _unread(reader, node)
+    value = reader.expressions.read(subjects[0])
+    clauses = [c for c in named(field(node, "body")) if c.type == "case_clause"]
+    patterns = [p for c in clauses for p in named(c) if p.type == "case_pattern"]
+    names = [p for p in patterns if text_of(p) != "_" and _pattern(reader, p)[0] is not None]
+    if is_calm(value.expression) and not names:
+        return [], value
+    return kept(reader, value, "subject", subjects[0])
+
+
+def ways(reader: BodyStatementReader, node: Node, of: Value) -> list[Way]:
+    """The branches of a `match`, up to the first that takes everything.
+
+    Unread: a pattern binds several names, or looks into a container or an object.
+    """
     found: list[Way] = []
     for clause in (c for c in named(field(node, "body")) if c.type == "case_clause"):
-        body, guard = field(clause, "consequence"), clause.child_by_field_name("guard")
+        guard = clause.child_by_field_name("guard")
         patterns = [p for p in named(clause) if p.type == "case_pattern"]
-        values = _values(reader, patterns)
-        if values is None and guard is None:
-            return [*found, (clause, None, body)]
-        found.append((clause, partial(_asked, reader, subject, values, guard), body))
+        if len(patterns) != 1:
+            raise _unread(reader, clause)
+        name, values = _pattern(reader, patterns[0])
+        taken = partial(_asked, reader, of, name, values, guard)
+        found.append((clause, taken, field(clause, "consequence")))
+        if not values and guard is None:
+            break
     return found
 
 
-def _values(reader: BodyExpressionReader, patterns: list[Node]) -> list[Node] | None:
-    """The values of a pattern, one of which the subject is to be; None: any at all."""
-    if len(patterns) != 1:
-        raise _unread(reader, patterns[0].parent or patterns[0])
-    (pattern,) = patterns
-    if text_of(pattern) == "_":
-        return None
+def _pattern(reader: BodyStatementReader, pattern: Node) -> tuple[Node | None, list[Node]]:
+    """The name that takes everything, or the values one of which the subject is to be."""
     inner = named(pattern)
+    if text_of(pattern) == "_":
+        return None, []
+    if len(inner) == 1 and inner[0].type == "dotted_name" and len(named(inner[0])) == 1:
+        return named(inner[0])[0], []
     values = named(inner[0]) if len(inner) == 1 and inner[0].type == "union_pattern" else inner
-    if not values or "-" in text_of(pattern).partition('"')[0].partition("'")[0]:
+    signs = text_of(pattern).partition('"')[0].partition("'")[0]
+    if not values or not all(value.type in _VALUES for value in values):
         raise _unread(reader, pattern)
-    if not all(value.type in _VALUES for value in values):
+    if "-" in signs and (len(values) != 1 or values[0].type != "integer" or "+" in signs):
         raise _unread(reader, pattern)
-    return values
+    return None, [pattern] if "-" in signs else values
 
 
 def _asked(
-    reader: BodyExpressionReader, subject: Value, values: list[Node] | None, guard: Node | None
-) -> m.Expression:
+    reader: BodyStatementReader,
+    of: Value,
+    name: Node | None,
+    values: list[Node],
+    guard: Node | None,
+) -> Asked:
     """Whether a branch is taken, if none above it is."""
+    first = _stored(reader, name, of) if name is not None else []
     found: m.Expression | None = None
-    for number, value in enumerate(values or ()):
-        one = reader.compared("==", subject, reader.read(value), value, number)
+    for number, value in enumerate(values):
+        one = reader.expressions.compared("==", of, _value(reader, of, value), value, number)
         found = one if found is None else binary("||", found, one)
     if guard is None:
-        assert found is not None
-        return found
-    asked = reader.condition(named(guard)[0])
-    return asked if found is None else binary("&&", found, asked)
+        return first, found
+    held = reader.expressions.condition(named(guard)[0])
+    return first, held if found is None else binary("&&", found, held)
 
 
-def _unread(reader: BodyExpressionReader, node: Node) -> Unread:
+def _value(reader: BodyStatementReader, of: Value, value: Node) -> Value:
+    """A value of a pattern; True and False are looked for by identity."""
+    if value.type == "case_pattern":
+        number = reader.expressions.read(named(value)[0])
+        return Value(m.Unary("-", number.expression), number.kind)
+    if value.type in ("true", "false") and of.kind != TRUTH:
+        raise _unread(reader, value)
+    return reader.expressions.read(value)
+
+
+def _unread(reader: BodyStatementReader, node: Node) -> Unread:
     return Unread(reader.frame.span(node), "such a match is not read")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from tree_sitter import Node
 
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 _DEEPEST = 12
+# What a function does, and what it returns, with who reads that.
+Returned: TypeAlias = "tuple[list[m.Statement], BodyStatementReader, Node]"
 _INNER = frozenset({"function_definition", "lambda"})
 
 
@@ -41,9 +43,7 @@ def inlined(reader: BodyStatementReader, own: Scope, call: Node) -> Iterator[m.S
     yield from plain
 
 
-def returned(
-    reader: BodyStatementReader, call: Node
-) -> tuple[list[m.Statement], BodyStatementReader, Node] | None:
+def returned(reader: BodyStatementReader, call: Node) -> Returned | None:
     """What a function of the node does and returns at its end, and who reads what it returns.
 
     None for what is no call of a function that returns a value there and nowhere else.

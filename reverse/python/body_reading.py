@@ -55,7 +55,8 @@ class Reading:
 
     `taken` are the names of the code, which locals that the model gets do not have; `periods` those
     of timers, in units, by the number of their fact; `nodes` are the classes of all units, and
-    `bodies` the functions that were read and `timers` the calls, by the ids of their nodes.
+    `bodies` the functions that were read, `timers` the calls, and `stored` the `n := value` that
+    stand before their statement, by the ids of their nodes.
     """
 
     unit: PyUnit
@@ -79,6 +80,7 @@ class Reading:
     made: set[str] = with_default(default_factory=set)
     loop_names: dict[int, str] = with_default(default_factory=dict)
     timers: set[int] = with_default(default_factory=set)
+    stored: set[int] = with_default(default_factory=set)
     places: dict[str, tuple[Source, Span]] = with_default(default_factory=dict)
 
     @property

@@ -114,8 +114,10 @@ class PyStatements(BodyStatementReader):
     def _lose(self, node: Node) -> None:
         """Of what a statement sets that is not read nothing is known."""
         for inner in _inside(node):
-            if inner.type in ("assignment", "augmented_assignment"):
+            if inner.type in ("assignment", "augmented_assignment", "for_statement"):
                 body_variables.forget(self, field(inner, "left"))
+            elif inner.type == "named_expression":
+                body_variables.forget(self, field(inner, "name"))
 
     # --- kinds of statements --------------------------------------------------------------------
 
@@ -128,7 +130,9 @@ class PyStatements(BodyStatementReader):
             case "if_statement":
                 yield from self._if(node)
             case "match_statement":
-                yield self._branch(body_match.ways(self.expressions, node))
+                first, of = body_match.subject(self, node)
+                yield from first
+                yield from self._branch(body_match.ways(self, node, of))
             case "while_statement":
                 yield from body_loops.while_(self, node)
             case "for_statement":
@@ -204,28 +208,38 @@ class PyStatements(BodyStatementReader):
         ways: list[Way] = []
         for each in (node, *node.children_by_field_name("alternative")):
             if each.type == "else_clause":
-                ways.append((each, None, field(each, "body")))
+                ways.append((each, lambda: ([], None), field(each, "body")))
             else:
-                asked = partial(self.expressions.condition, field(each, "condition"))
+                asked = partial(body_match.asked, self, field(each, "condition"))
                 ways.append((each, asked, field(each, "consequence")))
-        yield self._branch(ways)
+        yield from self._branch(ways)
 
-    def _branch(self, ways: Sequence[Way]) -> m.Statement:
+    def _branch(self, ways: Sequence[Way]) -> Iterator[m.Statement]:
         (node, asked, body), *others = ways
-        if asked is None:
-            return self.block(body)
-        condition = asked()
+        first, condition = asked()
+        yield from first
+        if condition is None:
+            yield self.block(body)
+            return
         before = set(self.frame.assigned)
         then = self.block(body)
         after, self.frame.assigned = self.frame.assigned, before
-        otherwise = self._branch(others) if others else None
+        otherwise = self._otherwise(others) if others else None
         if always_leaves(then):
             pass
         elif otherwise is not None and always_leaves(otherwise):
             self.frame.assigned = after
         else:
             self.frame.assigned &= after
-        return m.If(condition, then, otherwise, (), self.frame.span(node))
+        yield m.If(condition, then, otherwise, (), self.frame.span(node))
+
+    def _otherwise(self, ways: Sequence[Way]) -> m.Statement:
+        self.frame.depth += 1
+        try:
+            found = tuple(self._branch(ways))
+        finally:
+            self.frame.depth -= 1
+        return found[0] if len(found) == 1 else m.Block(found)
 
     def _try(self, node: Node) -> Iterator[m.Statement]:
         """What is read exactly raises nothing, so that nothing else of the statement runs."""

@@ -19,7 +19,7 @@ from rebsync.reverse.python import (
     body_switches,
     body_together,
 )
-from rebsync.reverse.python.body_effects import may_be_of_message
+from rebsync.reverse.python.body_effects import is_still, may_be_of_message
 from rebsync.reverse.python.body_reading import field_key
 from rebsync.reverse.python.body_scope import (
     OTHER,
@@ -140,11 +140,30 @@ def _kept(
     if returned is not None:
         first, inner, given = returned
         if body_copies.type_of(inner.expressions, given) is None:
-            return None
+            return _stepped(reader, variable, target, returned, value)
         return chain(first, body_copies.kept(reader, target, inner, given, value))
     if node.type == "call" or body_copies.type_of(reader.expressions, node) is None:
         return None
     return body_copies.kept(reader, target, reader, node, value)
+
+
+def _stepped(
+    reader: BodyStatementReader,
+    variable: Var | Message,
+    target: Node,
+    returned: body_methods.Returned,
+    call: Node,
+) -> Iterator[m.Statement] | None:
+    """What a function does that changes the node, and then its value; None for other functions."""
+    own = reader.reading.function(field(call, "function"), reader.frame)
+    if own is None or is_still(reader.reading, own) or not isinstance(variable, Var):
+        return None
+    first, inner, given = returned
+    try:
+        read = inner.expressions.read(given)
+    except Unknown:
+        return None
+    return chain(first, give(reader, variable, text_of(target), read, call))
 
 
 def _variable(

@@ -41,6 +41,7 @@ BINDING = frozenset(
     {
         *("assignment", "augmented_assignment", "named_expression", "for_statement"),
         *("for_in_clause", "as_pattern", "import_statement", "import_from_statement"),
+        "case_pattern",
     }
 )
 
@@ -66,6 +67,12 @@ def bindings_of(node: Node) -> Iterator[tuple[Node, Binding]]:
                 within = node.parent is not None and node.parent.type == "with_item"
                 how = "value" if within else "opaque"
                 yield alias.named_children[0], Binding(how, node.named_children[0], node)
+            elif alias is None and named(node)[-1].type == "identifier":
+                yield named(node)[-1], Binding("opaque", node, node)
+        case "case_pattern":
+            for inner in named(node):
+                if inner.type == "dotted_name" and len(named(inner)) == 1:
+                    yield named(inner)[0], Binding("opaque", node, node)
         case "import_statement" | "import_from_statement":
             yield from _imports(node)
 
