@@ -24,6 +24,66 @@ _WHOLES = (
 _REALS = ("self.r", "0.5", "2.0", "-1.25", "1e3")
 # By what a message holds, what a callback may put into it.
 _CHANGES = {"whole": ("3", "self.b", "-1"), "truth": ("True", "self.f"), "real": ("0.5", "self.r")}
+# Statements of Python that have no like in the model.
+_IDIOMS = {
+    7: "self.a, self.b = self.b, self.a",
+    8: "self.a, self.b, self.c = self.c, self.a, self.b",
+    9: "self.a = self.b = self.c",
+    10: """for j in (1, self.a, 4):
+    if j > self.c:
+        break
+    self.a = j
+else:
+    self.b = 3
+self.c = j""",
+    11: """self.w = 3
+while self.w > 0:
+    if self.w == self.a:
+        break
+    self.w -= 1
+else:
+    self.b = self.w""",
+    12: """if (k := self.c) > 2:
+    self.a = k
+self.b = k""",
+    13: """match self.b:
+    case 1 | 2:
+        self.a = 5
+    case -1:
+        self.a = 4
+    case x if x > 3:
+        self.c = x
+    case _:
+        self.b = 8""",
+    14: """self.a = (self.b > 1) + int(self.f) - (self.c == 2)
+self.f = (self.f ^ (self.a > 1)) | (self.b == 3)""",
+    15: """self.a = self.b or 4
+self.b = self.c and self.a
+self.f = self.f is True""",
+    16: """for v in range(3):
+    self.a = v
+self.c = v""",
+    17: "self.a = self.pick(self.b)",
+    18: "self.b = self.step(self.c)",
+    19: "self.c = self.first",
+}
+_METHODS = """
+    def pick(self, v):
+        k = 2
+        if v > 3:
+            k = v
+        elif v < 0:
+            return self.c
+        return k if self.f else 1
+
+    def step(self, v):
+        self.a = v
+        return self.c if self.f else 3
+
+    @property
+    def first(self):
+        return self.a if self.f else self.b
+"""
 _SIGNS = ("<", "<=", ">", ">=", "==", "!=")
 _SINK = """
 class Sink:
@@ -66,8 +126,8 @@ class Body:
                 return [f"msg.data = {self.beside.choice(_CHANGES[self.field])}"]
             case 6 if self.field in _CHANGES:
                 return ["msg.data += 1" if self.field != "truth" else "msg.data = not msg.data"]
-            case _:
-                return []
+            case number:
+                return _IDIOMS.get(number, "").splitlines()
 
     def one(self, depth: int) -> list[str]:
         draw = self.random.randint(0, 13 if depth < 3 else 7)
@@ -224,6 +284,7 @@ def draw_node(seed: int) -> str:
     for name in TOPICS:
         field = {"on_small": "whole"}.get(name, name.removeprefix("on_"))
         lines += [f"    def {name}(self, msg):", *_in(_in(Body(random, field).lines(0, 4)))]
+    lines += _METHODS.splitlines()
     subscriptions = [
         f"        self.{k}_in = rospy.Subscriber('out/{k}', {t}, self.get_{k})"
         for k, t in OUT.items()
