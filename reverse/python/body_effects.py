@@ -38,7 +38,7 @@ def is_harmless(reading: Reading, node: Node, frame: Frame) -> bool:
 
 def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     if node.type in _WORDS:
-        return False
+        return node.id in reading.stored
     if node.type in ("binary_operator", "augmented_assignment"):
         return not _may_divide_by_zero(reading, node, frame)
     if node.type != "call":

@@ -11,11 +11,12 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import bare, binary, chosen, is_plain, whole_number
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_loops import with_else
 from rebsync.reverse.python.body_rounds import leaves_nothing
 from rebsync.reverse.python.body_scope import REAL, WHOLE, Key, Value, Var
-from rebsync.reverse.python.body_together import kept
-from rebsync.reverse.python.body_variables import give
+from rebsync.reverse.python.body_together import is_object, kept
+from rebsync.reverse.python.body_variables import forget, give
 from rebsync.reverse.python.py_index import arguments_of
 from rebsync.reverse.python.py_tree import field, is_label, named, text_of
 from rebsync.static.types import INT
@@ -27,7 +28,7 @@ _RANGES = ("builtins.range", "builtins.xrange")
 _LISTS = frozenset({"list", "tuple"})
 _MOST = 32
 # What the variable of a loop gets in each round: of the number of the round in the model.
-Element: TypeAlias = Callable[[m.Expression], Value]
+Element: TypeAlias = "Callable[[m.Expression], Value | None]"
 
 
 def for_(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
@@ -40,6 +41,9 @@ def for_(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
         else ""
     )
     values = _values(reader, named(over)) if over.type in _LISTS else None
+    listed = named(over) if values is None and over.type in _LISTS else []
+    if any(is_object(reader, target, each) for each in listed):
+        raise Unread(span, "what this loop goes through is not in the model")
     if name not in _RANGES and values is None and leaves_nothing(reader, node):
         return
     if target.type not in ("identifier", "attribute"):
@@ -48,6 +52,9 @@ def for_(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
         yield from _range(reader, node, arguments_of(over)[0])
     elif values is not None:
         yield from _elements(reader, node, values, named(over))
+    elif over.type in _LISTS and is_harmless(reader.reading, over, reader.frame):
+        high = m.IntLiteral(len(named(over)))
+        yield from _counted(reader, node, m.IntLiteral(0), high, 1, lambda _: None)
     else:
         raise Unread(span, "what this loop goes through is not in the model")
 
@@ -167,9 +174,12 @@ def _counted(
     yield from with_else(reader, node, loop)
 
 
-def _with_element(reader: BodyStatementReader, node: Node, value: Value) -> m.Block:
-    """The body of a loop, behind what its variable gets."""
+def _with_element(reader: BodyStatementReader, node: Node, value: Value | None) -> m.Block:
+    """The body of a loop, behind what its variable gets; None: nobody knows it."""
     target = field(node, "left")
+    if value is None:
+        forget(reader, target)
+        return reader.block(field(node, "body"))
     meaning, path = reader.expressions.meaning(target)
     if not isinstance(meaning, Var) or path:
         raise Unread(reader.frame.span(node), f'what "{text_of(target)}" is is not in the model')

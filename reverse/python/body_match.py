@@ -13,10 +13,11 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, is_calm
+from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.body_scope import TRUTH, Value, Var
-from rebsync.reverse.python.body_together import kept
-from rebsync.reverse.python.body_variables import give
+from rebsync.reverse.python.body_together import is_object, kept
+from rebsync.reverse.python.body_variables import forget, give, outside
 from rebsync.reverse.python.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
@@ -41,8 +42,7 @@ def asked(reader: BodyStatementReader, node: Node) -> Asked:
         at = named(at)[0]
     if at.type != "named_expression":
         return [], reader.expressions.condition(node)
-    name, value = field(at, "name"), reader.expressions.read(field(at, "value"))
-    stored = _stored(reader, name, value)
+    stored = _stored(reader, field(at, "name"), _read(reader, field(at, "value")))
     reader.reading.stored.add(at.id)
     try:
         return stored, reader.expressions.condition(node)
@@ -50,28 +50,43 @@ def asked(reader: BodyStatementReader, node: Node) -> Asked:
         reader.reading.stored.discard(at.id)
 
 
-def _stored(reader: BodyStatementReader, name: Node, value: Value) -> list[m.Statement]:
+def _read(reader: BodyStatementReader, node: Node) -> Value | None:
+    """The value of an expression; None: nobody knows it, and it changes nothing."""
+    try:
+        return reader.expressions.read(node)
+    except Unknown as open_:
+        if is_object(reader, node, node):
+            raise
+        outside(reader, node, node)
+        reader.expressions.note(node, open_.why)
+        return None
+
+
+def _stored(reader: BodyStatementReader, name: Node, value: Value | None) -> list[m.Statement]:
+    if value is None:
+        forget(reader, name)
+        return []
     meaning, _ = reader.expressions.meaning(name)
     if not isinstance(meaning, Var):
         raise Unread(reader.frame.span(name), f'what "{text_of(name)}" is is not in the model')
     return list(give(reader, meaning, text_of(name), value, name))
 
 
-def subject(reader: BodyStatementReader, node: Node) -> tuple[list[m.Statement], Value]:
+def subject(reader: BodyStatementReader, node: Node) -> tuple[list[m.Statement], Value | None]:
     """What a `match` looks at, in a local where a name that takes it may change it."""
     subjects = node.children_by_field_name("subject")
     if len(subjects) != 1:
         raise _unread(reader, node)
-    value = reader.expressions.read(subjects[0])
+    value = _read(reader, subjects[0])
     clauses = [c for c in named(field(node, "body")) if c.type == "case_clause"]
     patterns = [p for c in clauses for p in named(c) if p.type == "case_pattern"]
     names = [p for p in patterns if text_of(p) != "_" and _pattern(reader, p)[0] is not None]
-    if is_calm(value.expression) and not names:
+    if value is None or (is_calm(value.expression) and not names):
         return [], value
     return kept(reader, value, "subject", subjects[0])
 
 
-def ways(reader: BodyStatementReader, node: Node, of: Value) -> list[Way]:
+def ways(reader: BodyStatementReader, node: Node, of: Value | None) -> list[Way]:
     """The branches of a `match`, up to the first that takes everything.
 
     Unread: a pattern binds several names, or looks into a container or an object.
@@ -108,7 +123,7 @@ def _pattern(reader: BodyStatementReader, pattern: Node) -> tuple[Node | None, l
 
 def _asked(
     reader: BodyStatementReader,
-    of: Value,
+    of: Value | None,
     name: Node | None,
     values: list[Node],
     guard: Node | None,
@@ -116,7 +131,11 @@ def _asked(
     """Whether a branch is taken, if none above it is."""
     first = _stored(reader, name, of) if name is not None else []
     found: m.Expression | None = None
+    if of is None and values:
+        found = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
+        values = []
     for number, value in enumerate(values):
+        assert of is not None
         one = reader.expressions.compared("==", of, _value(reader, of, value), value, number)
         found = one if found is None else binary("||", found, one)
     if guard is None:

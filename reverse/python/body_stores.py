@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import (
@@ -111,7 +112,10 @@ def _assigned(
             if may_be_of_message(reader.reading, target, reader.frame):
                 why = "this may be a field of a message that has another name as well"
                 raise Unread(reader.frame.span(node), why)
-            outside(reader, value, node)
+            known = _stepped(reader, target, body_methods.returned(reader, value), value)
+            if known is None:
+                outside(reader, value, node)
+            yield from known or ()
 
 
 def _contained(
@@ -140,7 +144,7 @@ def _kept(
     if returned is not None:
         first, inner, given = returned
         if body_copies.type_of(inner.expressions, given) is None:
-            return _stepped(reader, variable, target, returned, value)
+            return _stepped(reader, target, returned, value)
         return chain(first, body_copies.kept(reader, target, inner, given, value))
     if node.type == "call" or body_copies.type_of(reader.expressions, node) is None:
         return None
@@ -148,21 +152,24 @@ def _kept(
 
 
 def _stepped(
-    reader: BodyStatementReader,
-    variable: Var | Message,
-    target: Node,
-    returned: body_methods.Returned,
-    call: Node,
+    reader: BodyStatementReader, target: Node, returned: body_methods.Returned | None, call: Node
 ) -> Iterator[m.Statement] | None:
     """What a function does that changes the node, and then its value; None for other functions."""
     own = reader.reading.function(field(call, "function"), reader.frame)
-    if own is None or is_still(reader.reading, own) or not isinstance(variable, Var):
+    if returned is None or own is None or is_still(reader.reading, own):
         return None
     first, inner, given = returned
+    variable, _ = reader.expressions.meaning(target)
+    if isinstance(variable, Message):
+        return None
     try:
         read = inner.expressions.read(given)
     except Unknown:
-        return None
+        outside(inner, given, given)
+        forget(reader, target)
+        return iter(first)
+    if not isinstance(variable, Var):
+        return iter(first) if is_calm(read.expression) else None
     return chain(first, give(reader, variable, text_of(target), read, call))
 
 

@@ -35,8 +35,8 @@ def chained(
     if value.type in _EMPTY or any(t.type not in ("identifier", "attribute") for t in targets):
         raise Unread(reader.frame.span(node), "several variables get one value")
     read = _value(reader, value, node)
-    if read is None and reader.reading.message_type(value, reader.frame) is not None:
-        raise Unread(reader.frame.span(node), "several variables get one message")
+    if read is None and any(is_object(reader, target, value) for target in targets):
+        raise Unread(reader.frame.span(node), "several variables get one object")
     changed = {name for target in targets for name in _changed(reader, target)}
     if read is not None and _needs_local(read, changed):
         first, read = kept(reader, read, "value", value)
@@ -51,7 +51,7 @@ def unpacked(
     """`a, b = value, other`."""
     found = [_value(reader, value, node) for value in values]
     for target, value, read in zip(targets, values, found, strict=True):
-        if read is None and _is_object(reader, target, value):
+        if read is None and is_object(reader, target, value):
             raise Unread(reader.frame.span(node), "what these variables get is not in the model")
     changed: set[str] = set()
     for number, (target, read) in enumerate(zip(targets, found, strict=True)):
@@ -85,7 +85,7 @@ def _value(reader: BodyStatementReader, value: Node, node: Node) -> Value | None
         return None
 
 
-def _is_object(reader: BodyStatementReader, target: Node, value: Node) -> bool:
+def is_object(reader: BodyStatementReader, target: Node, value: Node) -> bool:
     """Whether a value may be an object that the model has: a message, or None instead of one."""
     if value.type == "call":
         return reader.reading.message_type(value, reader.frame) is not None
