@@ -82,7 +82,7 @@ def _computed(
             frame.bound[parameter.name] = _argument(reader, own, node)
     running = (*reader.running, own.node.id)
     inner = type(reader)(reader.reading, frame, reader.within, running)
-    return _Body(inner, own).value(body_of(own))
+    return _ComputingBody(inner, own).value(body_of(own))
 
 
 def _argument(reader: BodyExpressionReader, own: Scope, node: Node) -> Meaning:
@@ -97,7 +97,7 @@ def _argument(reader: BodyExpressionReader, own: Scope, node: Node) -> Meaning:
     return value
 
 
-class _Body:
+class _ComputingBody:
     """The value of a body, of which each local stands for what it was last given."""
 
     def __init__(self, reader: BodyExpressionReader, own: Scope) -> None:
