@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
+from rebsync.reverse.build.cmake_targets import EXECUTABLE, LIBRARY, TARGETLESS
 from rebsync.reverse.build.cmake_text import Argument, Command, CommandBlock, Item, read_cmake
 from rebsync.reverse.scaffold.fact import Fact
 from rebsync.reverse.scaffold.texts import squeezed
 from rebsync.source import Source, Span
 
-_OPTION = re.compile(r"(?:^|[\s\"])((?:-D|-U|-f|-include)\s*[^\s\"]+)")
+_OPTION = re.compile(
+    r"(?:^|[\s\"])((?:-D|-U|-f|-include|-I|-isystem|-iquote|-Wp,|-x(?=\s)|-Ofast)\s*[^\s\"]*)"
+)
 _COMMAND = "COMMAND"
 _CHANGING = frozenset(
     {"configure_file", "add_custom_command", "link_libraries", "add_link_options"}
@@ -20,10 +23,30 @@ _LINKING = frozenset(
     {"CMAKE_EXE_LINKER_FLAGS", "CMAKE_SHARED_LINKER_FLAGS", "CMAKE_CXX_STANDARD_LIBRARIES"}
     | {"CMAKE_CXX_COMPILER", "CMAKE_TOOLCHAIN_FILE", "CMAKE_PROJECT_INCLUDE"}
 )
+# Variables and properties by which something else is run or compiled than the file says.
+_STEERING = re.compile(
+    r".*_LAUNCHER|RULE_LAUNCH_\w+|CMAKE_\w+_COMPILE(?:R|_OBJECT)|LANGUAGE|HEADER_FILE_ONLY"
+    r"|EXTERNAL_OBJECT|GENERATED|EXCLUDE_FROM_ALL|(?:\w+_)?INCLUDE_DIRECTORIES"
+)
+_SETTING = ("set", "list", "string", "find_", "option", "foreach")
+# What others' modules call is theirs as well: with another meaning they do something else.
+_COMMANDS = (TARGETLESS | EXECUTABLE | LIBRARY | _CHANGING).union(
+    ("add_action_files", "add_custom_target", "add_message_files", "add_service_files"),
+    ("add_subdirectory", "cmake_parse_arguments", "file", "find_package", "include", "install"),
+    ("get_filename_component", "list", "project", "set", "target_link_libraries"),
+    ("target_sources", "try_compile", "try_run", "unset"),
+)
+_OTHERS = re.compile(r"_*(?:catkin|ament|rosidl|rclcpp|genmsg)_\w+")
+_OWN_FOLDER = re.compile(
+    r"\$\{(?:CMAKE_CURRENT_SOURCE_DIR|PROJECT_SOURCE_DIR|CMAKE_SOURCE_DIR)\}/?"
+)
+_WRAPPED = re.compile(r"\$<(BUILD|INSTALL)_INTERFACE:([^>]*)>")
+_OF_PACKAGE = re.compile(r"\$\{(\w+_INCLUDE_DIRS?)\}")
 _ONLY_LOOKS = frozenset(
     {"GLOB", "GLOB_RECURSE", "READ", "STRINGS", "RELATIVE_PATH", "TO_CMAKE_PATH"}
 )
 _SCOPES = frozenset({"PRIVATE", "PUBLIC", "INTERFACE"})
+_ORDERS = _SCOPES | {"AFTER", "BEFORE", "SYSTEM"}
 _DEFINING = "COMPILE_DEFINITIONS"
 _MESSAGES = frozenset({"rosidl_generate_interfaces", "add_message_files"})
 _SCRIPT = re.compile(r"scripts/(\w+)")
@@ -34,9 +57,14 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
     """The facts of a file, whatever conditions its commands are under."""
     commands = list(_commands(read_cmake(source).items))
     names = dict(filter(None, map(_named, commands)))
+    own = {argument.text for command in commands for argument in command.arguments}
     for command in commands:
         words = [argument.text for argument in command.arguments]
-        found = (*_compiled(command, words), *_steps(command, words))
+        found = (
+            *_compiled(command, words),
+            *_steps(command, words),
+            *_included(command, words, own),
+        )
         for fact in (*found, *_made(command, words, names)):
             kind, owner, name, value, span = fact
             yield Fact(kind, owner, name, value, source, span)
@@ -50,7 +78,8 @@ def _commands(items: Iterable[Item]) -> Iterator[Command]:
         match item:
             case CommandBlock(head, body, others):
                 yield head
-                yield from _commands(body)
+                is_function = head.name == "function"
+                yield from (c for c in _commands(body) if not is_function or c.name != "return")
                 for branch, inside in others:
                     yield branch
                     yield from _commands(inside)
@@ -95,6 +124,12 @@ def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
             is_step = "BEFORE" in words
         case "execute_process", _:
             is_step = _COMMAND not in words or not _asks(words)
+        case "return", _:
+            is_step = True
+        case "function" | "macro", [name, *_]:
+            is_step = _is_redefined(name.lower())
+        case name, _ if name.startswith(_SETTING):
+            is_step = is_step or any(map(_STEERING.fullmatch, words))
         case _:
             pass
     if is_step:
@@ -105,6 +140,28 @@ def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
             "given",
             command.span,
         )
+
+
+def _is_redefined(name: str) -> bool:
+    """Whether a function of this name may stand in place of a command that has a meaning."""
+    is_known = name.lstrip("_") in _COMMANDS or _OTHERS.fullmatch(name) is not None
+    return is_known or "$" in name
+
+
+def _included(command: Command, words: Sequence[str], own: Collection[str]) -> Iterator[_Told]:
+    """The folders of which headers are included, but for those that a found package names."""
+    if command.name not in ("include_directories", "target_include_directories"):
+        return
+    listed = words[command.name.startswith("target") :]
+    for word in (w for text in listed for w in text.split(";") if w not in _ORDERS):
+        wrapped = _WRAPPED.fullmatch(word)
+        if wrapped is not None and wrapped[1] == "INSTALL":
+            continue
+        of_package = _OF_PACKAGE.fullmatch(word)
+        if of_package is not None and of_package[1] not in own:
+            continue
+        folder = _OWN_FOLDER.sub("", wrapped[2] if wrapped is not None else word).rstrip("/")
+        yield "step of the build", "", f"include {folder or '.'}", "given", command.span
 
 
 def _asks(words: Sequence[str]) -> bool:

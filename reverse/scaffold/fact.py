@@ -11,6 +11,7 @@ from rebsync.records import dataclass
 from rebsync.source import Source, Span
 
 PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "space of parameters"
+PYTHON_SETTING = "setting of the packages of Python"
 CONSTANT, CLOCK = "type of the constant", "use_sim_time"
 NOT_GIVEN, OWN = "not given", "this package"
 _BEARING = {

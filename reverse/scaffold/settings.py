@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from rebsync.reverse.scaffold.fact import CONSTANT, OWN, Fact, has_bearing
+from rebsync.reverse.scaffold.fact import CONSTANT, OWN, PYTHON_SETTING, Fact, has_bearing
 from rebsync.source import Source, Span
 
 _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
@@ -23,6 +23,10 @@ _TYPES = {
 # How many metres a cell has, no model says, as long as it has some.
 _METRES = "metres"
 _FOLDER = re.compile(r"^(script_dir|install_scripts)[ \t]*=[ \t]*(\S+)", re.MULTILINE)
+_LINE = re.compile(r"^(?:\[([^\]\n]*)\].*|(?![#;])(.*\S))$", re.MULTILINE)
+_BUILDING = re.compile(
+    r"options.*|entry_points|build(?!_scripts).*|install.*|develop|global|easy_install"
+)
 _STATE = re.compile(r"^string server\nstring arguments$", re.MULTILINE)
 _FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
 
@@ -65,9 +69,21 @@ def _type_of(value: str) -> str:
 
 
 def facts_of_setup(source: Source) -> Iterator[Fact]:
-    """Where a `setup.cfg` has programs installed, from where launch files start them."""
+    """Where programs are installed, from where launch files start them, and what else is.
+
+    Sections of tools that only look at code say nothing of it.
+    """
     for m in _FOLDER.finditer(source.text):
         yield Fact("folder of programs", "", m[1], m[2], source, Span(*m.span()))
+    section, option = "", ""
+    for m in _LINE.finditer(source.text):
+        section = m[1] or section
+        if _BUILDING.fullmatch(section) and m[2] and not _FOLDER.fullmatch(m[2]):
+            is_inside = m[2][0].isspace()  # it goes on with the value of the option above
+            option = option if is_inside else m[2].partition("=")[0].strip()
+            value = " ".join(m[2].split())
+            name = f"[{section}] {option}"
+            yield Fact(PYTHON_SETTING, "", name, value, source, Span(*m.span()))
 
 
 def facts_of_other_package(source: Source, package: str) -> Iterator[Fact]:

@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterator
 from fnmatch import fnmatchcase
 
 from rebsync.records import dataclass
-from rebsync.reverse.scaffold.fact import Fact
+from rebsync.reverse.scaffold.fact import PYTHON_SETTING, Fact
 from rebsync.reverse.scaffold.python_trees import bindings, plain, span_of
 from rebsync.source import Source
 
@@ -20,6 +20,12 @@ _ENTRY = re.compile(r"\s*(\w+)\s*=\s*([\w.]+:\w+)\s*\Z")
 _INIT = "/__init__.py"
 _PACKAGE = "{package_name}"  # stands for the name of the package in paths
 _TESTS = frozenset({"test", "tests"})
+_OF_CATKIN = "generate_distutils_setup("
+# Arguments of `setup` by which other modules, or others in place of them, are installed.
+BUILDING = frozenset(
+    {"package_dir", "py_modules", "ext_modules", "cmdclass", "distclass", "scripts"}
+    | {"options", "command_options", "script_args", "script_name"}
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +48,12 @@ class SetupFile:
                     for each in listed:
                         for name, text in self._installed(each):
                             yield self._fact("installed file", name, text, each)
-                case ast.keyword("packages" | "package_dir" as name, value):
-                    yield self._fact("Python package", name, self._packages(value), value)
+                case ast.keyword("packages", value):
+                    yield self._fact("Python package", "packages", self._packages(value), value)
+                case ast.keyword(str(name), value) if name in BUILDING:
+                    yield self._fact(PYTHON_SETTING, name, plain(value), value)
+                case ast.keyword(None, value) if not ast.unparse(value).startswith(_OF_CATKIN):
+                    yield self._fact(PYTHON_SETTING, "**", plain(value), value)
                 case _:
                     pass
 

@@ -16,6 +16,7 @@ from rebsync.reverse.files.stores import Disk, join
 from rebsync.roundtrip.package.digests import digest_of, is_text_of
 from rebsync.roundtrip.package.managed import ManagedPackage
 from rebsync.roundtrip.package.manifest import BASE, BASE_MODEL
+from rebsync.roundtrip.package.overriding_files import overriding_files
 from rebsync.roundtrip.package.record import Record
 from rebsync.roundtrip.package.units import both_at, listing_of
 
@@ -55,6 +56,7 @@ def package_state(package: ManagedPackage, record: Record | None) -> PackageStat
     listing = both or listing_of(package.root, package.tree_of_code, wanted)
     if package.root == ".":  # as servers name the files of a change
         listing.files = {name: path.removeprefix("./") for name, path in listing.files.items()}
+    listing.odd |= overriding_files(listing, wanted)
     digests: dict[str, str] = {}
     changed = []
     for name, data in _contents(listing):

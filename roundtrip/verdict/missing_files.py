@@ -19,6 +19,7 @@ from rebsync.roundtrip.package.manifest import BASE
 from rebsync.roundtrip.package.record import Record
 from rebsync.roundtrip.package.state import NOT_EXECUTABLE, PackageState
 from rebsync.roundtrip.package.units import folders_of
+from rebsync.roundtrip.verdict.included_instead import included_instead
 from rebsync.roundtrip.verdict.missing_definitions import finding, missing_definitions
 from rebsync.roundtrip.verdict.shadowing import shadowing
 from rebsync.source import NOWHERE, Source, Span
@@ -41,6 +42,7 @@ def missing_files(
         *_fields(package, record, now),
         *_packages(package, record, now),
         *shadowing(record, now),
+        *included_instead(package, record, now),
         *_refused(now),
         *_not_executable(now),
     )

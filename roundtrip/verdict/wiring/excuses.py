@@ -12,6 +12,7 @@ from rebsync.reverse.scaffold.fact import (
     NOT_GIVEN,
     PLAYED,
     PROGRAM,
+    PYTHON_SETTING,
     SPACE,
     TYPE,
     Fact,
@@ -46,7 +47,7 @@ _JOINING = frozenset(
 _UNWANTED = frozenset(
     {
         *("setting", "compiler option", "step of the build", "command"),
-        *("environment", "launch file", "unknown", "parameters"),
+        *("environment", "launch file", "unknown", "parameters", PYTHON_SETTING),
     }
 )
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
@@ -158,6 +159,8 @@ class Excuses:
 
     def _is_unwanted(self, fact: Fact) -> bool:
         """Whether it makes a difference that there is something that was not generated."""
+        if fact.kind == PYTHON_SETTING:
+            return any(kind == "Python package" for kind, *_ in self.base)
         if fact.kind != "remap":
             return fact.kind in _UNWANTED
         if ("node", fact.owner, "pkg") in self.base and (TYPE, fact.owner, "") not in self.base:

@@ -80,7 +80,7 @@ def odd_facts(
     """The facts that are not as they were when the code was generated."""
     touched = [n for n in {*now.changed, *now.missing} & record.files.keys() if _is_wiring(n)]
     new = [n for n in now.changed if n not in record.files and _is_wiring(n)]
-    if not touched:
+    if not touched and not any(n.endswith("setup.cfg") for n in new):
         return ()
     listed = now.listing.files
     old_paths = {n: f"{package.root}/{BASE}{n}" for n in record.files if _is_wiring(n)}

@@ -1,0 +1,70 @@
+"""Files that are no code to read, but that come before generated code, or before a library's.
+
+An extension module comes before a module of Python of its name (importlib, FileFinder), a header
+without a suffix before the one of the C++ library, and a `pyproject.toml` before `setup.py`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Sequence
+from posixpath import dirname
+
+from rebsync.diagnostics import RebsyncError
+from rebsync.reverse.files.packages import Listing
+from rebsync.reverse.files.stores import Disk, Entry, Store, join
+
+_COMPILED = re.compile(r"(\w+)(?:\.[\w-]+)*\.(?:so|pyd|pyc)")
+_STANDARD = re.compile(r"[a-z_]+")
+_HEADERS, _SETUP, _PROJECT, _INIT = "include", "setup.py", "pyproject.toml", "/__init__.py"
+_BUILDING = re.compile(r"^\s*\[+\s*(?:project|build-system|tool\.setuptools)\b", re.MULTILINE)
+_IMPORTED = "Python may import this in place of other code"
+_INCLUDED = "this is included in place of a header of the library"
+_BUILT = "this says anew what is built of the package"
+
+
+def overriding_files(listing: Listing, generated: Collection[str]) -> dict[str, str]:
+    """Such files by their paths in a package, each with what it does."""
+    files = listing.store or Disk()
+    found = dict.fromkeys(_compiled_python(files, listing.root, generated), _IMPORTED)
+    if any(n.startswith(f"{_HEADERS}/") for n in generated):
+        for entry in _entries(files, join(listing.root, _HEADERS)):
+            if _STANDARD.fullmatch(entry.name) and not entry.is_dir():
+                found[f"{_HEADERS}/{entry.name}"] = _INCLUDED
+    for setup in (n for n in generated if n.rpartition("/")[2] == _SETUP):
+        name = setup.removesuffix(_SETUP) + _PROJECT
+        if _BUILDING.search(_text(files, join(listing.root, name))):
+            found[name] = _BUILT
+    return found
+
+
+def _compiled_python(files: Store, root: str, generated: Collection[str]) -> Iterator[str]:
+    """Compiled modules of the names of generated ones, and those where Python looks first."""
+    packages = {n.removesuffix(_INIT) for n in generated if n.endswith(_INIT)}
+    first = {dirname(n) for n in packages}
+    first |= {dirname(n) for n in generated if dirname(n).rpartition("/")[2] == "scripts"}
+    for folder in sorted(packages | first):
+        for entry in _entries(files, join(root, folder) if folder else root):
+            name = f"{folder}/{entry.name}".lstrip("/")
+            module = _COMPILED.fullmatch(entry.name)
+            if module is not None and (folder in first or f"{folder}/{module[1]}.py" in generated):
+                yield name
+            elif f"{name}.py" in generated and entry.is_dir():
+                inside = (e.name for e in _entries(files, entry.path))
+                yield from (
+                    f"{name}/{i}" for i in inside if i.startswith("__init__.") and i[-3:] != ".py"
+                )
+
+
+def _entries(files: Store, folder: str) -> Sequence[Entry]:
+    try:
+        return files.entries(folder)
+    except (OSError, RebsyncError):
+        return ()
+
+
+def _text(files: Store, path: str) -> str:
+    try:
+        return files.read(path).decode("utf-8", "replace")
+    except (OSError, RebsyncError):
+        return ""
