@@ -8,6 +8,7 @@ from math import prod
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.intervals import INTEGERS
 from rebsync.package import Value
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.launch.parameters import Parameter
@@ -83,6 +84,25 @@ def value_in_all(key: str, default: Value | None, launch: Launch) -> Value | Non
     if not common:
         found.add(default)
     return found.pop() if len(found) == 1 and not launch.unknowns else None
+
+
+def is_taken(value: Value, type_: m.Type, widens: bool) -> bool:
+    """Whether code that asks for a type takes a value as it is.
+
+    roscpp gives the fallback for a value of another type, or rounds it, a node of rclcpp or rclpy
+    dies by it. `widens`: a whole number is taken where a decimal one is asked for, as in ROS 1.
+    """
+    match value:
+        case tuple():
+            return all(is_taken(v, type_, widens) for v in value)
+        case bool():
+            return type_.name == "boolean"
+        case int():
+            return type_.name in INTEGERS or (widens and type_.name in ("float", "double"))
+        case float():
+            return type_.name in ("float", "double")
+        case _:
+            return type_.name not in (*INTEGERS, "boolean", "float", "double")
 
 
 def marked_type(parameter: Parameter) -> tuple[m.Type, str] | None:

@@ -20,6 +20,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.generated.env_values import (
     as_type,
     constant,
+    is_taken,
     marked_type,
     plain_value,
     shaped,
@@ -30,6 +31,7 @@ from rebsync.reverse.generated.parameters import objects_in
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_names import stored_in, variable_name
 from rebsync.reverse.generated.ros2_words import made_in
+from rebsync.reverse.launch.launch_files_ros2 import speaks_ros_2
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.launch.misdirected import is_reached, list_misdirected, redirected
 from rebsync.reverse.launch.parameters import Parameter
@@ -42,6 +44,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.recovery import PythonPart
 
 _TIME_UNIT = "/mailbox/time_unit"
+_HINT = "give it a value of the type that the code asks for"
 
 
 def unit_of_time(launch: Launch | None) -> Fraction:
@@ -86,6 +89,11 @@ class GeneratedSystem:
                 continue
             type_, name, default = used.get(key, (None, "", None))
             value = plain_value(given[key]) if key in given else default
+            if value is None:
+                continue
+            if type_ is not None and key in given and not self._is_taken(given[key], type_):
+                self._list_other_kind(given[key], key, "env")
+                value = default
             if value is None:
                 continue
             if type_ is None:
@@ -147,7 +155,7 @@ class GeneratedSystem:
         count = len(keys) + len(own)
         parameters = next((c.parameters for c in constructors if len(c.parameters) == count), ())
         arguments = [
-            self._argument(node, key, parameter.type)
+            self._argument(node, key, parameter.type, type_)
             for key, parameter in zip(keys, parameters, strict=False)
         ]
         arguments += given_to(node, own, self.common, self.classes.findings, type_)
@@ -227,16 +235,30 @@ class GeneratedSystem:
         owner = next((o for o in owners if class_name(o.name) == type_), None)
         return stored_in(self.code, self.classes.roles[owner.name], owner) if owner else ()
 
-    def _argument(self, node: LaunchedNode, key: str, type_: m.Type) -> m.Expression | None:
+    def _argument(
+        self, node: LaunchedNode, key: str, type_: m.Type, within: str
+    ) -> m.Expression | None:
         parameter = node.parameter(key)
         value = plain_value(parameter) if parameter is not None else None
         if parameter is None or value is None:
+            return None
+        if not self._is_taken(parameter, type_):
+            self._list_other_kind(parameter, key, within)
             return None
         if isinstance(value, str):
             read: m.Expression = m.Name(uncarry(value, TAKEN_NODES))
         else:
             read = literal_of(as_type(value, type_))
         return replace(read, span=parameter.source.within(parameter.span))
+
+    def _is_taken(self, parameter: Parameter, type_: m.Type) -> bool:
+        value = plain_value(parameter)
+        widens = self.launch is not None and not speaks_ros_2(self.launch.sources[0])
+        return value is None or is_taken(value, type_, widens)
+
+    def _list_other_kind(self, parameter: Parameter, key: str, within: str) -> None:
+        unread = Unread(parameter.span, f"the code reads another kind of value for `{key}`", _HINT)
+        self.classes.findings.unreadable(parameter.source, unread, within)
 
 
 def _made(function: CppFunction) -> Iterator[tuple[str, list[str]]]:

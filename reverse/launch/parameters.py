@@ -23,6 +23,7 @@ from rebsync.source import Source, Span
 ParameterValue: TypeAlias = "bool | int | float | str | tuple[ParameterValue, ...] | Struct"
 
 _Stored = TypeVar("_Stored", bound=object)
+YAML = "the YAML"  # what is not known where a text is none
 _MOST = 100_000
 _RESOLVED = "tag:yaml.org,2002:"
 _SCALARS = frozenset(_RESOLVED + name for name in ("bool", "float", "int", "str"))
@@ -74,7 +75,7 @@ def read_parameters(
     except yaml.YAMLError as error:
         reader.mistake(error)
     except (_TooLarge, RecursionError):
-        reader.unknown("the YAML", "it is nested too deeply, or too large, to be read", Span(0, 0))
+        reader.unknown(YAML, "it is nested too deeply, or too large, to be read", Span(0, 0))
     return Parameters(tuple(reader.entries.values()), tuple(reader.unknowns))
 
 
@@ -112,7 +113,7 @@ class _Reader:
         mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
         at = mark.index if mark is not None else getattr(error, "position", 0) or 0
         why = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
-        self.unknown("the YAML", why, Span(at, at))
+        self.unknown(YAML, why, Span(at, at))
 
     def flatten(self, name: str, node: yaml.Node) -> None:
         """Sets the parameters that a node stands for under a name."""

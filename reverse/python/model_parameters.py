@@ -52,7 +52,7 @@ class ParameterRead:
         default = constant(self.default)
         if not self.is_own or default is None or isinstance(default, tuple):
             return None
-        found = OwnParameter(self.key, default, True, self.for_all)
+        found = OwnParameter(self.key, default, not self.for_all, self.for_all)
         return found if found.is_plain else None
 
 

@@ -19,7 +19,7 @@ from rebsync.reverse.scaffold.build_file import facts_of_build
 from rebsync.reverse.scaffold.cpp import facts_in_cpp
 from rebsync.reverse.scaffold.fact import Fact, Facts
 from rebsync.reverse.scaffold.launch_python import facts_of_python_launch
-from rebsync.reverse.scaffold.launch_xml import facts_of_launch
+from rebsync.reverse.scaffold.launch_xml import PARAMETERS, facts_of_launch, facts_of_settings
 from rebsync.reverse.scaffold.settings import (
     facts_of_message,
     facts_of_other_package,
@@ -39,10 +39,19 @@ def package_name(path: str) -> str:
 def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
     """The facts in files of a package of that name, by their keys; `paths` are by names inside."""
     found: Facts = {}
+
+    def load(path: str) -> Source | None:
+        name = path.removeprefix("/")
+        with suppress(RebsyncError):
+            return Source(paths[name], _text(read_bytes(paths[name]))) if name in paths else None
+        return None
+
     for name, path in sorted(paths.items()):
         with suppress(RebsyncError):  # what cannot be read, extraction lists
             source = Source(path, compiled_text(name, _text(read_bytes(path))))
             for fact in _told(name, source, package, _beside(name, paths)):
+                found.setdefault(fact.key, []).append(fact)
+            for fact in facts_of_settings(source, load) if name.endswith(".launch") else ():
                 found.setdefault(fact.key, []).append(fact)
     return found
 
@@ -71,7 +80,7 @@ def _of_file(name: str, source: Source, package: str, beside: tuple[str, ...]) -
         case last if last.endswith((".msg", ".srv", ".action")):
             return facts_of_message(source, package)
         case last if last.endswith(".yaml"):
-            return facts_of_parameters(source)
+            return facts_of_parameters(source) if name.endswith(PARAMETERS) else ()
         case last if last.endswith("package.xml"):
             return facts_of_other_package(source, package)
         case last if last.endswith(".cfg"):

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from rebsync.records import dataclass
+from rebsync.reverse.launch.launch_files import read_launch
+from rebsync.reverse.launch.launch_values import Surroundings
+from rebsync.reverse.launch.parameters import YAML
 from rebsync.reverse.launch.xml_tree import XmlElement, read_xml
 from rebsync.reverse.scaffold.fact import (
     NOT_GIVEN,
@@ -22,7 +25,8 @@ from rebsync.reverse.scaffold.texts import conditions, is_of_package, space, squ
 from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source
 
-# The environment that has to do with what is shown only.
+PARAMETERS = "config/params.yaml"
+Load = Callable[[str], "Source | None"]
 
 
 def facts_of_launch(source: Source, package: str) -> Iterator[Fact]:
@@ -30,6 +34,21 @@ def facts_of_launch(source: Source, package: str) -> Iterator[Fact]:
     root = read_xml(source)
     if not isinstance(root, Unknown):  # what cannot be read, extraction lists
         yield from _Tags(source, package, frozenset(_nodes(root))).facts(root)
+
+
+def facts_of_settings(source: Source, load: Load) -> Iterator[Fact]:
+    """What a launch file with all that it loads sets of the run-time part, and YAML that is none.
+
+    The file of parameters that is generated has facts of its own.
+    """
+    launch = read_launch(source, Surroundings(load, lambda _: ""))
+    for given in launch.parameters:
+        name = "/".join(given.name.split("/")[-2:])
+        if has_bearing(name) and not given.source.path.endswith(PARAMETERS):
+            yield Fact("setting", "", name, str(given.value), given.source, given.span)
+    for unknown in launch.unknowns:
+        if unknown.what == YAML and not unknown.source.path.endswith(PARAMETERS):
+            yield Fact("unknown", "", unknown.what, unknown.why, unknown.source, unknown.span)
 
 
 def _nodes(element: XmlElement) -> Iterator[str]:
@@ -92,7 +111,7 @@ class _Tags:
                 loaded = given.get("file", "").rpartition("/")[2]
                 yield self._fact("parameter file", "", loaded, "loaded", element)
             case "param" if has_bearing(name) and not (self.node and not is_absolute):
-                yield self._fact("setting", "", name.strip("/"), value, element)
+                pass  # what all tags together set of these counts
             case "param" if self._is_aside(name):
                 yield self._fact("setting", self.node, name, value, element)
             case _:

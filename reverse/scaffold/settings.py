@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from rebsync.reverse.launch.parameters import YAML, read_parameters
 from rebsync.reverse.scaffold.fact import CONSTANT, OWN, PYTHON_SETTING, Fact, has_bearing
 from rebsync.source import Source, Span
 
@@ -42,6 +43,9 @@ def facts_of_message(source: Source, package: str) -> Iterator[Fact]:
 
 def facts_of_parameters(source: Source) -> Iterator[Fact]:
     """What in the parameters has a bearing on what nodes do, but for the values of constants."""
+    for unknown in read_parameters(source).unknowns:
+        if unknown.what == YAML:
+            yield Fact("unknown", "", unknown.what, unknown.why, source, unknown.span)
     section = ""
     for m in _ONE_NODE.finditer(source.text):
         yield Fact(

@@ -34,6 +34,7 @@ from rebsync.roundtrip.verdict.wiring.names import (
     TOPICS,
     JoinedTopics,
     is_about,
+    is_of_runtime,
     leads_in,
 )
 
@@ -166,7 +167,8 @@ class Excuses:
         if ("node", fact.owner, "pkg") in self.base and (TYPE, fact.owner, "") not in self.base:
             return self._is_of_a_topic(fact)
         is_own = not fact.owner or (TYPE, fact.owner, "") in self.base
-        return is_own and is_about(self.now, self.today, fact)
+        is_met = is_of_runtime(self.today, fact) or is_about(self.now, self.today, fact)
+        return is_own and is_met
 
     def _is_of_another_tool(self, section: str) -> bool:
         """Whether a section of parameters is for a node that is none of the package."""
@@ -196,6 +198,8 @@ class Excuses:
             return False  # which of them counts depends on their order
         is_new = key[0] == "remap" and key[1] and key not in self.base
         if is_new and any(leads_in(self.now, self.today, fact) for fact in now):
+            return False
+        if key[0] == "remap" and any(is_of_runtime(self.today, fact) for fact in now):
             return False
         shapes = ({_shape(f) for f in facts.get(key, ())} for facts in (self.base, self.today))
         return key[0] == "remap" or len(set(map(frozenset, shapes))) == 1

@@ -35,7 +35,7 @@ from rebsync.source import NOWHERE, Source
 
 _WIRED = (
     *(".cpp", ".h", ".hpp", ".launch", ".py", ".msg", ".srv", ".action"),
-    *("CMakeLists.txt", "config/params.yaml", "package.xml", "setup.cfg"),
+    *("CMakeLists.txt", ".yaml", "package.xml", "setup.cfg"),
 )
 # Without these extraction lists what they were for; and somebody may call them otherwise.
 _MISSED = frozenset(
