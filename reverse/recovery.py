@@ -107,8 +107,7 @@ def extract(
     read = at.generated(classes, memory)
     in_cpp = at.nodes_in_cpp()
     people = in_cpp.find() if in_cpp is not None else None
-    part = people.part if people is not None else Part.empty()
-    part = replace(part, observed=observed or {})
+    part = replace(people.part if people is not None else Part.empty(), observed=observed or {})
     python = at.python(in_python, listed, part, classes) if in_python is not None else None
     joined = python.nodes.joined if python is not None else None
     joined = joined if joined is not None else Joined.of([part])
@@ -128,21 +127,16 @@ def extract(
     system = GeneratedSystem(at.code, classes, read, at.launched, at.programs, python)
     main = _main(system, nodes, at.only is not None and len(files) > 1)
     findings.all += out_of_order((*read, *nodes.classes), findings.ordered)
-    of_people = with_open_servers(
-        (marked_lacking(c, findings.all) for c in nodes.classes), open_ends(joined)
-    )
-    model = m.Model(tuple(system.heads() if read else ()), (*read, *of_people), main)
-    statements = tuple(findings.statements.items())
-    asked_for = python.graph if python is not None else Graph()
-    times = frozenset(findings.times)
+    lacking = (marked_lacking(c, findings.all) for c in nodes.classes)
+    of_people = with_open_servers(lacking, open_ends(joined))
     return Extracted(
-        model,
+        m.Model(tuple(system.heads() if read else ()), (*read, *of_people), main),
         tuple(findings.all),
-        statements,
+        tuple(findings.statements.items()),
         at.asking,
-        asked_for,
+        python.graph if python is not None else Graph(),
         joined,
-        times,
+        frozenset(findings.times),
         tuple(known_texts),
         text_names,
     )

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import field, replace
 from itertools import islice
 
+from rebsync.checker.choosing import semantics_for
 from rebsync.checker.endless import endless_reason
 from rebsync.checker.engines import explore
 from rebsync.checker.exploration import Event, Exploration, Faults, Progress, Report, Search
@@ -26,7 +27,7 @@ from rebsync.checker.program import Program
 from rebsync.checker.reduction import self_driven
 from rebsync.checker.result import Coverage, MeasureRange, Result, Verdict, Violation
 from rebsync.checker.standstill import ENDLESS, LEAVES, cycle_from, may_stand_still
-from rebsync.checker.steps import Failure, Semantics, ViolationKind
+from rebsync.checker.steps import Failure, ViolationKind
 from rebsync.checker.symmetry import over_orbits, symmetry_of
 from rebsync.checker.telling import Teller
 from rebsync.checker.trace import Trace
@@ -110,23 +111,6 @@ def _watch(found: Exploration, options: Options, report: Report | None, started:
     now = time.perf_counter() - started
     figures = Progress(found.states, found.transitions, found.depth, 0, now, used_memory())
     return Watch(options.limits, report, started, figures)
-
-
-def semantics_for(program: Program, problem: Problem) -> Semantics:
-    """The floating view if the model has no `delay`; what counts steps or time needs the exact.
-
-    Without `delay` the two views differ only by steps of time (FACS 2015).
-    """
-    from rebsync.checker.lowering.temporal import counts_steps
-
-    properties = problem.properties
-    exact = (
-        program.has_delay
-        or properties.tctl
-        or problem.between
-        or any(counts_steps(p.formula) for p in properties.ltl)
-    )
-    return "tts" if exact else "ftts"
 
 
 @dataclass

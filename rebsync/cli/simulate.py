@@ -66,12 +66,12 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     Without --seed every run is another one; the seed is told on standard error. Exit status: 3 if
     the run (or one of them) ends in a step that fails, 4 if in a body that does not end, else 0.
     """
+    from rebsync.checker.choosing import semantics_for
     from rebsync.checker.endless import EndlessBody, endless_reason
     from rebsync.checker.lowering import lower
     from rebsync.checker.simulate import by_chance, run
     from rebsync.checker.telling import Teller
     from rebsync.checker.trace import Trace
-    from rebsync.checker.verify import semantics_for
     from rebsync.checker.views import view_of
 
     given = ctx.params
@@ -106,9 +106,9 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
 
 def _many(problem: Problem, given: dict[str, Any], output: str) -> Status:
     """Many runs by chance: what is told of them is a distribution."""
+    from rebsync.checker.choosing import semantics_for
     from rebsync.checker.lowering import lower
     from rebsync.checker.sampling import samples
-    from rebsync.checker.verify import semantics_for
     from rebsync.cli.estimates import write_estimates
 
     if not given["runs"] or given["interactive"]:

@@ -39,13 +39,13 @@ def write_space(
 
     The interpreter makes it. False if a bound has left out a part.
     """
+    from rebsync.checker.choosing import semantics_for
     from rebsync.checker.formulas import Atom
     from rebsync.checker.lowering import lower
     from rebsync.checker.search import Interpreted
     from rebsync.checker.show.rmc_xml import rmc_xml
     from rebsync.checker.spaces import space_of
     from rebsync.checker.telling import Teller
-    from rebsync.checker.verify import semantics_for
     from rebsync.cli.progress import progress
 
     program, formulas = lower(problem.analysis, problem.properties)

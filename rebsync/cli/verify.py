@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from rebsync.cli.amounts import amount, duration
-from rebsync.cli.options import write_output
 from rebsync.cli.problem import keep_what_is_read, measured, named, read_problem
 from rebsync.cli.status import STATUS_OF, Status, worst
+from rebsync.cli.verify_output import write_result
 from rebsync.diagnostics import RebsyncError
 
 if TYPE_CHECKING:
     from rebsync.checker.problem import Options, Problem
-    from rebsync.checker.result import Result, Violation
+    from rebsync.checker.result import Result
     from rebsync.checker.steps import Semantics
     from rebsync.reverse.environment.package import EnvironmentChoice
 
@@ -236,7 +236,7 @@ def _one(model: str, given: dict[str, Any], output: str) -> Status:
         from rebsync.roundtrip.verdict.property_cache import save_verdicts
 
         save_verdicts(problem, options, result)
-    _write(result, problem, given, output)
+    write_result(result, problem, given, output)
     return STATUS_OF[result.verdict]
 
 
@@ -354,48 +354,3 @@ def _verified(problem: Problem, options: Options) -> Result:
         except Unavailable as unavailable:
             hint = "--engine auto goes on without it"
             raise RebsyncError.of(problem.source.path, "RS931", str(unavailable), hint) from None
-
-
-def _write(result: Result, problem: Problem, given: dict[str, Any], output: str) -> None:
-    style = given["style"]
-    if style == "text" and output == "-":
-        from rebsync.checker.show.text import print_result
-
-        print_result(result, problem.source.path, sys.stdout, is_full=given["full"])
-        return
-    write_output(output, _text(result, problem, style, given))
-
-
-def _text(result: Result, problem: Problem, style: str, given: dict[str, Any]) -> str:
-    match style:
-        case "json":
-            from rebsync.checker.show.data import result_json
-            from rebsync.cli.moving import moving_in
-
-            return result_json(result, moving_in(problem))
-        case "html":
-            from rebsync.checker.show.page import result_page
-            from rebsync.cli.moving import moving_in
-
-            moving = moving_in(problem)
-            return result_page(result, problem.source, problem.property_source, moving)
-        case "svg":
-            from rebsync.checker.show.chart import chart
-
-            violation = _violation(result, given["violation"])
-            return chart(violation.trace, violation.message)
-        case _:
-            from rebsync.checker.show.pieces import plain
-            from rebsync.checker.show.text import result_lines
-
-            return plain(result_lines(result, problem.source.path, is_full=given["full"]))
-
-
-def _violation(result: Result, wanted: str | None) -> Violation:
-    for violation in result.violations:
-        if wanted in (None, violation.name):
-            return violation
-    if wanted is None:
-        raise click.UsageError(f"there is no run to draw: {result.verdict}")
-    names = ", ".join(v.name for v in result.violations) or "none"
-    raise click.UsageError(f'no violation is called "{wanted}"; there is {names}')

@@ -13,8 +13,9 @@ from rebsync.reverse.bodies.building import binary, chosen, is_calm
 from rebsync.reverse.bodies.cpp_conversions import operands, type_in
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_widths import check_whole, wide_of
+from rebsync.reverse.bodies.known_functions import takes_values
 from rebsync.reverse.bodies.scope import Variable
-from rebsync.reverse.syntax.cpp_calls import call_of
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_tree import text_of
 from rebsync.static.types import INT, is_integer
 
@@ -116,3 +117,19 @@ def _end(node: Node, names: Sequence[str]) -> Node | None:
     if found.target is None and len(found.arguments) == 1:
         return found.arguments[0] if found.name in {f"std::{n}" for n in names} else None
     return None
+
+
+def looked_at(call: CppCall) -> bool:
+    """Whether `*std::max_element(a.begin(), a.end())` is only looked at where it stands."""
+    pointer = call.node.parent
+    above = pointer.parent if pointer is not None else None
+    is_value = pointer is not None and text_of(pointer).startswith("*")
+    if not is_value or above is None or call.name not in EXTREMES:
+        return False
+    if above.type == "argument_list" and above.parent is not None:
+        outer = call_of(above.parent)
+        is_looked_at = outer is not None and takes_values(outer)
+    else:
+        is_looked_at = above.type == "binary_expression" and ">>" not in text_of(above)
+    array = whole_array(call.arguments) if is_looked_at else None
+    return array is not None and array.type == "identifier"

@@ -10,7 +10,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.bodies import cpp_roots, known_functions
-from rebsync.reverse.bodies.cpp_algorithms import EXTREMES, whole_array
+from rebsync.reverse.bodies.cpp_algorithms import looked_at
 from rebsync.reverse.bodies.cpp_endings import may_end
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOPS, OF_TEXTS, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
@@ -186,6 +186,7 @@ class Effects:
 
     def _declaration(self, node: Node) -> None:
         type_ = text_of(part(node, "type"))
+        takes = known_functions.type_takes_values(type_)
         if self.scope.meaning(type_) is not None and type_ not in self._inner:
             raise self._touches(node, "this looks like a declaration, but starts with a variable")
         for declarator in node.children_by_field_name("declarator"):
@@ -197,17 +198,11 @@ class Effects:
             refers = target.type == "reference_declarator"
             if refers and value is None:
                 raise self._touches(node, "this looks like a declaration, but it is none")
-            if target.type == "function_declarator" and not known_functions.type_takes_values(
-                type_
-            ):
+            if target.type == "function_declarator" and not takes:
                 self._made_from_names(target)
             if refers and value is not None and "const" not in cpp_roots.specifiers_of(node):
                 self.refers(value)
-            elif (
-                value is not None
-                and value.type == "argument_list"
-                and known_functions.type_takes_values(type_)
-            ):
+            elif value is not None and value.type == "argument_list" and takes:
                 for argument in named(value):
                     self.check(argument)
             elif value is not None:
@@ -247,28 +242,13 @@ class Effects:
             self._method(call, name, of, meaning)
         if (does := known_functions.acts(self.cpp, call, has_mailbox(self.scope))) is not None:
             raise self._touches(node, f'"{text_of(part(node, "function"))}" {does}')
-        if self._looks_through(call):
+        if looked_at(call):
             return
         if known or known_functions.takes_values(call):
             for argument in call.arguments:
                 self.check(argument)
             return
         self._arguments(call.arguments)
-
-    def _looks_through(self, call: CppCall) -> bool:
-        """Whether `*std::max_element(a.begin(), a.end())` is only looked at where it stands."""
-        pointer = call.node.parent
-        above = pointer.parent if pointer is not None else None
-        is_value = pointer is not None and text_of(pointer).startswith("*")
-        if not is_value or above is None or call.name not in EXTREMES:
-            return False
-        if above.type == "argument_list" and above.parent is not None:
-            outer = self.scope.call(above.parent)
-            is_looked_at = outer is not None and known_functions.takes_values(outer)
-        else:
-            is_looked_at = above.type == "binary_expression" and ">>" not in text_of(above)
-        array = whole_array(call.arguments) if is_looked_at else None
-        return array is not None and array.type == "identifier"
 
     def _function(self, call: CppCall, name: str) -> bool:
         """Whether a function of the code only looks; `Touches` if it acts on more than it gets."""

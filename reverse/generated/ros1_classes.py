@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync.names import carry, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_CLASSES, RESERVED
-from rebsync.reverse.bodies.cpp_types import Carried, carried, class_name
+from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.scope import (
     Around,
@@ -37,6 +37,7 @@ from rebsync.reverse.generated.ros1_inherited import is_declared, list_hiding, o
 from rebsync.reverse.generated.ros1_meanings import Meaning, in_files_of, other_meanings
 from rebsync.reverse.generated.ros1_mixins import functions_beside, without_mixins
 from rebsync.reverse.generated.ros1_names import (
+    aliases,
     called,
     declared_type,
     enumerators,
@@ -383,30 +384,17 @@ class Classes:
         for function in functions_beside(self.code, owner):
             functions[function.name] = called(self.code, function, self.types)
             callable_.add(function.name)
-        bases = {c.name: class_name(c.name) for c in self.code.lineage(owner.name)[1:]}
-        timers = {t.call.node.id: server_of_timer(t, n) for t, n in self._timed_servers(owner)}
         return Scope(
             members,
             functions,
-            bases,
+            {c.name: class_name(c.name) for c in self.code.lineage(owner.name)[1:]},
             self.types,
             frozenset(callable_),
-            timers=timers,
+            timers={t.call.node.id: server_of_timer(t, n) for t, n in self._timed_servers(owner)},
             posts=dict(posts_in_bodies(self.code, owner, self.roles, self.served)),
             enumerators=enumerators(self.code),
             enums=frozenset(e.enum for all_ in self.code.enumerators.values() for e in all_),
-            aliases=_aliases(self.code),
+            aliases=aliases(self.code),
             messages=self.messages,
             unit=self.unit,
         )
-
-
-def _aliases(code: Code) -> dict[str, Carried]:
-    """What the model keeps of the types that the code names, each by one name only."""
-    found: dict[str, Carried] = {}
-    for name, aliases in code.aliases.items():
-        kept = carried(aliases[0].type)
-        is_one = len({text_of(alias.type) for alias in aliases}) == 1
-        if kept is not None and is_one and name not in code.all_classes:
-            found[name] = kept
-    return found

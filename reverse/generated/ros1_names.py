@@ -10,7 +10,7 @@ from tree_sitter import Node
 from rebsync.model import Type
 from rebsync.names import carry, free_name, uncarry
 from rebsync.reserved import RESERVED, RESERVED_GLOBALS, RUNTIME_MEMBERS
-from rebsync.reverse.bodies.cpp_types import type_of
+from rebsync.reverse.bodies.cpp_types import Carried, carried, type_of
 from rebsync.reverse.bodies.scope import Called, Runtime
 from rebsync.reverse.generated.own_parameters import Stored
 from rebsync.reverse.generated.ros1_roles import Roles
@@ -127,6 +127,17 @@ def enumerators(code: Code) -> dict[str, int]:
             for prefix in alone | {f"{each.enum}::", f"{each.scope}::"} - {"::"}:
                 values.setdefault(f"{prefix}{name}", set()).add(each.value)
     return {n: v for n, vs in values.items() for v in vs if len(vs) == 1 and v is not None}
+
+
+def aliases(code: Code) -> dict[str, Carried]:
+    """What the model keeps of the types that the code names, each by one name only."""
+    found: dict[str, Carried] = {}
+    for name, all_of in code.aliases.items():
+        kept = carried(all_of[0].type)
+        is_one = len({text_of(alias.type) for alias in all_of}) == 1
+        if kept is not None and is_one and name not in code.all_classes:
+            found[name] = kept
+    return found
 
 
 _ATOMIC = re.compile(r"(?:std::)?atomic<(?:std::)?(bool|int|int32_t)>")

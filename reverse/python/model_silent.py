@@ -1,8 +1,7 @@
 """Members of generated Python that nothing of the model depends on: what is only told to people.
 
-Texts, lists and parameters that are only logged, publishers of diagnostics, timers that only log,
-and locks. A store in
-such a member changes nothing that a model could show, as long as nothing else looks at it.
+Texts, lists and parameters that are only logged, publishers of diagnostics, idle timers, and locks.
+A store in such a member shows in no model, as long as nothing else looks at it.
 """
 
 from __future__ import annotations
@@ -15,7 +14,6 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1, PUBLISHER_METHOD
 from rebsync.reverse.python.model_locks import may_lock, waiting_methods
 from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
@@ -23,7 +21,15 @@ from rebsync.reverse.python.model_roles import PyRoles, is_of_node
 from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
 from rebsync.reverse.python.model_timers import Timers
 from rebsync.reverse.python.model_types import call_parts, string_value
-from rebsync.reverse.python.py_bindings import Binding
+from rebsync.reverse.python.module_variables import (
+    call_and_arguments,
+    counters_of,
+    hidden_names,
+    imported_as,
+    is_clock,
+    loggers_of,
+    tables_of,
+)
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, is_label, named, nodes_in, text_of
@@ -35,11 +41,6 @@ _VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
 _LOCKS = {"threading.Lock": False, "threading.RLock": True}
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
-_LITERALS = frozenset({"integer", "float", "string", "none", "true", "false"})
-_TABLE = _LITERALS | {
-    *("dictionary", "pair", "string_start", "string_content", "string_end", "unary_operator"),
-    "comment",
-}
 _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
 _GROWING = frozenset({"append", "clear"})
 
@@ -162,13 +163,13 @@ def silent_in(
     makers = frozenset(_makers(owner.module))
     modules = [*{id(c.module): c.module for c in line}.values()]
     looks = looks_in(code, modules, makers)
-    hidden = _hidden(code, owner.module)
+    hidden = hidden_names(code, owner.module)
     records = records_in(code, owner.module)
     looks = replace(
         looks,
-        loggers=_loggers(owner.module) - hidden,
-        tables=_tables(code, owner.module) - hidden,
-        clocks=frozenset(n for n in owner.module.names if _is_clock(owner.module, n)) - hidden,
+        loggers=loggers_of(owner.module) - hidden,
+        tables=tables_of(code, owner.module) - hidden,
+        clocks=frozenset(n for n in owner.module.names if is_clock(owner.module, n)) - hidden,
         records={name: fields for name, fields in records.items() if name not in hidden},
     )
     taken |= looks.functions
@@ -177,9 +178,14 @@ def silent_in(
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
     timers = Timers.of(code, {n: functions[n] for n in roles[0].ticking}, looks)
+    told = frozenset(
+        name
+        for name, v in members.items()
+        if v.type in _VALUES or _own_parameter(v) or looks.tells_time(v)
+    )
     locks = {n: _LOCKS[lock] for n, v in members.items() if (lock := _lock(owner.module, v))}
     found = Silent(
-        frozenset(n for n, v in members.items() if _is_told(v, looks)),
+        told,
         frozenset(n for n, v in publishers.items() if _is_publisher(v, makers)),
         frozenset(n for n, v in members.items() if timers.is_idle(v)),
         locks,
@@ -187,7 +193,7 @@ def silent_in(
         timers,
         {n: s for n, v in publishers.items() if (s := shown_by(code, owner.module, v, variables))},
         waiting_methods(code) if locks else frozenset(),
-        frozenset(_counters(code, owner.module)) - hidden,
+        frozenset(counters_of(code, owner.module)) - hidden,
     )
     while members or found.counters or any(found.locals.values()):
         wrong = {n for module in modules for n in _odd(found, module.node)}
@@ -253,41 +259,23 @@ def _lock(module: Scope, node: Node) -> str:
     """The lock that a value is, by its name in Python's library; empty if it is none."""
     called, arguments = call_parts(node) or ("", [])
     head, _, rest = called.partition(".")
-    of = _imported(module, head)
+    of = imported_as(module, head)
     whole = ".".join(filter(None, (of, rest)))
     return whole if whole in _LOCKS and not arguments else ""
 
 
 def _is_publisher(node: Node, makers: frozenset[str]) -> bool:
-    called, arguments = _parts(node)
+    called, arguments = call_and_arguments(node)
     types = [a for a in arguments if text_of(a) in makers]
     topics = [s for a in arguments if (s := string_value(a)) is not None]
     is_named = len(topics) == 1 and is_topic(topics[0], called)
     return called in PUBLISHERS and len(types) == 1 and is_named
 
 
-def _parts(node: Node) -> tuple[str, list[Node]]:
-    """What is called and the arguments, those with names among them."""
-    if node.type != "call":
-        return "", []
-    return text_of(field(node, "function")), named(field(node, "arguments"))
-
-
-def _imported(module: Scope, name: str) -> str:
-    """What a name of a module is of, as `threading.Lock`; empty if it is not imported alone."""
-    bindings = module.names.get(name, [])
-    if len(bindings) != 1 or bindings[0].how != "import":
-        return ""
-    node = bindings[0].node
-    if node.type == "import_from_statement":
-        return f"{text_of(field(node, 'module_name'))}.{name}"
-    return name
-
-
 def _makers(module: Scope) -> Iterator[str]:
     """The message types for people that a module imports."""
     for name in module.names:
-        package, _, type_ = _imported(module, name).rpartition(".")
+        package, _, type_ = imported_as(module, name).rpartition(".")
         if _TELLING.match(package) and type_ == name:
             yield name
 
@@ -296,13 +284,8 @@ def _messages(function: Scope, makers: frozenset[str]) -> Iterator[str]:
     """The locals of a function that are messages for people."""
     for name, bindings in function.names.items():
         values = [b.value for b in bindings]
-        if values and all(v is not None and _parts(v)[0] in makers for v in values):
+        if values and all(v is not None and call_and_arguments(v)[0] in makers for v in values):
             yield name
-
-
-def _is_told(value: Node, looks: Looks) -> bool:
-    """Whether a member may be for people only, by what the constructor puts there."""
-    return value.type in _VALUES or _own_parameter(value) or looks.tells_time(value)
 
 
 def _locals(function: Scope, makers: frozenset[str], looks: Looks) -> frozenset[str]:
@@ -344,82 +327,6 @@ def _depends(value: Node, on: Collection[str], looks: Looks) -> bool:
         or (n.type == "identifier" and text_of(n) in on)
         for n in nodes_in(value)
     )
-
-
-def _counters(code: PyCode, module: Scope) -> Iterator[str]:
-    """The variables of a module that are made of a literal at its top, and that no other names."""
-    for name, bindings in module.names.items():
-        values = [b for b in bindings if b.node.parent and b.node.parent.parent == module.node]
-        others = [b for b in bindings if b not in values]
-        is_made = len(values) == 1 and values[0].how == "value" and not values[0].path
-        is_made = is_made and bool(others) and all(_counts(b, name) for b in bindings)
-        if is_made and not _is_named_elsewhere(code, module, name):
-            yield name
-
-
-def _counts(binding: Binding, name: str) -> bool:
-    """Whether a variable gets a number, or has one added that is written out."""
-    value = binding.value
-    if binding.how == "augmented":
-        return value.type == "integer" and text_of(binding.node).partition("=")[0][-1:] in "+-*"
-    if value.type == "binary_operator" and text_of(field(value, "operator")) in "+-*":
-        sides = field(value, "left"), field(value, "right")
-        return all(n.type == "integer" or text_of(n) == name for n in sides)
-    return binding.how == "value" and not binding.path and value.type in ("integer", "float")
-
-
-def _hidden(code: PyCode, module: Scope) -> frozenset[str]:
-    """The names that functions and classes of a module bind as their own."""
-    path = module.py.source.path
-    inner = (s for (of, _), s in code.scopes.items() if of == path and s is not module)
-    return frozenset(name for scope in inner for name in scope.names)
-
-
-def _is_named_elsewhere(code: PyCode, module: Scope, name: str) -> bool:
-    """Whether another module may look at a variable of a module, or change it."""
-    word = re.compile(rf"\b{re.escape(name)}\b")
-    others = (m for m in code.modules.values() if m is not module)
-    return any(word.search(m.py.source.text) for m in others)
-
-
-def _is_clock(module: Scope, name: str) -> bool:
-    """Whether a name of a module is imported, and is a function that tells the time."""
-    return _imported(module, name) in libraries.clocks()
-
-
-def _loggers(module: Scope) -> frozenset[str]:
-    """The variables of a module that only ever are a logger of Python's library."""
-    found = set[str]()
-    for name, bindings in module.names.items():
-        called, arguments = _parts(bindings[0].value) if len(bindings) == 1 else ("", [])
-        head, _, rest = called.partition(".")
-        whole = ".".join(filter(None, (_imported(module, head), rest)))
-        is_named = all(a.type in ("identifier", "string") for a in arguments)
-        if whole == "logging.getLogger" and bindings[0].how == "value" and is_named:
-            found.add(name)
-    return frozenset(found)
-
-
-def _tables(code: PyCode, module: Scope) -> frozenset[str]:
-    """The variables of a module that are a dictionary of literals, which nothing changes."""
-    found = set[str]()
-    for name, bindings in module.names.items():
-        value = bindings[0].value
-        is_made = len(bindings) == 1 and bindings[0].how == "value" and value.type == "dictionary"
-        if is_made and all(n.type in _TABLE for n in nodes_in(value)):
-            uses = (n for n in nodes_in(module.node) if n.type == "identifier")
-            names = [n for n in uses if text_of(n) == name and not is_label(n)]
-            if all(map(_is_looked_up, names)) and not _is_named_elsewhere(code, module, name):
-                found.add(name)
-    return frozenset(found)
-
-
-def _is_looked_up(node: Node) -> bool:
-    """Whether the name of a table stands where it is made, or asked for an element."""
-    above = node.parent
-    if above is None or above.type == "assignment":
-        return above is not None and above.child_by_field_name("left") == node
-    return above.type == "attribute" and text_of(field(above, "attribute")) == "get"
 
 
 # --- where they are used ------------------------------------------------------------------------
