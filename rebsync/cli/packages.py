@@ -95,7 +95,8 @@ def _closed(
     if closed.model.main is None or not closed.model.classes:
         hint = "--format json of `rebsync extract` tells what the code asks of ROS"
         raise RebsyncError.of(path, "RS943", "no node of a model was found here", hint)
-    return _problem(path, closed, properties, written)
+    apart = _unmatched(path) if _names_qualities(read.files) else ()
+    return _problem(path, closed, properties, written, apart)
 
 
 def _files(path: str) -> dict[str, Source]:
@@ -125,7 +126,11 @@ def _parsed(source: Source | None) -> Properties:
 
 
 def _problem(
-    path: str, closed: ClosedPackage, properties: Source | None, written: str | None
+    path: str,
+    closed: ClosedPackage,
+    properties: Source | None,
+    written: str | None,
+    apart: tuple[CodePlace, ...],
 ) -> Problem:
     from rebsync.checker.incomplete import unreadable_lines
     from rebsync.checker.problem import Problem, TextNumbers
@@ -154,11 +159,16 @@ def _problem(
     code = {line: f"{_shown(place.source.path)}:{place.line}" for line, place in places.items()}
     markers = {n: places[n] for n in unreadable_lines(source, analysis.model) if n in places}
     checked = properties_of(properties, analysis) if properties is not None else Properties()
-    unread = _listed(closed, Grade.UNREADABLE, markers) + _unmatched(path)
+    unread = _listed(closed, Grade.UNREADABLE, markers) + apart
     steps = _steps(source, parsed, places)
     listed = unread, _listed(closed, Grade.APPROXIMATED, steps)
     told = closed.assumptions, closed.gaps, *listed, code, TextNumbers(*closed.texts)
     return Problem(source, analysis, checked, properties, *told)
+
+
+def _names_qualities(files: Mapping[str, Source]) -> bool:
+    """Whether anything may set a quality of service, for which the package is read once more."""
+    return any("qos" in source.text.lower() for source in files.values())
 
 
 def _unmatched(path: str) -> tuple[CodePlace, ...]:
