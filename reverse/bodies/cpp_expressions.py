@@ -222,6 +222,8 @@ class CppExpressions(CppExpressionReader):
                 if is_bare_macro(cpp, value, node):
                     raise self.unread(node, "what stands beside this macro may bind tighter")
                 scope = self.scope.without_constant(spelled)
+                if spelled == "kNull" and not self.scope.open and text_of(value) == '""':
+                    return literal(self.cpp, node)
                 return of_constant(replace(self, cpp=cpp, scope=scope, inlines=None), value)
         if (known := cpp_idioms.constant_named(name, span)) is not None:
             return known
