@@ -67,9 +67,9 @@ class Extracted:
     model: m.Model
     findings: tuple[Finding, ...]
     statements: tuple[tuple[str, int], ...]
-    asking: Asking = field(default_factory=lambda: Asking(Code()), compare=False)
-    in_python: Graph = field(default_factory=Graph, compare=False)
-    joined: Joined = field(default_factory=lambda: Joined.of(()), compare=False)
+    asking: Asking = field(default_factory=lambda: Asking(Code()), compare=False, repr=False)
+    in_python: Graph = field(default_factory=Graph, compare=False, repr=False)
+    joined: Joined = field(default_factory=lambda: Joined.of(()), compare=False, repr=False)
     times: frozenset[Fraction] = field(default=frozenset(), compare=False)
     texts: tuple[str, ...] = ()
     text_variables: frozenset[tuple[str, str, str]] = frozenset()
