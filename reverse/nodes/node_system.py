@@ -248,7 +248,7 @@ class _ClassReader:
         note_locks(node.bodies)
         note_unmodelled(node.bodies)
         note_spinning(node.bodies, alike[0].start if alike else None)
-        note_signals(node.bodies)
+        note_signals(node.bodies, self.system.generated)
         note_helpers(node.bodies, self._helpers)
         return read
 
