@@ -184,7 +184,9 @@ class _Comparing:
                 yield from self._arguments(a, b)
 
     def _listed(self, left: Sequence[str], right: Sequence[str]) -> tuple[str, str]:
-        return ", ".join(left), ", ".join(self.tokens[1].class_name(n) for n in right)
+        """The interfaces that two list: their order means nothing, and Python restricts it."""
+        renamed = [self.tokens[1].class_name(n) for n in right]
+        return ", ".join(left), ", ".join(left if sorted(left) == sorted(renamed) else renamed)
 
     def _bindings(self, x: m.Rebec, r: m.Rebec) -> Iterator[tuple[Aspect, str, str, str]]:
         """Bindings by the known rebec that they are for."""
