@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_aliases, cpp_captures, cpp_idioms
+from rebsync.reverse.bodies import cpp_aliases, cpp_captures, cpp_idioms, cpp_sequencing
 from rebsync.reverse.bodies.building import bare, cast, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
@@ -64,9 +64,14 @@ def inlined(
         raise reader.unread(node, "with the body of this function it nests too deep")
     if len(arguments) > len(parameters):
         raise reader.unread(node, "there are more arguments here than parameters")
+    cpp_sequencing.check_arguments(reader, arguments)
     needed, single = len(reader.before), _single(body)
+    once = single is not None and not (
+        cpp_sequencing.changes(reader, arguments, frozenset())
+        or cpp_sequencing.changes(inside, [single], frozenset(p.name for p in parameters))
+    )
     for parameter, argument in zip(parameters, arguments, strict=False):
-        reader.before += _bound(reader, inside, parameter, argument, single is not None)
+        reader.before += _bound(reader, inside, parameter, argument, once)
     for parameter in parameters[len(arguments) :]:
         reader.before += _left_out(reader, inside, parameter, node)
     reader.shared.running.append(key)
@@ -82,6 +87,7 @@ def inlined(
         reader.shared.depth -= depth
     if len(reader.before) > needed:
         check_place(reader, node)
+        cpp_sequencing.check_call(reader, node)
     return found
 
 

@@ -135,8 +135,7 @@ class Functions:
             if method is None or told is None:
                 method = self.method(name, function)
             else:
-                findings.statements.update(told.statements)
-                findings.open_members |= told.open_members
+                findings.take(told)
             found.append(method)
         return found
 
