@@ -304,7 +304,7 @@ class PyExpressions(BodyExpressionReader):
             listed = body_tables.elements(self, operands[1])
             if listed is not None:
                 return self._one_of(operands[0], listed, node, signs == ["in"])
-        if (same := self._is_truth(operands, signs, node)) is not None:
+        if (same := self._identical(operands, signs, node)) is not None:
             return same
         if (same := body_texts.identical(self, operands, signs, node)) is not None:
             return same
@@ -320,14 +320,25 @@ class PyExpressions(BodyExpressionReader):
         assert found is not None
         return found
 
-    def _is_truth(self, operands: list[Node], signs: list[str], node: Node) -> m.Expression | None:
-        """`x is True`, where it is known that x is no number; None for other comparisons."""
-        if len(operands) != 2 or operands[1].type not in ("true", "false"):
+    def _identical(self, operands: list[Node], signs: list[str], node: Node) -> m.Expression | None:
+        """`x is True`, `x == None`: of truth values and None there is one object of each.
+
+        None for other comparisons: whether two equal numbers or texts are one object is open.
+        """
+        literals = [o.type for o in operands if o.type in ("true", "false", "none")]
+        signs_of = ("is", "is not", "==", "!=") if "none" in literals else ("is", "is not")
+        if len(operands) != 2 or not literals or signs[0] not in signs_of:
             return None
-        if signs not in (["is"], ["is not"]) or (left := self.read(operands[0])).kind != TRUTH:
+        is_same = signs[0] in ("is", "==")
+        if all(o.type == "none" for o in operands):
+            return m.BoolLiteral(is_same)
+        values = [self.read(o) for o in operands if o.type != "none"]
+        if len(values) == 2 and values[0].kind == values[1].kind:
+            sides = (v.expression for v in values)
+            return binary("==" if is_same else "!=", *sides, self._span(node))
+        if any(v.kind == STRING or not is_calm(v.expression) for v in values):
             return None
-        sign = "==" if signs == ["is"] else "!="
-        return binary(sign, left.expression, self.read(operands[1]).expression, self._span(node))
+        return m.BoolLiteral(not is_same)  # a number is none of these
 
     def compared(
         self, sign: str, left: Value, right: Value, node: Node, number: int

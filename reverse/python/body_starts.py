@@ -104,13 +104,16 @@ def declared(reading: Reading) -> Iterator[m.Statement]:
         binding, scope = bindings[0]
         if binding.value.type == "none" and len(bindings) == 1:
             reading.learnt.join(presence_key(reading.state[name]), TRUTH)
-            if reading.learnt.kind(reading.state[name]) == STRING:
+            kind = reading.learnt.kind(reading.state[name])
+            if kind in (TRUTH, WHOLE, REAL):  # of which none is None
+                reading.learnt.join(reading.state[name], OTHER)
+            elif kind == STRING:
                 reading.learnt.mix(reading.state[name])
                 yield m.ExpressionStatement(m.Assign("=", m.Name(name), no_text()))
             continue
         value = reading.constant(reading.values.ways(binding.value, scope))
-        kind = value.kind if value is not None and len(bindings) == 1 else OTHER
-        reading.learnt.join(reading.state[name], kind)
+        own = value.kind if value is not None and len(bindings) == 1 else OTHER
+        reading.learnt.join(reading.state[name], own)
         found = reading.learnt.kind(reading.state[name])
         if value is None or found is None or found not in TYPES:
             continue
