@@ -183,7 +183,10 @@ class CppExpressions(CppExpressionReader):
             if self.scope.open and node.type in ("string_literal", "concatenated_string"):
                 return self._text(node)
             read = literal(self.cpp, node)
-            return in_range(read, node) if self.scope.open else read
+            held = in_range(read, node) if self.scope.open else read
+            if held is not read:
+                self.scope.lowered.add(read)
+            return held
         except Unread as unread:
             if node.type in ("string_literal", "raw_string_literal", "null", "sizeof_expression"):
                 raise self.unknown(node, unread.why) from None

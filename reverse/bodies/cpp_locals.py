@@ -18,13 +18,14 @@ from rebsync.reverse.bodies import (
     cpp_plain_locals,
 )
 from rebsync.reverse.bodies.building import is_calm
-from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_conversions import converted_to, type_in
 from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, number_of, only_value, taken_apart
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_references import is_made, stays
 from rebsync.reverse.bodies.cpp_roots import specifiers_of
+from rebsync.reverse.bodies.cpp_time import seconds_of
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
 from rebsync.reverse.bodies.known_functions import is_matrix, type_takes_values
@@ -376,10 +377,14 @@ def _called_or_made(reader: CppStatementReader, declared: DeclaratorParts) -> It
     arguments = [text_of(c) for c in named(part(declarator, "parameters"))]
     kept = reader.scope.carried(declared.type)
     meanings = [reader.scope.meaning(a) for a in arguments]
-    if kept is not None and len(meanings) == 1 and isinstance(meanings[0], Variable):
+    if kept is not None and len(meanings) == 1 and isinstance(of := meanings[0], Variable):
         local = place_of(reader.fresh(declared.name), kept)
+        is_same = (of.type, of.bits, of.wide) == (local.type, local.bits, local.wide)
+        if seconds_of(declared.text) is not None or (of.wide and not is_same):
+            raise reader.unread(declared.node, f'what "{arguments[0]}" is here is not known')
+        value = m.Name(of.name) if is_same else converted_to(reader.scope, m.Name(of.name), local)
         reader.meaning(declared.name, local, own=True)
-        yield reader.local(declared.node, local, m.Name(meanings[0].name))
+        yield reader.local(declared.node, local, value)
         return
     if not type_takes_values(declared.text):
         for argument, meaning in zip(arguments, meanings, strict=True):

@@ -327,6 +327,8 @@ class Scope:
     # The bits, without the sign, of locals that hold more than an `int`; texts that may be any.
     wide: dict[str, int] = field(default_factory=dict, compare=False, repr=False)
     changed_texts: set[str] = field(default_factory=set, compare=False, repr=False)
+    # Literals that no `int` holds, of which the model has the lower bits.
+    lowered: set[Expression] = field(default_factory=set, compare=False, repr=False)
     # Whether functions touch nothing: what has been found out.
     calm: Calm = field(default_factory=Calm, compare=False, repr=False)
     # Calls that were taken apart, by the ids of their nodes, which they keep.

@@ -34,9 +34,12 @@ def ranges_of(variables: Iterable[Variable]) -> dict[str, Interval]:
 def broken_locals(
     statements: Sequence[m.Statement], wide: Mapping[str, int], scope: Scope
 ) -> set[str]:
-    """The locals of a body that may get numbers which no `int` holds; `wide` are their bits."""
-    if not wide:
-        return set()
+    """The locals of a body that may get numbers which no `int` holds; `wide` are their bits.
+
+    All, where a literal is none that an `int` holds: the model has only its lower bits.
+    """
+    if not wide or scope.lowered:
+        return set(wide)
     variables = [v for x in scope.members.values() for v in variables_in(x)]
     analysis = IntervalAnalysis(
         {

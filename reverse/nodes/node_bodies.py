@@ -91,6 +91,7 @@ class Bodies:
     regions: dict[str, Regions] = field(default_factory=dict)
     wide: dict[str, int] = field(default_factory=dict)
     changed_texts: set[str] = field(default_factory=set)
+    lowered: set[m.Expression] = field(default_factory=set)
     sure: Sure = field(default_factory=Sure)
     calls: dict[int, CppCall] = field(default_factory=dict)
     # What is made when it is first asked for, once the node is set up.
@@ -130,6 +131,7 @@ class Bodies:
             regions=self._regions(cpp).of,
             wide=self.wide,
             changed_texts=self.changed_texts,
+            lowered=self.lowered,
             calm=Calm(self.sure),
             calls=self.calls,
             macros=self.code.macros,

@@ -33,6 +33,8 @@ def overflowing(
     state = bodies.state
     if not state.wide:
         return Overflowing(frozenset(), frozenset())
+    if bodies.lowered:  # of these literals the bodies have only the lower bits
+        return Overflowing(frozenset(state.wide), frozenset())
     wide = {n: w.bits for n, w in state.wide.items() if n not in bodies.overflowing}
     received = _received(bodies)
     locals_ = {n: b for n, b in bodies.wide.items() if n not in state.variables}

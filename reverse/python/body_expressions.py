@@ -304,7 +304,7 @@ class PyExpressions(BodyExpressionReader):
             listed = body_tables.elements(self, operands[1])
             if listed is not None:
                 return self._one_of(operands[0], listed, node, signs == ["in"])
-        if (same := self._identical(operands, signs, node)) is not None:
+        if (same := body_presence.identical(self, operands, signs, node)) is not None:
             return same
         if (same := body_texts.identical(self, operands, signs, node)) is not None:
             return same
@@ -319,26 +319,6 @@ class PyExpressions(BodyExpressionReader):
             found = one if found is None else binary("&&", found, one, self._span(node))
         assert found is not None
         return found
-
-    def _identical(self, operands: list[Node], signs: list[str], node: Node) -> m.Expression | None:
-        """`x is True`, `x == None`: of truth values and None there is one object of each.
-
-        None for other comparisons: whether two equal numbers or texts are one object is open.
-        """
-        literals = [o.type for o in operands if o.type in ("true", "false", "none")]
-        signs_of = ("is", "is not", "==", "!=") if "none" in literals else ("is", "is not")
-        if len(operands) != 2 or not literals or signs[0] not in signs_of:
-            return None
-        is_same = signs[0] in ("is", "==")
-        if all(o.type == "none" for o in operands):
-            return m.BoolLiteral(is_same)
-        values = [self.read(o) for o in operands if o.type != "none"]
-        if len(values) == 2 and values[0].kind == values[1].kind:
-            sides = (v.expression for v in values)
-            return binary("==" if is_same else "!=", *sides, self._span(node))
-        if any(v.kind == STRING or not is_calm(v.expression) for v in values):
-            return None
-        return m.BoolLiteral(not is_same)  # a number is none of these
 
     def compared(
         self, sign: str, left: Value, right: Value, node: Node, number: int

@@ -1,4 +1,4 @@
-"""Whether a variable holds a message or timer, and not None."""
+"""Whether a variable holds a message or timer, and not None; whether a value is True or False."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies.building import binary, is_calm
 from rebsync.reverse.python import body_texts
-from rebsync.reverse.python.body_scope import TRUTH, Key, Message, Value, Var
+from rebsync.reverse.python.body_scope import STRING, TRUTH, Key, Message, Value, Var
 from rebsync.reverse.python.body_timers import is_timer
 
 if TYPE_CHECKING:
@@ -53,3 +54,26 @@ def compared_with_none(
     if found is None:
         return None
     return Value(found if "n" in signs[0] or signs[0] == "!=" else m.Unary("!", found), TRUTH)
+
+
+def identical(
+    reader: BodyExpressionReader, operands: list[Node], signs: list[str], node: Node
+) -> m.Expression | None:
+    """`x is True`, `x == None`: of truth values and None there is one object of each.
+
+    None for other comparisons: whether two equal numbers or texts are one object is open.
+    """
+    literals = [o.type for o in operands if o.type in ("true", "false", "none")]
+    known = ("is", "is not", "==", "!=") if "none" in literals else ("is", "is not")
+    if len(operands) != 2 or not literals or signs[0] not in known:
+        return None
+    is_same = signs[0] in ("is", "==")
+    if literals == ["none", "none"]:
+        return m.BoolLiteral(is_same)
+    values = [reader.read(o) for o in operands if o.type != "none"]
+    if len(values) == 2 and values[0].kind == values[1].kind:
+        sides = (v.expression for v in values)
+        return binary("==" if is_same else "!=", *sides, reader.frame.span(node))
+    if any(v.kind == STRING or not is_calm(v.expression) for v in values):
+        return None
+    return m.BoolLiteral(not is_same)  # a number is none of these

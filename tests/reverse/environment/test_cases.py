@@ -17,6 +17,8 @@ from tests.reverse.environment.cases import CASES, closed_model, questions
 _LOOSE = (
     "none_rospy",
     "unset_locals",
+    "wide_literals_rclcpp",
+    "wide_literals_roscpp",
     "texts_between",
     "texts_rospy",
     "texts_changed_rclpy",
