@@ -43,6 +43,11 @@ def is_text(text: str) -> bool:
     return not text.startswith(MEMBER)
 
 
+def is_plain(literal: str) -> bool:
+    """Whether a literal is a text as it stands, and not one of those that mean something else."""
+    return literal[1:2] not in ("\0", MEMBER)
+
+
 def shown(text: str) -> str:
     """A text, or the member of an enumeration, as people write it."""
     return text if is_text(text) else text.rpartition(":")[2]

@@ -344,8 +344,8 @@ class CppExpressions(CppExpressionReader):
     def binary(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
         reads = self.condition if operator in ("&&", "||") else self.read
         left, right = (reads(side) for side in sides)
-        if (compared := cpp_texts.compared(self, node, operator, left, right)) is not None:
-            return compared
+        if (of_texts := cpp_texts.operation(self, node, operator, left, right)) is not None:
+            return of_texts
         operator = cpp_widths.exact(self, operator, sides)
         operator, left, right = operands(self.scope, operator, left, right)
         if (found := cpp_widths.ordered(self, operator, sides, (left, right))) is not None:

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm, negated
+from rebsync.reverse.bodies.building import bare, is_calm, negated
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.scope import Record, Scope, Variable
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import part, text_of
-from rebsync.reverse.texts import TEXT, is_constant, same, text_literal
+from rebsync.reverse.texts import TEXT, is_constant, is_plain, same, text_literal
 
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
@@ -63,13 +63,17 @@ def texts_among(scope: Scope, names: Iterable[str]) -> set[str]:
     return found
 
 
-def compared(
+def operation(
     reader: CppExpressionReader, node: Node, operator: str, left: m.Expression, right: m.Expression
 ) -> m.Expression | None:
-    """The comparison of two texts; None for an operation on other values."""
+    """The comparison of two texts, or the concatenation of constants; None for other operands."""
     texts = [is_text(reader, side) for side in (left, right)]
     if not any(texts):
         return None
+    match bare(left), bare(right):
+        case (m.StringLiteral(one), m.StringLiteral(other)) if operator == "+":
+            if is_plain(one) and is_plain(other):
+                return text_literal(one[1:-1] + other[1:-1], reader.cpp.span(node))
     pointers = is_constant(left) and is_constant(right)
     if not all(texts) or operator not in ("==", "!=") or pointers:
         raise reader.unknown(node, "the model only copies and compares texts")

@@ -33,6 +33,10 @@ _DEEPEST = 8
 _SPACE = re.compile(r"::(?:msg|srv|action)::(?=\w+\Z)")
 _SHARED = re.compile(r"(?:boost|std)::shared_ptr<(.*)>")
 _POINTERS = re.compile(r"(::)?(Const)?(Shared|Unique|Weak)?Ptr$")
+_QUOTED = re.compile(r"(['\"])(.*)\1")
+_GENERATES = re.compile(
+    r"rosidl_default_\w+|rosidl_interface_packages|message_(?:generation|runtime)"
+)
 _MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
 
 Fields = Mapping[str, Type | None]
@@ -60,16 +64,17 @@ class MessageTypes:
         """The types that a package declares, and those that come with ROS."""
         own = {}
         constants: dict[str, int | str] = {}
+        rosidl = _of_rosidl(files)
         for path, source in sorted(files.items()):
             found = _MESSAGE.search(f"/{path}")
             if found is not None:
                 read = read_message(source, package, found[1])
                 own[read.full_name] = [(f.name, f.type, f.length) for f in read.fields]
                 for constant in read.constants:
-                    value = _kept(constant.value)
-                    for scope in (read.name, f"{package}::{read.name}"):
+                    value = _kept(constant.value, rosidl)
+                    for scope in ("", f"{package}::", f"{package}::msg::"):
                         if value is not None:
-                            constants[f"{scope}::{constant.name}"] = value
+                            constants[f"{scope}{read.name}::{constant.name}"] = value
         return MessageTypes(own, package, {}, constants, {})
 
     def constants(self) -> dict[str, int | str]:
@@ -183,11 +188,33 @@ def _common_names() -> frozenset[str]:
     return frozenset(field.partition(" ")[0] for field in fields)
 
 
-def _kept(value: bool | int | float | str) -> int | str | None:
-    """The value of a constant; None where it is none of the model, or quotes may belong to it."""
+def _kept(value: bool | int | float | str, rosidl: bool | None) -> int | str | None:
+    """The value of a constant; None where it is none of the model, or not known."""
     if isinstance(value, str):
-        return None if value[:1] in ("'", '"') else value
+        return _text(value, rosidl)
     return int(value) if isinstance(value, int) else None
+
+
+def _text(value: str, rosidl: bool | None) -> str | None:
+    """A text as the generators of its ROS read it: genmsg takes all that stands in the line.
+
+    That of ROS 2 ends it at a `#`, and takes quotes around it off.
+    """
+    if rosidl is None:
+        return value if not set("#'\"\\") & set(value) else None
+    if not rosidl:
+        return value
+    text = value.partition("#")[0].strip()
+    quoted = _QUOTED.fullmatch(text)
+    text = quoted[2] if quoted is not None else text
+    return text if "\\" not in text and (quoted is None or quoted[1] not in text) else None
+
+
+def _of_rosidl(files: Mapping[str, Source]) -> bool | None:
+    """Whether the messages of a package are of ROS 2; None where its manifest does not say."""
+    manifests = [s.text for path, s in files.items() if path.endswith("package.xml")]
+    found = {"rosidl_" in text for text in manifests if _GENERATES.search(text)}
+    return found.pop() if len(found) == 1 else None
 
 
 def _field(text: str) -> tuple[str, str, int | None]:

@@ -190,7 +190,7 @@ class PyExpressions(BodyExpressionReader):
     def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
         """An operation on two numbers."""
         if STRING in (left.kind, right.kind):
-            raise unknown(self.frame, node, f'"{short(node)}"')
+            return body_texts.joined(self, operator, left, right, node)
         if left.kind == right.kind == TRUTH and operator in _BITS:
             return self._bits_of_truth(operator, left, right, node)
         left, right = as_number(left), as_number(right)

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary, is_calm, negated
+from rebsync.reverse.bodies.building import bare, binary, is_calm, negated
 from rebsync.reverse.python.body_scope import STRING, Value, Var, unknown
 from rebsync.reverse.python.py_tree import text_of
-from rebsync.reverse.texts import MEMBER, is_constant, no_text, same, text_literal
+from rebsync.reverse.texts import MEMBER, is_constant, is_plain, no_text, same, text_literal
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
@@ -31,6 +31,17 @@ def compared(
         reader.note(node, "texts that occur nowhere in the code may be equal or not")
     found = same(left.expression, right.expression, reader.frame.span(node))
     return found if sign == "==" else negated(found)
+
+
+def joined(
+    reader: BodyExpressionReader, operator: str, left: Value, right: Value, node: Node
+) -> Value:
+    """The concatenation of two texts that the code names; Unknown for other operations on texts."""
+    match bare(left.expression), bare(right.expression):
+        case (m.StringLiteral(one), m.StringLiteral(other)) if operator == "+":
+            if is_plain(one) and is_plain(other):
+                return Value(text_literal(one[1:-1] + other[1:-1], reader.frame.span(node)), STRING)
+    raise unknown(reader.frame, node, f'"{text_of(node)}"')
 
 
 def identical(
