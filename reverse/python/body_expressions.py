@@ -42,7 +42,6 @@ from rebsync.reverse.python.body_scope import (
 from rebsync.reverse.python.py_tree import (
     field,
     is_asked,
-    is_literal_text,
     named,
     number_of,
     text_in,
@@ -82,7 +81,7 @@ class PyExpressions(BodyExpressionReader):
                 return self._unary(node)
             case "string" | "concatenated_string" if (text := text_in(node)) is not None:
                 return Value(text_literal(text, self._span(node)), STRING)
-            case "binary_operator" if not any(is_literal_text(n) for n in named(node)):
+            case "binary_operator" if body_texts.is_operation(node):
                 return self.operation(
                     text_of(field(node, "operator")),
                     self.read(field(node, "left")),

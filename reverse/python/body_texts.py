@@ -9,7 +9,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.building import bare, binary, is_calm, negated
 from rebsync.reverse.python.body_scope import STRING, Value, Var, unknown
-from rebsync.reverse.python.py_tree import text_of
+from rebsync.reverse.python.py_tree import field, is_literal_text, named, text_of
 from rebsync.reverse.texts import MEMBER, is_constant, is_plain, no_text, same, text_literal
 
 if TYPE_CHECKING:
@@ -31,6 +31,15 @@ def compared(
         reader.note(node, "texts that occur nowhere in the code may be equal or not")
     found = same(left.expression, right.expression, reader.frame.span(node))
     return found if sign == "==" else negated(found)
+
+
+def is_operation(node: Node) -> bool:
+    """Whether a binary operation may be one on values: `"%d" % x` and its like make texts."""
+    sides = named(node)
+    if not any(is_literal_text(n) for n in sides):
+        return True
+    plain = all(is_literal_text(n) or n.type in ("identifier", "attribute") for n in sides)
+    return plain and text_of(field(node, "operator")) == "+"
 
 
 def joined(
