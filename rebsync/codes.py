@@ -192,7 +192,9 @@ PROPERTIES = {
 QUESTIONS = {
     "RS912": "a question that is not understood",
     "RS913": "a topic, field or constant in a question that the package does not have",
-    "RS914": "a topic in a question that several nodes have",
+    "RS914": "a topic in a question or an environment that is one of several",
+    "RS915": "a topic or field of an environment that the package does not have",
+    "RS916": "a part of an environment that does not fit the package",
 }
 
 EXTRACTION = {

@@ -14,7 +14,6 @@ from rebsync.cli.status import STATUS_OF, Status
 
 if TYPE_CHECKING:
     from rebsync.checker.result import Result
-    from rebsync.reverse.environment.package import EnvironmentChoice
 
 
 @click.command("ask")
@@ -22,10 +21,10 @@ if TYPE_CHECKING:
 @click.argument("question", metavar="QUESTION")
 @click.option(
     "--environment",
-    type=click.Choice(["free", "none"]),
     default="free",
     show_default=True,
-    help="What comes from outside; free: anything, at any time.",
+    metavar="free|none|FILE",
+    help="What comes from outside: anything, nothing, or what the classes of FILE send.",
 )
 @click.option("--model", "written", metavar="FILE", help="Write the model of the package to FILE.")
 @click.option("--max-states", type=click.IntRange(1), metavar="N", help="Stop at N states.")
@@ -50,7 +49,7 @@ if TYPE_CHECKING:
 def command(
     package: str,
     question: str,
-    environment: EnvironmentChoice,
+    environment: str,
     written: str | None,
     max_states: int | None,
     max_time: float | None,

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def read_package(
-    path: str, property_file: str | None, choice: EnvironmentChoice, written: str | None = None
+    path: str, property_file: str | None, environment: str, written: str | None = None
 ) -> Problem:
     """The code of the package at a path as a closed model, with its properties.
 
@@ -34,7 +34,7 @@ def read_package(
 
     chosen = property_file if property_file is not None else _property_in(path)
     properties = read_source(chosen) if chosen is not None else None
-    return _closed(path, in_fitting_unit(_files(path)), properties, choice, written)
+    return _closed(path, in_fitting_unit(_files(path)), properties, environment, written)
 
 
 def read_observed(path: str, property_file: str | None) -> TopicProperties | None:
@@ -71,7 +71,7 @@ def _property_in(path: str) -> str | None:
 
 
 def read_question(
-    path: str, question: str, choice: EnvironmentChoice, written: str | None = None
+    path: str, question: str, environment: str, written: str | None = None
 ) -> Problem:
     """The same with a question as its only property. RebsyncError: it cannot be asked."""
     from rebsync.grammars.questions import parse_question
@@ -79,24 +79,33 @@ def read_question(
 
     text = Source("the question", question)
     read, asked = asked_of(_files(path), text, parse_question(text))
-    return _closed(path, read, Source("the question", asked), choice, written)
+    return _closed(path, read, Source("the question", asked), environment, written)
 
 
 def _closed(
     path: str,
     read: ReadPackage,
     properties: Source | None,
-    choice: EnvironmentChoice,
+    environment: str,
     written: str | None,
 ) -> Problem:
     from rebsync.reverse.environment.package import closed_package
 
-    closed = closed_package(read, _parsed(properties), choice)
+    closed = closed_package(read, _parsed(properties), _choice(environment))
     if closed.model.main is None or not closed.model.classes:
         hint = "--format json of `rebsync extract` tells what the code asks of ROS"
         raise RebsyncError.of(path, "RS943", "no node of a model was found here", hint)
     apart = _unmatched(path) if _names_qualities(read.files) else ()
     return _problem(path, closed, properties, written, apart)
+
+
+def _choice(environment: str) -> EnvironmentChoice:
+    """The environment that an option names: `free`, `none` or a file."""
+    match environment:
+        case "free" | "none":
+            return environment
+        case path:
+            return read_source(path)
 
 
 def _files(path: str) -> dict[str, Source]:

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from rebsync.checker.problem import Options, Problem
     from rebsync.checker.result import Result
     from rebsync.checker.steps import Semantics
-    from rebsync.reverse.environment.package import EnvironmentChoice
 
 FORMATS = ("text", "json", "svg", "html")
 MOST_INSTRUCTIONS = 10**10  # their delays together stay within 64 bits
@@ -60,8 +59,9 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @view_options
 @click.option(
     "--environment",
-    type=click.Choice(["free", "none"]),
-    help="Of a package: what comes from outside; free (the default): anything, at any time.",
+    metavar="free|none|FILE",
+    help="Of a package: what comes from outside: anything (the default), nothing, or what the "
+    "classes of FILE send.",
 )
 @click.option(
     "--property-name",
@@ -273,8 +273,8 @@ def _read(model: str, given: dict[str, Any]) -> Problem:
         raise click.UsageError("--language core is for models: code has time")
     from rebsync.cli.packages import read_package
 
-    choice: EnvironmentChoice = given["environment"] or "free"
-    return read_package(model, given["property_file"], choice, given["written"])
+    environment = given["environment"] or "free"
+    return read_package(model, given["property_file"], environment, given["written"])
 
 
 def _options(given: dict[str, Any], model: str) -> Options:

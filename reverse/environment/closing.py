@@ -48,21 +48,33 @@ def closed(
     properties: Properties,
     types: MessageTypes,
     texts: Sequence[str] = (),
+    fed: Sequence[OpenEnd] = (),
 ) -> ClosedModel:
     """The model with an environment at its open ends; without `main` it stays as it is.
 
-    `texts` are those that the model tells apart, by their numbers.
+    `texts` are those that the model tells apart, by their numbers. The ends that are `fed` by
+    rebecs of the model get room for messages alone.
     """
     started = {r.name for r in model.main.rebecs} if model.main is not None else set()
     at = [e for e in ends if e.rebec in started]
+    waiting = tuple(_waiting(model, (*at, *fed)))
     if not at:
-        return ClosedModel(replace(model, classes=tuple(map(without_open, model.classes))))
+        more = _more_messages(fed)
+        classes = tuple(without_open(c, more.get(c.name, {})) for c in model.classes)
+        return ClosedModel(replace(model, classes=classes), waiting)
     environment = _Environment(model, properties, types, texts, set(started))
     for together in _topics(at).values():
         environment.add(together)
     return ClosedModel(
-        environment.closed(at), tuple(environment.assumptions), tuple(environment.gaps)
+        environment.closed(at, fed), (*environment.assumptions, *waiting), tuple(environment.gaps)
     )
+
+
+def _waiting(model: m.Model, ends: Iterable[OpenEnd]) -> Iterator[str]:
+    """Of which topics fewer messages wait here than may in the code."""
+    for end in ends:
+        if _is_slow(model, end.owner) and _kept(end) != end.depth:
+            yield f"of {end.name or end.server} no more than {_DEEPEST} wait for {end.rebec}"
 
 
 def _topics(ends: Iterable[OpenEnd]) -> dict[tuple[str, str], list[OpenEnd]]:
@@ -115,10 +127,6 @@ class _Environment:
         body = m.If(_EITHER, m.Block((*chosen, *sends)))
         self.servers.append(m.MessageServer(name, (), m.Block((body, again))))
         self._tell(ends[0], fields)
-        for end in ends:
-            if _is_slow(self.model, end.owner) and _kept(end) != end.depth:
-                what = f"of {end.name or end.server} no more than {_DEEPEST} wait for {end.rebec}"
-                self.assumptions.append(what)
 
     def _fields(
         self, ends: Sequence[OpenEnd], parameters: Sequence[dict[str, m.Parameter]]
@@ -161,7 +169,7 @@ class _Environment:
         named = [f'"{self.texts[int(v)]}"' for v in of.values if v != OTHER]
         return f"one of {', '.join(named)} or any other text" if named else "any text"
 
-    def closed(self, ends: Sequence[OpenEnd]) -> m.Model:
+    def closed(self, ends: Sequence[OpenEnd], fed: Sequence[OpenEnd]) -> m.Model:
         """The model with the environment in it, where no server is open any more."""
         assert self.model.main is not None
         names = {c.name for c in self.model.classes} | {r.name for r in self.model.main.rebecs}
@@ -173,7 +181,7 @@ class _Environment:
         constructor = m.Constructor(class_, (), m.Block(first))
         members: tuple[m.ClassMember, ...] = (m.KnownRebecs(declared), constructor, *self.servers)
         environment = m.ReactiveClass(class_, len(self.servers) + 1, members)
-        more = _more_messages(ends)
+        more = _more_messages((*ends, *fed))
         classes = tuple(without_open(c, more.get(c.name, {})) for c in self.model.classes)
         started = m.Rebec(m.Type(class_), rebec, tuple(map(m.Name, known)), ())
         main = replace(self.model.main, rebecs=(*self.model.main.rebecs, started))

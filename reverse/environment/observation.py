@@ -8,8 +8,9 @@ They are set together with what sends or serves the message.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
+from functools import partial
 from typing import TypeVar
 
 from rebsync import model as m
@@ -43,6 +44,24 @@ class Observation:
     path: str
     type: m.Type
     server: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Hearer:
+    """A rebec of an environment that gets what is published to a topic, with these fields."""
+
+    rebec: str
+    server: str
+    paths: tuple[str, ...]
+
+    def call(self, values: Mapping[str, m.Expression]) -> m.Statement:
+        """What sends it a message with some values of fields."""
+        given = tuple(values[path] for path in self.paths)
+        return m.ExpressionStatement(m.Call(m.Name(self.rebec), self.server, given))
+
+
+Hearers = Mapping[str, Sequence[Hearer]]
+_NOBODY: Hearers = {}
 
 
 def observations(joined: Joined, types: MessageTypes) -> Iterator[tuple[str, Observation]]:
@@ -130,29 +149,33 @@ def with_observations(
     observed: Observed,
     fields: Mapping[str, tuple[str, ...]],
     most: int,
+    hearers: Hearers = _NOBODY,
 ) -> m.ReactiveClass:
     """The class with the state variables that it is asked for, which its bodies set.
 
-    What it sends to the observer is taken out. `fields` are those that its servers get. Messages
-    are counted up to `most`.
+    What it sends to the observer is taken out, but for what the `hearers` of a topic get. `fields`
+    are those that its servers get. Messages are counted up to `most`.
     """
     own = [o for o in wanted if o.owner == owner.name]
-    variables = frozenset(o.variable for o in own)
+    rebecs = frozenset(h.rebec for several in hearers.values() for h in several)
+    noted = frozenset(o.variable for o in own) | rebecs
 
-    def stored(part: object) -> object:
+    def stored(part: object, to: Hearers) -> object:
         match part:
             case m.ExpressionStatement(m.Call(m.Name(name), topic, arguments)) if name == OBSERVER:
                 values = dict(zip(observed[topic], arguments, strict=True))
                 sent = [o for o in own if o.topic == topic and not o.server]
-                return m.Block(tuple(_noted(sent, values, most)))
+                heard = (h.call(values) for h in to.get(topic, ()))
+                return m.Block((*_noted(sent, values, most), *heard))
             case m.Block(statements):
-                return replace(part, statements=tuple(_flat(statements, variables)))
+                return replace(part, statements=tuple(_flat(statements, noted)))
             case _:
                 return part
 
     members: list[m.ClassMember] = []
     for member in owner.members:
-        member = rewritten(member, stored)
+        to = _NOBODY if isinstance(member, m.Constructor) else hearers
+        member = rewritten(member, partial(stored, to=to))
         if isinstance(member, m.MessageServer) and member.body is not None:
             heard = [o for o in own if o.server == member.name]
             names = (m.Name(p.name) for p in member.parameters)
@@ -195,20 +218,20 @@ def parameter_of(seen: Observation) -> str:
     return f"{seen.variable}_given"
 
 
-def _flat(statements: Iterable[m.Statement], variables: Collection[str]) -> Iterator[m.Statement]:
-    """The statements of a block, with those that set observations in the place of a block."""
+def _flat(statements: Iterable[m.Statement], names: Collection[str]) -> Iterator[m.Statement]:
+    """The statements of a block, with those that note a message in the place of a block."""
     for statement in statements:
         match statement:
-            case m.Block(inner) if all(_sets(s, variables) for s in inner):
+            case m.Block(inner) if all(_notes(s, names) for s in inner):
                 yield from inner
             case _:
                 yield statement
 
 
-def _sets(statement: m.Statement, variables: Collection[str]) -> bool:
+def _notes(statement: m.Statement, names: Collection[str]) -> bool:
     match statement:
-        case m.ExpressionStatement(m.Assign("=", m.Name(name))):
-            return name in variables
+        case m.ExpressionStatement(m.Assign("=", m.Name(name)) | m.Call(m.Name(name))):
+            return name in names
         case _:
             return False
 

@@ -18,9 +18,16 @@ from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.asking import TopicVocabulary
 from rebsync.reverse.environment.assumptions import assumed
 from rebsync.reverse.environment.closing import ClosedModel, closed, without_open
+from rebsync.reverse.environment.fragment_wiring import (
+    constructor_publishes,
+    hearers,
+    with_fragment,
+)
+from rebsync.reverse.environment.fragments import Fragment, read_fragment
 from rebsync.reverse.environment.observation import (
     ANY,
     COUNT,
+    Hearers,
     Observation,
     observations,
     observed_fields,
@@ -33,7 +40,7 @@ from rebsync.reverse.findings import Finding
 from rebsync.reverse.nodes.node_joined import Joined, Observed
 from rebsync.reverse.nodes.node_system import unit_of_time
 from rebsync.reverse.nodes.node_times import common_measure
-from rebsync.reverse.nodes.open_ends import OpenEnd, open_ends
+from rebsync.reverse.nodes.open_ends import OpenEnd, open_ends, receivers
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import different
 from rebsync.reverse.texts import TEXT
@@ -41,7 +48,8 @@ from rebsync.source import Source
 
 _ROUNDS = 4
 
-EnvironmentChoice: TypeAlias = Literal["free", "none"]
+# What comes from outside: anything, nothing, or what a file says.
+EnvironmentChoice: TypeAlias = Literal["free", "none"] | Source
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,31 +84,38 @@ def closed_package(
     files, extracted = read.files, read.extracted
     types = message_types(files)
     wanted = tuple(_wanted(extracted, types, properties))
-    observed = observed_fields(wanted)
+    fragment = _fragment(extracted, types, choice)
+    observed = _together(observed_fields(wanted), fragment.observed)
     if observed:  # rebecs of one class whose topics are observed apart become two classes
         extracted = extract(files, observed=observed, texts=extracted.texts)
         wanted = tuple(_wanted(extracted, types, properties))
     joined = extracted.joined
     fields = _fields(joined)
     model = extracted.model
+    rebecs, heard = hearers(fragment, model)
     classes = tuple(
-        with_observations(c, wanted, observed, fields.get(c.name, {}), _counted(properties))
+        with_observations(c, wanted, observed, fields.get(c.name, {}), _counted(properties), heard)
         if isinstance(c, m.ReactiveClass)
         else c
         for c in model.classes
     )
     more = unread_fields(wanted, fields)
-    ends = tuple(
-        replace(e, fields=(*e.fields, *more.get((e.owner, e.server), ())))
-        for e in open_ends(joined)
+    ends, fed = (
+        tuple(replace(e, fields=(*e.fields, *more.get((e.owner, e.server), ()))) for e in found)
+        for found in (open_ends(joined), receivers(joined))
     )
+    topics = {s.topic for s in fragment.published}
+    fed = tuple(e for e in fed if e.name in topics)
     opened = replace(model, classes=classes)
-    around = _surrounded(opened, ends, properties, choice, types, extracted.texts)
+    if fragment.classes and opened.main is not None:
+        opened = with_fragment(opened, fragment, rebecs, fed)
+    ends = tuple(e for e in ends if e.name not in topics or e.is_service)
+    around = _surrounded(opened, (ends, fed), properties, choice, types, extracted.texts)
     unit = unit_of_time(files)
     simulated = any("use_sim_time" in source.text for source in files.values())
     clock = ("a simulation publishes /clock as time passes",) if simulated else ()
     assumptions = (*assumed(extracted), *clock, *around.assumptions, *_time(unit, around))
-    gaps = (*around.gaps, *_overwritten(model, wanted, observed))
+    gaps = (*around.gaps, *_overwritten(model, wanted, observed), *_unheard(model, heard))
     findings = tuple(different(extracted.findings))
     texts = extracted.texts, frozenset(_texts(extracted, wanted))
     return ClosedPackage(around.model, findings, unit, assumptions, gaps, texts)
@@ -124,18 +139,52 @@ def asked_of(
 
 def _surrounded(
     model: m.Model,
-    ends: tuple[OpenEnd, ...],
+    given: tuple[tuple[OpenEnd, ...], tuple[OpenEnd, ...]],
     properties: Properties,
     choice: EnvironmentChoice,
     types: MessageTypes,
     texts: tuple[str, ...],
 ) -> ClosedModel:
-    if choice == "free":
-        return closed(model, ends, properties, types, texts)
+    ends, fed = given
+    if choice != "none":
+        around = closed(model, ends, properties, types, texts, fed)
+        path = choice.path if isinstance(choice, Source) else ""
+        names = dict.fromkeys(f"{end.name} comes as {path} says" for end in fed)
+        return replace(around, assumptions=(*names, *around.assumptions))
     names = dict.fromkeys(end.name or f"{end.rebec}.{end.server}" for end in ends)
     told = (f"nothing comes from outside: {', '.join(names)}",) if names else ()
     classes = tuple(without_open(c) for c in model.classes)
     return ClosedModel(replace(model, classes=classes), told)
+
+
+def _fragment(extracted: Extracted, types: MessageTypes, choice: EnvironmentChoice) -> Fragment:
+    """The environment that a file says; one of nothing where there is no file."""
+    if not isinstance(choice, Source):
+        return Fragment((), (), (), ())
+    heard, published = {}, dict[str, dict[str, m.Type | None]]()
+    for end in receivers(extracted.joined):
+        if end.name is not None and end.type is not None:
+            heard[end.name] = types.fields(end.type) or {}
+    for _, seen in observations(extracted.joined, types):
+        if not seen.server:
+            of_topic = published.setdefault(seen.topic, {})
+            if seen.path not in (ANY, COUNT):
+                of_topic[seen.path] = seen.type
+    names = {c.name for c in extracted.model.classes}
+    return read_fragment(choice, heard, published, names)
+
+
+def _together(one: Observed, other: Observed) -> Observed:
+    """The fields of both, by topics."""
+    topics = dict.fromkeys((*one, *other))
+    return {t: tuple(dict.fromkeys((*one.get(t, ()), *other.get(t, ())))) for t in topics}
+
+
+def _unheard(model: m.Model, heard: Hearers) -> Iterator[str]:
+    """What nodes publish while they start, which an environment does not get."""
+    for owner in (c for c in model.classes if isinstance(c, m.ReactiveClass)):
+        for topic in dict.fromkeys(constructor_publishes(owner, heard)):
+            yield f"what {owner.name} publishes to {topic} while it starts comes to nobody here"
 
 
 # --- the unit of time ---------------------------------------------------------------------------

@@ -43,6 +43,15 @@ def open_ends(joined: Joined) -> tuple[OpenEnd, ...]:
     return tuple(dict.fromkeys((*fed, *_services(joined))))
 
 
+def receivers(joined: Joined) -> Iterator[OpenEnd]:
+    """The servers of all subscriptions of rebecs that are started."""
+    for instance in (i for i in joined.wiring.instances if not i.idle):
+        for server in joined.wiring.servers[instance.start.unit.name]:
+            for fact in server.subscriptions:
+                end = _end(joined, instance, server, instance.topic(fact.topic), False)
+                yield replace(end, depth=_depth(instance.value(fact.depth)))
+
+
 def _depth(found: object) -> int | None:
     if not isinstance(found, int) or isinstance(found, bool) or found <= 0:
         return None  # roscpp takes 0 for no end
