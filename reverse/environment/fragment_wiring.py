@@ -81,11 +81,20 @@ def _knowing(
     """A class of the package with the rebecs of the environment that it sends to."""
     if not isinstance(owner, m.ReactiveClass):
         return owner
-    sent = {n.target.name for n in m.walk(owner) if isinstance(n, m.Call) and _is_name(n.target)}
-    known = tuple(m.Declaration(t, (m.Declarator(n),)) for n, t in types.items() if n in sent)
-    at = sum(isinstance(x, m.KnownRebecs) for x in owner.members)
-    more = (m.KnownRebecs(known),) if known else ()
-    return replace(owner, members=(*owner.members[:at], *more, *owner.members[at:]))
+    targets = (n.target for n in m.walk(owner) if isinstance(n, m.Call))
+    sent = {t.name for t in targets if isinstance(t, m.Name)}
+    return _with_known(owner, [(n, t) for n, t in types.items() if n in sent])
+
+
+def _with_known(owner: m.ReactiveClass, known: Sequence[tuple[str, m.Type]]) -> m.ReactiveClass:
+    """A class with more known rebecs, behind those that it has."""
+    declared = tuple(m.Declaration(type_, (m.Declarator(name),)) for name, type_ in known)
+    if not declared:
+        return owner
+    sections = [n for n, x in enumerate(owner.members, 1) if isinstance(x, m.KnownRebecs)]
+    at = max(sections, default=0)
+    more = m.KnownRebecs(declared)
+    return replace(owner, members=(*owner.members[:at], more, *owner.members[at:]))
 
 
 def _environment_known(
@@ -95,10 +104,6 @@ def _environment_known(
     sections = (x for x in members if isinstance(x, m.KnownRebecs))
     found = (x.name for section in sections for d in section.declarations for x in d.declarators)
     return [name for name in found if name in types]
-
-
-def _is_name(target: object) -> bool:
-    return isinstance(target, m.Name)
 
 
 def _publishing(
@@ -136,10 +141,7 @@ def _publishing(
         for member in owner.members
         if not (isinstance(member, m.MessageServer) and member.name in servers)
     ]
-    declared = tuple(m.Declaration(type_, (m.Declarator(name),)) for name, type_ in to)
-    place = sum(isinstance(x, m.KnownRebecs) for x in members)
-    section = (m.KnownRebecs(declared),) if declared else ()
-    return replace(owner, members=(*members[:place], *section, *members[place:]))
+    return _with_known(replace(owner, members=tuple(members)), to)
 
 
 def _is_one(statement: m.Statement, blocks: Sequence[m.Block]) -> TypeGuard[m.Block]:

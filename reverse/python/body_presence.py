@@ -72,7 +72,7 @@ def identical(
         return m.BoolLiteral(is_same)
     values = [reader.read(o) for o in operands if o.type != "none"]
     if len(values) == 2 and values[0].kind == values[1].kind:
-        sides = (v.expression for v in values)
+        sides = values[0].expression, values[1].expression
         return binary("==" if is_same else "!=", *sides, reader.frame.span(node))
     if any(v.kind == STRING or not is_calm(v.expression) for v in values):
         return None
