@@ -15,6 +15,7 @@ from rebsync.reverse.bodies.cpp_conversions import as_boolean, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
+from rebsync.reverse.bodies.cpp_pointers import check_pointer
 from rebsync.reverse.bodies.cpp_return_types import return_type, returns_in
 from rebsync.reverse.bodies.cpp_roots import is_element
 from rebsync.reverse.bodies.cpp_types import Carried
@@ -45,7 +46,6 @@ if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _DEEPEST = 8
-_GUARDED = frozenset({"conditional_expression", "while_statement", "for_statement", "do_statement"})
 _PLACES = frozenset(
     {"subscript_expression", "field_expression", "pointer_expression", "conditional_expression"}
 )
@@ -72,6 +72,7 @@ def inlined(
     )
     for parameter, argument in zip(parameters, arguments, strict=False):
         reader.before += _bound(reader, inside, parameter, argument, once)
+        check_pointer(inside, parameter, argument, body)
     for parameter in parameters[len(arguments) :]:
         reader.before += _left_out(reader, inside, parameter, node)
     reader.shared.running.append(key)
@@ -86,7 +87,7 @@ def inlined(
         reader.shared.running.pop()
         reader.shared.depth -= depth
     if len(reader.before) > needed:
-        check_place(reader, node)
+        cpp_sequencing.check_place(reader, node)
         cpp_sequencing.check_call(reader, node)
     return found
 
@@ -214,22 +215,6 @@ def _trailing(declarator: Node | None) -> Node | None:
         if child.type == "trailing_return_type":
             return named(child)[0]
     return None
-
-
-def check_place(reader: CppStatementReader, node: Node) -> None:
-    """Raises `Unread` where the call is not run once, and first of all in its statement."""
-    below, above = node, node.parent
-    while above is not None and not below.type.endswith(("_statement", "declaration")):
-        if above.type == "binary_expression" and text_of(part(above, "operator")) in ("&&", "||"):
-            guarded = part(above, "right").id == below.id
-        elif above.type == "conditional_expression":
-            guarded = part(above, "condition").id != below.id
-        else:
-            guarded = above.type in _GUARDED and below.type != "compound_statement"
-        if guarded:
-            why = "the body of this function cannot stand here"
-            raise reader.unread(node, why, "call it in a statement of its own")
-        below, above = above, above.parent
 
 
 # --- parameters ---------------------------------------------------------------------------------

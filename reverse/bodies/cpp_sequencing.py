@@ -37,7 +37,24 @@ if TYPE_CHECKING:
 _WHY = "C++ leaves open in which order this is evaluated"
 _HINT = "say it in two statements"
 _CHANGES = ("assignment_expression", "update_expression")
+_GUARDED = frozenset({"conditional_expression", "while_statement", "for_statement", "do_statement"})
 _SHORT_CIRCUIT = frozenset({"&&", "||", "and", "or"})
+
+
+def check_place(reader: CppStatementReader, node: Node) -> None:
+    """Raises `Unread` where the call is not run once, and first of all in its statement."""
+    below, above = node, node.parent
+    while above is not None and not below.type.endswith(("_statement", "declaration")):
+        if above.type == "binary_expression" and text_of(part(above, "operator")) in ("&&", "||"):
+            guarded = part(above, "right").id == below.id
+        elif above.type == "conditional_expression":
+            guarded = part(above, "condition").id != below.id
+        else:
+            guarded = above.type in _GUARDED and below.type != "compound_statement"
+        if guarded:
+            why = "the body of this function cannot stand here"
+            raise reader.unread(node, why, "call it in a statement of its own")
+        below, above = above, above.parent
 
 
 def check_call(reader: CppStatementReader, call: Node) -> None:

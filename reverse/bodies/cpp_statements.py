@@ -21,6 +21,7 @@ from rebsync.reverse.bodies import (
     cpp_locals,
     cpp_loops,
     cpp_plain_locals,
+    cpp_sequencing,
     cpp_special,
     cpp_texts,
     cpp_users,
@@ -280,7 +281,7 @@ class CppStatements(CppStatementReader):
     ) -> Meaning | None:
         """What a call gives for which the function's body stands, now in `before`."""
         if isinstance(function, Exchange):
-            cpp_inline.check_place(self, node)
+            cpp_sequencing.check_place(self, node)
             return cpp_exchange.exchanged(self, node, function)
         return cpp_inline.inlined(self, node, function, arguments)
 
