@@ -36,7 +36,7 @@ class Outputs : public rclcpp::Node {
     int level = 7;
     clear(&level);
     if (!read(in->data, &level)) {
-      level = level + 1;
+      level = level == 0 ? 1 : -1;
     }
     std_msgs::msg::Int32 message;
     fill(level, &message);

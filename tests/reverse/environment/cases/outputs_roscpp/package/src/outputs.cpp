@@ -35,7 +35,7 @@ class Outputs {
     int level = 7;
     clear(&level);
     if (!read(in->data, &level)) {
-      level = level + 1;
+      level = level == 0 ? 1 : -1;
     }
     std_msgs::Int32 message;
     fill(level, &message);
