@@ -173,7 +173,9 @@ class FindingList:
                 key = instance.start.program.main.node.id, id(instance.launched)
                 nodes.setdefault(key, []).append(instance)
             if instance.start.made is not None and instance.start.made.repeated:
-                self._made(instance, "how many of these are made is not known: the model has one")
+                why = "how many of these are made is not known: the model has one"
+                if (place := _where_made(instance)) is not None:
+                    self._unread(place, why, instance.start.unit.name)
             launched = instance.launched
             if launched is not None and launched.only_if:
                 why = f"it is started only `{launched.only_if[-1]}`: in the model it always is"
@@ -220,14 +222,9 @@ class FindingList:
                 self._unread(place, why, unit.name)
 
     def _made(self, instance: Instance, why: str) -> None:
-        program, made = instance.start.program, instance.start.made
-        if program is None:
-            return
-        node = program.main.node
-        if made is not None and made.statement is not None:
-            node = made.statement
-        place = Place(program.main.cpp.source, program.main.cpp.span(node))
-        self._assumed(place, why, program.name)
+        program, place = instance.start.program, _where_made(instance)
+        if program is not None and place is not None:
+            self._assumed(place, why, program.name)
 
     # --- once -----------------------------------------------------------------------------------
 
@@ -253,6 +250,17 @@ class FindingList:
 _OPEN = "add the package that has the receivers, if they matter"
 _CALLS = "add a class to the model that calls it, or message servers that send to it"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
+
+
+def _where_made(instance: Instance) -> Place | None:
+    """Where an object is made; None where no program makes it."""
+    program, made = instance.start.program, instance.start.made
+    if program is None:
+        return None
+    node = program.main.node
+    if made is not None and made.statement is not None:
+        node = made.statement
+    return Place(program.main.cpp.source, program.main.cpp.span(node))
 
 
 def _is_elsewhere(kept: str) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 
@@ -95,6 +96,10 @@ def _node(nodes: Sequence[NodeFact], main: CppFunction, paths: Collection[str]) 
 # --- objects ------------------------------------------------------------------------------------
 
 
+# Templates whose objects lead to others that are made elsewhere.
+_POINTER = re.compile(r"ptr\b|Ptr\b")
+
+
 @dataclass(slots=True)
 class Objects:
     """Looks for the objects of some classes that a program makes."""
@@ -136,8 +141,8 @@ class Objects:
     def _in(self, function: CppFunction, in_main: bool) -> Iterator[NodeObject]:
         for node in self._types_in(function):
             name = text_of(node)
-            if name in self.wanted and (made := _made(node, name, in_main)) is not None:
-                yield made
+            if name in self.wanted:
+                yield from _made(node, name, in_main)
             if name in self.code.classes and name not in self._seen and _makes(node):
                 self._seen.add(name)
                 yield from self._members(self.code.classes[name])
@@ -151,7 +156,7 @@ class Objects:
             known = {*self.wanted, *self.code.classes}
             self._named[id(cpp)] = frozenset(n for n in known if n.encode() in cpp.words)
         found = self.code.named(cpp, body, self._named[id(cpp)])
-        return [n for n in found if n.type == "type_identifier"]
+        return [n for n in found if n.type == "type_identifier" or _is_called(n)]
 
     def _members(self, owner: CppClass, entry: CppFunction | None = None) -> Iterator[NodeObject]:
         """The objects that are members of another, or made by its functions."""
@@ -163,6 +168,13 @@ class Objects:
             for function in self.code.functions_of(above):
                 if entry is None or function.node.id != entry.node.id:
                     yield from self._in(function, False)
+
+
+def _is_called(name: Node) -> bool:
+    """Whether a name stands where a function is called, or an object is made: `Talker(nh)`."""
+    above = name.parent
+    called = above is not None and above.type == "call_expression"
+    return name.type == "identifier" and called and above.child_by_field_name("function") == name
 
 
 def _types(node: Node) -> list[str]:
@@ -185,43 +197,71 @@ def _makes(node: Node) -> bool:
     )
 
 
-def _made(node: Node, name: str, in_main: bool) -> NodeObject | None:
-    """The object that is made where a class's name stands, if one is."""
-    pointer = False
+def _made(node: Node, name: str, in_main: bool) -> Iterator[NodeObject]:
+    """The objects that are made where a class's name stands."""
+    pointer = several = False
     for around in ancestors(node, lambda n: n.type.endswith("statement")):
         match around.type:
             case "new_expression":
                 arguments = around.child_by_field_name("arguments")
-                return _object(around, name, named(arguments) if arguments else [], in_main)
+                yield _object(around, name, named(arguments) if arguments else [], in_main)
+                return
             case "call_expression" if "make_" in text_of(around).partition("(")[0]:
                 arguments = around.child_by_field_name("arguments")
-                return _object(around, name, named(arguments) if arguments else [], in_main)
-            case "template_argument_list":
-                pointer = True
+                yield _object(around, name, named(arguments) if arguments else [], in_main)
+                return
+            case "template_type":
+                pointer = pointer or _POINTER.search(text_of(around.children[0])) is not None
+                several = True
             case "parameter_declaration" | "cast_expression" | "lambda_expression":
-                return None
+                return
             case "declaration":
-                return None if pointer else _declared(around, name, in_main)
-    return None
+                for declarator in around.children_by_field_name("declarator"):
+                    made = _declared(around, declarator, name, in_main) if not pointer else None
+                    if made is not None:
+                        made = replace(made, variable=_declared_name(declarator))
+                        yield replace(made, arguments=(), repeated=True) if several else made
+                return
 
 
-def _declared(node: Node, name: str, in_main: bool) -> NodeObject | None:
+def _declared(node: Node, declarator: Node, name: str, in_main: bool) -> NodeObject | None:
     """`Talker t;`, `Talker t(nh);` (which may parse as a function), `Talker t{nh};`."""
-    declarator = node.child_by_field_name("declarator")
-    if declarator is None or declarator.type in ("pointer_declarator", "reference_declarator"):
+    if declarator.type in ("pointer_declarator", "reference_declarator"):
         return None
     if declarator.type == "init_declarator":
         inner = declarator.child_by_field_name("declarator")
-        if inner is None or inner.type != "identifier":
+        if inner is None or inner.type not in ("identifier", "array_declarator"):
             return None
         value = declarator.child_by_field_name("value")
-        if value is not None and value.type not in ("argument_list", "initializer_list"):
-            value = None
-        return _object(node, name, named(value) if value is not None else [], in_main)
+        given = _given(value, name) if value is not None else []
+        if given is None or inner.type != "identifier":
+            return replace(_object(node, name, [], in_main), repeated=True)
+        return _object(node, name, given, in_main)
+    if declarator.type == "array_declarator":
+        return replace(_object(node, name, [], in_main), repeated=True)
     if declarator.type == "function_declarator":
         parameters = declarator.child_by_field_name("parameters")
         return _object(node, name, named(parameters) if parameters else [], in_main)
     return _object(node, name, [], in_main)
+
+
+def _given(value: Node, name: str) -> list[Node] | None:
+    """What an object is made with; None where that is not written there."""
+    match value.type:
+        case "argument_list" | "initializer_list":
+            return named(value)
+        case "call_expression" if _is_of(value.child_by_field_name("function"), name):
+            arguments = value.child_by_field_name("arguments")
+            return named(arguments) if arguments is not None else []
+        case "compound_literal_expression" if _is_of(value.child_by_field_name("type"), name):
+            listed = value.child_by_field_name("value")
+            return named(listed) if listed is not None else []
+        case _:
+            return None
+
+
+def _is_of(written: Node | None, name: str) -> bool:
+    return written is not None and text_of(written).rpartition("::")[2] == name
 
 
 def _object(node: Node, name: str, arguments: list[Node], in_main: bool) -> NodeObject:
@@ -238,7 +278,6 @@ def _object(node: Node, name: str, arguments: list[Node], in_main: bool) -> Node
 
 def _variable(statement: Node) -> str:
     """The variable that a statement declares, assigns or resets."""
-    at: Node | None = statement
     if statement.type == "expression_statement" and statement.named_children:
         inner = statement.named_children[0]
         call = call_of(inner)
@@ -246,6 +285,12 @@ def _variable(statement: Node) -> str:
             return call.on.removeprefix("this->") if call.name == "reset" else ""
         at = inner.child_by_field_name("left")
         return text_of(at).removeprefix("this->") if at is not None else ""
+    return _declared_name(statement)
+
+
+def _declared_name(node: Node) -> str:
+    """The name that a declaration, or a declarator of it, declares."""
+    at: Node | None = node
     while at is not None and at.type != "identifier":
         inner_ = at.child_by_field_name("declarator")
         last = at.named_children[-1] if at.type == "reference_declarator" else None
