@@ -14,6 +14,7 @@ from rebsync.intervals import TRUTH, Interval, signed, unsigned
 from rebsync.reverse.bodies.cpp_ranges import range_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.nodes.node_bodies import Bodies
+from rebsync.reverse.nodes.node_namespaces import note_namespaces
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
@@ -31,6 +32,7 @@ _CHANGES = ("assignment_expression", "update_expression")
 
 def note_unmodelled(bodies: Bodies) -> None:
     """Lists what would be read as if the language did otherwise."""
+    note_namespaces(bodies.unit, bodies.findings)
     for owner in bodies.unit.lineage:
         for function in bodies.unit.constructors(owner):
             if _out_of_order(bodies, owner, function):

@@ -16,6 +16,7 @@ from rebsync.reverse.graph import (
     TimerFact,
     Unresolved,
 )
+from rebsync.reverse.nodes.node_namespaces import note_namespaces
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_wiring import (
     Wiring,
@@ -47,6 +48,7 @@ def list_unit(
     unit: PyUnit, servers: Mapping[int, Server], loops: int, threads: bool, findings: Findings
 ) -> None:
     """What a unit asks of ROS that the model has not, or not so."""
+    note_namespaces(unit.unit, findings)
     for number, fact in enumerate(unit.unit.facts):
         _fact(unit, fact, number in servers, findings)
     served = [f for n, f in enumerate(unit.unit.facts) if n in servers]
