@@ -316,18 +316,16 @@ class Scope:
     open: bool = False
     # Whether `?(...)` may stand here: only in the body of a message server.
     chooses: bool = True
-    # The server whose body this is, if it is one.
-    server: str | None = None
-    # Seconds that a unit of the model's time takes.
-    unit: Fraction = Fraction(1)
+    server: str | None = None  # whose body this is, if it is one
+    unit: Fraction = Fraction(1)  # seconds that a unit of the model's time takes
     # The type of what the method gives whose body this is, if it is one.
     returns: Type | None = None
     # Locals that hold what the functions give whose bodies stand in this one, by their names.
     results: dict[str, Variable] = field(default_factory=dict, compare=False, repr=False)
-    # The bits, without the sign, of locals that hold more than an `int`; texts that may be any.
+    # The bits, without the sign, of locals that hold more than an `int`; texts that may be any;
+    # literals of which the model has the lower bits.
     wide: dict[str, int] = field(default_factory=dict, compare=False, repr=False)
     changed_texts: set[str] = field(default_factory=set, compare=False, repr=False)
-    # Literals that no `int` holds, of which the model has the lower bits.
     lowered: set[Expression] = field(default_factory=set, compare=False, repr=False)
     # Whether functions touch nothing: what has been found out.
     calm: Calm = field(default_factory=Calm, compare=False, repr=False)

@@ -173,8 +173,9 @@ class Objects:
 def _is_called(name: Node) -> bool:
     """Whether a name stands where a function is called, or an object is made: `Talker(nh)`."""
     above = name.parent
-    called = above is not None and above.type == "call_expression"
-    return name.type == "identifier" and called and above.child_by_field_name("function") == name
+    if above is None or above.type != "call_expression" or name.type != "identifier":
+        return False
+    return above.child_by_field_name("function") == name
 
 
 def _types(node: Node) -> list[str]:
