@@ -15,7 +15,7 @@ from rebsync.reverse.bodies.cpp_conversions import as_boolean, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
-from rebsync.reverse.bodies.cpp_pointers import check_pointer
+from rebsync.reverse.bodies.cpp_pointer_parameters import check_pointer
 from rebsync.reverse.bodies.cpp_return_types import return_type, returns_in
 from rebsync.reverse.bodies.cpp_roots import is_element
 from rebsync.reverse.bodies.cpp_types import Carried
