@@ -7,6 +7,7 @@ from math import inf
 from typing import NamedTuple
 
 from rebsync.checker.endless import EndlessBody
+from rebsync.checker.program import Cell
 from rebsync.model import MessageServer, Model, ReactiveClass, walk
 from rebsync.roundtrip.conform.components.bodies import Publication
 from rebsync.roundtrip.conform.components.component import Component, Output
@@ -51,9 +52,8 @@ class TopicDiagnosis:
     def of(self, found: Inclusion) -> Deviation:
         """The first message that is not the model's, by the hypothesis that came furthest."""
         best = max(found.dead, key=lambda dead: dead.progress)
-        expected = sorted(
-            {e for dead in found.dead if dead.matched == best.matched for e in self._expected(dead)}
-        )
+        alike = (dead for dead in found.dead if dead.matched == best.matched)
+        expected = sorted({e for dead in alike for e in self._expected(dead)}, key=_order)
         following = self._next(best)
         kind, why, output, at = self._reason(best, expected, following)
         allowed = tuple(dict.fromkeys(map(self._allowed, expected)))[:_FEW]
@@ -191,6 +191,11 @@ class TopicDiagnosis:
         state = ((topic, f"{values}"),)
         server = program.servers[expected.server].name if expected.server >= 0 else "constructor"
         return Allowed(self.component.name, server, "", start, start, state, 0)
+
+
+def _order(expected: Expected) -> tuple[float, float, int, tuple[Cell, ...], int, int]:
+    low, high, topic, sent, server = expected
+    return low, high, topic, sent.cells, sent.after, server
 
 
 def _code_of(server: MessageServer) -> CodePlace | None:
