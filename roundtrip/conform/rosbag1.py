@@ -19,7 +19,7 @@ _LENGTH = struct.Struct("<I")
 _TIME = struct.Struct("<II")
 _LARGEST = 2**30
 _NUMBERS = struct.Struct("<IIII")
-# A message up to its content as writers make it, of which there are many; `op` has one of two places.
+# A message up to its content, as writers make it: `op` has one of two places.
 _OP = rb"(?:\x04\0\0\0op=\x02)?"
 _CONN, _STAMP = rb"\x09\0\0\0conn=(.{4})", rb"\x0d\0\0\0time=(.{8})"
 _USUAL = re.compile(rb"\x26\0\0\0" + _OP + _CONN + _OP + _STAMP + rb"(.{4})", re.DOTALL)

@@ -131,7 +131,7 @@ class TopicDiagnosis:
             why = "it was published before, and the model publishes it once"
             return Reason("repeated", why, output, output.stamp)
         early = [e for e in expected if e.topic == topic and e.low > output.stamp]
-        if early and self.search.is_output(topic, number, early[0].sent):
+        if early and self.search.is_output(output, early[0].sent):
             why = f"the model publishes it from {early[0].low:.3f} s on"
             return Reason("early", why, output, output.stamp)
         return Reason("unexpected", "the model publishes nothing then", output, output.stamp)
@@ -158,9 +158,7 @@ class TopicDiagnosis:
     def _is(self, dead: Hypothesis, expected: Expected, further: int) -> bool:
         number = dead.matched[expected.topic] + further
         outputs = self.component.outputs[expected.topic]
-        return number < len(outputs) and self.search.is_output(
-            expected.topic, number, expected.sent
-        )
+        return number < len(outputs) and self.search.is_output(outputs[number], expected.sent)
 
     def _unlike(self, dead: Hypothesis, expected: Expected, recorded: Sequence[Output]) -> Reason:
         """Another message was recorded when the model publishes."""
@@ -209,7 +207,7 @@ def _code_of(server: MessageServer) -> CodePlace | None:
 def _overdue(dead: Hypothesis) -> list[Candidate]:
     """What should have been served, and was not in time."""
     due = sorted(dead.pending, key=lambda p: p.high)[:1]
-    return [Candidate(p.server, p.cells, p.low, p.high, -1, p) for p in due]
+    return [Candidate(p.server, p.cells, p.low, p.high, p) for p in due]
 
 
 def _shown(output: Output | None) -> str:
