@@ -229,27 +229,25 @@ class InclusionSearch:
     def candidates(self, before: Hypothesis) -> list[Candidate]:
         """The messages that may be served next: none of the others would be too late then."""
         limit = min(self._latest(before), self._next_output(before))
-        if limit < before.low:
-            return []
         begin, slack = max(before.low, before.free[0]), self._timing.slack
+        if limit < begin:
+            return []
         found: list[Candidate] = []
         for each in dict.fromkeys(before.pending):
             low = max(begin, each.low - slack)
-            high = min(limit, self._upper(before, each.low, each.high))
-            if low <= high:
-                found.append(Candidate(each.server, each.cells, low, high, each))
-        lanes: set[int] = set()
-        for number, each_in in enumerate(self.component.inputs.since(before.base), before.base):
+            if low <= limit:
+                found.append(Candidate(each.server, each.cells, low, limit, each))
+        base, taken, lanes = before.base, before.taken, set[int]()
+        for number, each_in in enumerate(self.component.inputs.since(base), base):
             stamp, server, cells, lane, _ = each_in
             if stamp - slack > limit:
                 break
-            if number in before.taken or lane in lanes:
+            if number in taken or lane in lanes:
                 continue
             if lane != UNORDERED:
                 lanes.add(lane)
-            low, high = max(begin, stamp - slack), min(limit, self._upper(before, stamp, stamp))
-            if low <= high:
-                found.append(Candidate(server, cells, low, high, None, number, each_in))
+            low = max(begin, stamp - slack)
+            found.append(Candidate(server, cells, low, limit, None, number, each_in))
         return found
 
     def _upper(self, before: Hypothesis, low: float, high: float) -> float:
