@@ -229,15 +229,16 @@ class InclusionSearch:
     def candidates(self, before: Hypothesis) -> list[Candidate]:
         """The messages that may be served next: none of the others would be too late then."""
         limit = min(self._latest(before), self._next_output(before))
-        begin, slack = max(before.low, before.free[0]), self._timing.slack
+        earliest, _, (free, _), _, pending, base, taken, _, _, _ = before
+        begin, slack = max(earliest, free), self._timing.slack
         if limit < begin:
             return []
         found: list[Candidate] = []
-        for each in dict.fromkeys(before.pending):
+        for each in pending:
             low = max(begin, each.low - slack)
             if low <= limit:
                 found.append(Candidate(each.server, each.cells, low, limit, each))
-        base, taken, lanes = before.base, before.taken, set[int]()
+        lanes: set[int] = set()
         for number, each_in in enumerate(self.component.inputs.since(base), base):
             stamp, server, cells, lane, _ = each_in
             if stamp - slack > limit:
@@ -338,35 +339,24 @@ class InclusionSearch:
     ) -> Hypothesis:
         unit = self._timing.unit
         self.raced |= self._races(before, candidate, low)
-        pending = before.pending
-        if candidate.posted is not None or run.posted:
+        _, _, free, _, pending, base, taken, _, connected, _ = before
+        server, _, _, _, posted, number, received = candidate
+        if posted is not None or run.posted:
             still = list(pending)
-            if candidate.posted is not None:
-                still.remove(candidate.posted)
-            still += [
-                Posted(p.server, p.cells, low + p.after * unit, high + p.after * unit)
-                for p in run.posted
-            ]
+            if posted is not None:
+                still.remove(posted)
+            for after in run.posted:
+                due = after.after * unit
+                still.append(Posted(after.server, after.cells, low + due, high + due))
             pending = tuple(sorted(still))
-        base, taken, connected = before.base, before.taken, before.connected
-        if candidate.input is not None:
-            base, taken = _advanced(before, candidate.number)
-            if candidate.input.lane not in connected:
-                connected |= {candidate.input.lane}
-        busy = run.busy * unit
-        free = (low + busy, high + busy) if run.busy else before.free
-        variables, last = run.variables, candidate.server
+        if received is not None:
+            base, taken = _advanced(before, number)
+            if received.lane not in connected:
+                connected |= {received.lane}
+        if run.busy:
+            free = low + run.busy * unit, high + run.busy * unit
         return Hypothesis(
-            low,
-            high,
-            free,
-            variables,
-            pending,
-            base,
-            taken,
-            matched,
-            connected,
-            last,
+            low, high, free, run.variables, pending, base, taken, matched, connected, server
         )
 
     def _races(self, before: Hypothesis, candidate: Candidate, low: float) -> bool:
