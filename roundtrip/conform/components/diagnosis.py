@@ -201,7 +201,7 @@ def _code_of(server: MessageServer) -> CodePlace | None:
     found = next((span for span in spans if isinstance(span, SourceSpan)), None)
     if found is None:
         return None
-    return CodePlace(found.source.path, found.source.position(found.start).line)
+    return CodePlace(found.source.path, found.source.position(found.start).line, found)
 
 
 def _overdue(dead: Hypothesis) -> list[Candidate]:
