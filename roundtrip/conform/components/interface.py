@@ -155,7 +155,7 @@ def reader(
         for slot, value in zip(parameters, values, strict=True):
             if isinstance(value, str):
                 value = texts.index(value) if value in texts else OTHER
-            elements = _elements(value)
+            elements = [value] if isinstance(value, (int, float)) else _elements(value)
             if len(elements) != slot.size:
                 raise Unmodelled(f"{slot.name} has {len(elements)} elements, not {slot.size}")
             cells += [cell_of_field(slot.name, slot.kind, each) for each in elements]
