@@ -6,6 +6,7 @@ Types and the storages of ROS 2 are read by rosbags, without an installation of 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from operator import attrgetter
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -26,6 +27,7 @@ INSTALL = "pip install 'rebsync[bags]'"
 _CLOCK = "builtin_interfaces/Time clock"
 
 Decode = Callable[[Any], object]
+Make = Callable[[Any, float, Place, str], Event]
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,23 +103,28 @@ class _Source:
             return lambda raw: read1(raw, 0, cls, store)[0]
         return lambda raw: store.deserialize_cdr(raw, name)
 
-    def event(self, topic: Topic, decode: Decode, raw: object, time: int, node: str) -> Event:
+    def maker(self, type_: str, definition: str, topic: Topic) -> Make:
+        """What makes an event of bytes. RebsyncError: the type cannot be known."""
+        decode, convert, build = self.decoder(type_, definition, topic), topic.convert, topic.build
+        if build is None or not topic.fields:
+            return lambda raw, *said: convert(_Fields(decode(raw)), *said)
+        read = attrgetter(*topic.fields)
+        if len(topic.fields) == 1:
+            return lambda raw, *said: build((read(decode(raw)),), *said)
+        return lambda raw, *said: build(read(decode(raw)), *said)
+
+    def event(self, topic: str, make: Make, raw: object, time: int, node: str) -> Event:
         """The event of a message. RebsyncError: it is not as its type says."""
         self.latest = max(self.latest, time)
         try:
-            place = Place(self.file, self.number)
-            if topic.build is not None:
-                message = decode(raw)
-                values = [getattr(message, name) for name in topic.fields]
-                return topic.build(values, time * _NANO, place, node)
-            return topic.convert(_Fields(decode(raw)), time * _NANO, place, node)
+            return make(raw, time * _NANO, Place(self.file, self.number), node)
         except KeyError as error:
             what = f"has no field {error}"
         except AttributeError as error:
             what = f"has no field {error.name!r}"
         except Exception as error:
             what = f"is not as its type says: {error}"
-        text = f"message {self.number} of {topic.name} {what}"
+        text = f"message {self.number} of {topic} {what}"
         raise RebsyncError.of(self.path, "RS983", text, "is it a recording of this model?")
 
     def end(self, why: str) -> Event:
@@ -139,7 +146,7 @@ class _Source:
 def events_1(path: str, file: int, wanted: TopicChoice, own: OwnTypes) -> Iterator[Event]:
     """The events of a bag of ROS 1, in the order of the file."""
     source = _Source(path, file, wanted, own, False)
-    readers: dict[int, tuple[Topic, Decode, str] | None] = {}
+    readers: dict[int, tuple[str, Make, str] | None] = {}
     try:
         with Path(path).open("rb") as opened:
             for record in intact_records(opened):
@@ -152,20 +159,20 @@ def events_1(path: str, file: int, wanted: TopicChoice, own: OwnTypes) -> Iterat
                 source.number += 1
                 reader = readers.get(number)
                 if reader is not None:
-                    topic, decode, node = reader
-                    yield source.event(topic, decode, raw, time, node)
+                    topic, make, node = reader
+                    yield source.event(topic, make, raw, time, node)
     except DamagedBag as error:
         yield source.end(str(error))
     except OSError as error:
         raise os_mistake(path, error) from None
 
 
-def _reader(source: _Source, connection: Connection) -> tuple[Topic, Decode, str] | None:
+def _reader(source: _Source, connection: Connection) -> tuple[str, Make, str] | None:
     topic = source.wanted.topic(connection.topic, source.path)
     if topic is None:
         return None
-    decode = source.decoder(connection.type, connection.definition, topic)
-    return topic, decode, connection.publisher
+    make = source.maker(connection.type, connection.definition, topic)
+    return topic.name, make, connection.publisher
 
 
 def events_2(path: str, file: int, wanted: TopicChoice, own: OwnTypes) -> Iterator[Event]:
@@ -212,7 +219,7 @@ def _of_part(source: _Source, part: Path) -> Iterator[Event]:
     from rosbags.rosbag2 import Reader
 
     with Reader(part) as reader:
-        readers: dict[int, tuple[Topic, Decode]] = {}
+        readers: dict[int, tuple[str, Make]] = {}
         connections = []
         expected = 0
         for connection in reader.connections:
@@ -221,15 +228,15 @@ def _of_part(source: _Source, part: Path) -> Iterator[Event]:
                 continue
             is_msg = connection.msgdef.format is MessageDefinitionFormat.MSG
             definition = connection.msgdef.data if is_msg else ""
-            readers[connection.id] = (topic, source.decoder(connection.msgtype, definition, topic))
+            make = source.maker(connection.msgtype, definition, topic)
+            readers[connection.id] = topic.name, make
             connections.append(connection)
             expected += connection.msgcount
         before = source.number
         if connections:
             for connection, time, raw in reader.messages(connections):
                 source.number += 1
-                topic, decode = readers[connection.id]
-                yield source.event(topic, decode, raw, time, "")
+                yield source.event(*readers[connection.id], raw, time, "")
     if source.number - before < expected:
         read = source.number - before
         raise source.wrong(f"it has {expected} messages of the model, and only {read} can be read")

@@ -10,6 +10,7 @@ from rebsync.checker.trace import TraceStep
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.properties import Evaluated
 from rebsync.roundtrip.conform.recording import Place, Served
+from rebsync.source import SourceSpan
 
 Verdict: TypeAlias = Literal["conforms", "deviates", "violated", "undetermined"]
 """A run of the model; none; one in which the model itself breaks a rule; not known."""
@@ -45,10 +46,11 @@ class Difference:
 
 @dataclass(frozen=True, slots=True)
 class CodePlace:
-    """A line of the code, counted from 1."""
+    """A line of the code, counted from 1; its `span` where the code was read as a model."""
 
     path: str
     line: int
+    span: SourceSpan | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

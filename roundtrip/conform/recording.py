@@ -82,13 +82,22 @@ class Driven(NamedTuple):
 
 
 class Heard(NamedTuple):
-    """A message on a topic of nodes that people wrote: the values of those fields that count."""
+    """A message on a topic of nodes that people wrote: the values of those fields that count.
+
+    There are many, and they lie in files: so the place is two numbers.
+    """
 
     topic: str
     values: tuple[object, ...]
     stamp: float
-    place: Place
+    file: int
+    number: int
     publisher: str = ""
+
+    @property
+    def place(self) -> Place:
+        """Where it is."""
+        return Place(self.file, self.number)
 
 
 class Truncated(NamedTuple):

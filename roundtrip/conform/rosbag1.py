@@ -18,11 +18,12 @@ _MESSAGE, _CHUNK, _CONNECTION = 2, 5, 7
 _LENGTH = struct.Struct("<I")
 _TIME = struct.Struct("<II")
 _LARGEST = 2**30
-_NUMBERS = struct.Struct("<III")
-# The header of a message as writers make it, of which there are many; `op` has one of two places.
+_NUMBERS = struct.Struct("<IIII")
+# A message up to its content, as writers make it: `op` has one of two places.
 _OP = rb"(?:\x04\0\0\0op=\x02)?"
-_USUAL = re.compile(_OP + rb"\x09\0\0\0conn=(.{4})" + _OP + rb"\x0d\0\0\0time=(.{8})", re.DOTALL)
-_USUAL_SIZE = 38
+_CONN, _STAMP = rb"\x09\0\0\0conn=(.{4})", rb"\x0d\0\0\0time=(.{8})"
+_USUAL = re.compile(rb"\x26\0\0\0" + _OP + _CONN + _OP + _STAMP + rb"(.{4})", re.DOTALL)
+_USUAL_SIZE = 46
 
 
 class DamagedBag(Exception):
@@ -125,6 +126,16 @@ def _records_in(
     """The messages, and the fields and contents of other records with their kinds."""
     view, position, end = memoryview(data), 0, len(data)
     while position < end:
+        usual = _USUAL.fullmatch(data, position, position + _USUAL_SIZE)
+        if usual is not None:
+            numbers = usual[1] + usual[2] + usual[3]
+            connection, seconds, nanoseconds, size = _NUMBERS.unpack(numbers)
+            content = position + _USUAL_SIZE
+            position = content + size
+            if position > end:
+                raise DamagedBag("a chunk ends within a record")
+            yield RawMessage(connection, seconds * 10**9 + nanoseconds, view[content:position])
+            continue
         start = position + 4
         position = start + _at(data, position)
         content = position + 4
@@ -132,12 +143,6 @@ def _records_in(
         position = content + _at(data, position)
         if position > end:
             raise DamagedBag("a chunk ends within a record")
-        usual = _USUAL.fullmatch(header) if len(header) == _USUAL_SIZE else None
-        if usual is not None:
-            connection, seconds, nanoseconds = _NUMBERS.unpack(usual[1] + usual[2])
-            time = seconds * 10**9 + nanoseconds
-            yield RawMessage(connection, time, view[content:position])
-            continue
         fields = _fields(header)
         yield _op(fields), fields, view[content:position]
 

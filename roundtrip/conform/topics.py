@@ -32,7 +32,7 @@ Build: TypeAlias = Callable[[Sequence[Any], float, Place, str], Event]
 class Topic:
     """A topic of the model without its namespace, the type of its messages, and what they tell.
 
-    Of states `fields` are read, and `build` makes the event of their values: there are many.
+    Where there are many, `fields` are read, and `build` makes the event of their values.
     """
 
     name: str

@@ -307,8 +307,9 @@ def test_topics_of_a_package_that_people_wrote(tmp_path: Path) -> None:
     assert answer["deviation"]["kind"] == "lost message"
     assert answer["deviation"]["rebec"] == "thermostat"
     assert answer["deviation"]["code"]["path"].endswith("src/thermostat.py")
-    done = rebsync("conform", PEOPLE, str(faulty), cwd=tmp_path)
+    done = rebsync("conform", PEOPLE, str(faulty), "--format", "github", cwd=tmp_path)
     assert done.status == 1, done.out  # whatever the nodes did before
+    assert re.match(r"::error file=.*/src/thermostat.py,line=\d+,", done.out), done.out
 
 
 def test_properties_times_and_page_of_topics(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from tests.ros1.run import Clock, run
 from tests.ros1.workspace import Workspace
 
 PlayCase = Callable[[str], Recording]
+RecordProperty = Callable[[str, object], None]
 VIOLATED = {"inheritance": "Station.arrived", "rebecs": "Node.visit"}  # messages to nobody
 
 NAMES = ("inheritance", "interfaces", "overloads", "rebecs")
@@ -32,27 +33,32 @@ def hard(
 
 @pytest.fixture
 def play_case(
-    dialect: str, hard: Workspace, tmp_path: Path, record_property: Callable[[str, object], None]
+    dialect: str, hard: Workspace, tmp_path: Path, record_property: RecordProperty
 ) -> PlayCase:
-    """Runs a case by its name: it does what its model says, up to where that breaks a rule."""
+    """Runs a case by its name."""
 
     def play(name: str) -> Recording:
         launch = hard.root / "src" / name / "launch" / f"{name}.launch"
         recording = run(hard, launch, tmp_path, Clock(until=12, quiet=5))
         note(recording.run_log, name, dialect)
-        case = CASES / f"{name}.rebeca"
-        found = compared(case, recording.run_log, case_config(case))
-        record_property(FIDELITY, fidelity(f"{name} {dialect}", found))
-        if name in VIOLATED:
-            assert found.deviation is not None
-            assert found.verdict == "violated"
-            assert VIOLATED[name] in found.deviation.message
-        else:
-            assert found.verdict == "conforms", found.deviation or found.reason
-            assert found.compared == found.recorded
+        assert_is_run(name, dialect, recording.run_log, record_property)
         return recording
 
     return play
+
+
+def assert_is_run(name: str, dialect: str, log: Path, record_property: RecordProperty) -> None:
+    """A case has done what its model says, up to where that breaks a rule."""
+    case = CASES / f"{name}.rebeca"
+    found = compared(case, log, case_config(case))
+    record_property(FIDELITY, fidelity(f"{name} {dialect}", found))
+    if name in VIOLATED:
+        assert found.deviation is not None
+        assert found.verdict == "violated"
+        assert VIOLATED[name] in found.deviation.message
+    else:
+        assert found.verdict == "conforms", found.deviation or found.reason
+        assert found.compared == found.recorded
 
 
 def test_inheritance(play_case: PlayCase) -> None:

@@ -8,9 +8,12 @@ from pathlib import Path
 import pytest
 
 from tests.forward.compiling import CASES, case_config, case_files, written
+from tests.ros1.fidelity import log_of
 from tests.ros1.recording import Recording
 from tests.ros1.test_hard_cases import (
     PlayCase,
+    RecordProperty,
+    assert_is_run,
     test_inheritance,
     test_interfaces,
     test_overloads,
@@ -22,12 +25,14 @@ __all__ = ["test_inheritance", "test_interfaces", "test_overloads", "test_rebecs
 
 
 @pytest.fixture
-def play_case(tmp_path: Path) -> PlayCase:
+def play_case(tmp_path: Path, record_property: RecordProperty) -> PlayCase:
     """Runs a case by its name."""
 
     def played(name: str) -> Recording:
         case = CASES / f"{name}.rebeca"
         config = replace(case_config(case), target="ros2-py")
-        return play(written(case_files(case, "ros2-py"), tmp_path, name, config), 12)
+        recording = play(written(case_files(case, "ros2-py"), tmp_path, name, config), 12)
+        assert_is_run(name, "ros2-py", log_of(recording, tmp_path), record_property)
+        return recording
 
     return played

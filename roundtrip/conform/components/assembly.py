@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import heapq
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import field
 from itertools import chain
 from math import inf
 
 from rebsync import model as m
-from rebsync.checker.program import Cell, Program
+from rebsync.checker.program import Program
 from rebsync.records import dataclass
-from rebsync.reverse.texts import OTHER
 from rebsync.roundtrip.conform.components.bodies import ComponentBodies
 from rebsync.roundtrip.conform.components.component import (
     UNORDERED,
+    Cells,
     Component,
     Input,
     Output,
@@ -28,9 +28,9 @@ from rebsync.roundtrip.conform.components.interface import (
     Interface,
     Received,
     Unmodelled,
-    cells_of,
     interfaces,
     parameter_names,
+    reader,
 )
 from rebsync.roundtrip.conform.components.spool import Spool
 from rebsync.roundtrip.conform.conformance import Deviation
@@ -92,7 +92,9 @@ class _Assembler:
     begin: float = inf
     end: float = -inf
     _heard: dict[str, Spool[Heard]] = field(default_factory=dict)
+    _publishers: dict[str, dict[str, None]] = field(default_factory=dict)
     _links: dict[str, tuple[str, Link]] = field(default_factory=dict)
+    _latest: dict[str, float] = field(default_factory=dict)
     _jumps: set[str] = field(default_factory=set)
 
     # --- reading
@@ -118,12 +120,7 @@ class _Assembler:
                 self.found.open.append(f"it can be compared up to there: {event.why}")
                 break
             if isinstance(event, Heard):
-                of_topic = self._heard.setdefault(event.topic, Spool())
-                if of_topic and event.stamp < of_topic[-1].stamp - _JUMP:
-                    self._jumps.add(event.topic)
-                of_topic.append(event)
-                self.begin = min(self.begin, event.stamp)
-                self.end = max(self.end, event.stamp)
+                self._hear(event)
         for topic in sorted(self._jumps):
             why = f"the clock jumps back in the messages on {topic}"
             self.found.open.append(why)
@@ -138,6 +135,18 @@ class _Assembler:
                 self.found.notes.append(
                     f"not compared of {link.topic}, as no model has it: {names}"
                 )
+
+    def _hear(self, event: Heard) -> None:
+        topic, stamp = event.topic, event.stamp
+        if topic not in self._heard:
+            self._heard[topic], self._publishers[topic] = Spool(), {}
+        elif stamp < self._latest[topic] - _JUMP:
+            self._jumps.add(topic)
+        self._heard[topic].append(event)
+        self._publishers[topic][event.publisher] = None
+        self._latest[topic] = stamp
+        self.begin = min(self.begin, stamp)
+        self.end = max(self.end, stamp)
 
     # --- one rebec
 
@@ -236,10 +245,10 @@ class _Assembler:
     def _outputs(self, interface: Interface, link: str) -> Spool[Output]:
         server, found = self._servers(self._environment())[link], Spool[Output]()
         places = self._places(link)
-        for heard in self._own(interface, link):
-            values = [heard.values[n] for n in places]
-            cells = self._cells(server, values)
-            found.append(Output(heard.stamp, cells, heard.place, tuple(values)))
+        cells_of = self._reader(server)
+        for _, values, stamp, file, number, _ in self._own(interface, link):
+            values = tuple([values[n] for n in places])
+            found.append(Output(stamp, cells_of(values), values, file, number))
         self.found.recorded += len(found)
         return found
 
@@ -247,8 +256,7 @@ class _Assembler:
         """The messages of a topic that a rebec has published. NotCompared: who has, is not said."""
         topic = self._topic(link)
         publishers = [i.rebec for i in self.interfaces if link in i.published]
-        heard = self._heard[topic]
-        callers = dict.fromkeys(h.publisher for h in heard)
+        callers = self._publishers[topic]
         by_name = {c: c.rpartition("/")[2] for c in callers}
         mine = {c for c, name in by_name.items() if name == interface.rebec}
         if len(publishers) == 1 and not mine:
@@ -257,7 +265,7 @@ class _Assembler:
             both = " and ".join(publishers)
             raise NotCompared(f"{both} publish on {topic}, and the recording does not say which")
         strangers = {c for c, name in by_name.items() if c not in mine and name not in publishers}
-        for each in heard:
+        for each in self._heard[topic]:
             if each.publisher in mine:
                 yield each
             elif each.publisher in strangers:
@@ -287,12 +295,15 @@ class _Assembler:
         of_link = self._places(received.link)
         places = [of_link[n] for n in received.places]
         inside = sum(received.link in i.published for i in self.interfaces)
+        cells_of = self._reader(server)
         lanes: dict[str, int] = {}
         for each, near in _near(_by_stamp(heard), slack):
-            cells = self._cells(server, [each.values[n] for n in places])
+            cells = cells_of([each.values[n] for n in places])
             lane = UNORDERED
             if each.publisher or inside == 1:
-                lane = lanes.setdefault(each.publisher, self._lane(topic, len(lanes)))
+                if each.publisher not in lanes:
+                    lanes[each.publisher] = self._lane(topic, len(lanes))
+                lane = lanes[each.publisher]
             yield Input(each.stamp, server, cells, lane, 0 < depth < near)
 
     def _lane(self, topic: str, number: int) -> int:
@@ -303,13 +314,8 @@ class _Assembler:
         names = self.closed.links[link].parameters
         return [names.index(name) for name in parameter_names(self.model, link)]
 
-    def _cells(self, server: int, values: Sequence[object]) -> tuple[Cell, ...]:
-        """What the parameters of a server hold, texts as the numbers that they are there."""
-        texts = self.closed.extracted.texts
-        numbers = [
-            (texts.index(v) if v in texts else OTHER) if isinstance(v, str) else v for v in values
-        ]
-        return cells_of(self.program, server, numbers)
+    def _reader(self, server: int) -> Callable[[Sequence[object]], Cells]:
+        return reader(self.program, server, self.closed.extracted.texts)
 
 
 def _stamp(event: Heard | Input) -> float:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 from rebsync.checker.program import Cell, Program
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.components.bodies import ComponentBodies
+from rebsync.roundtrip.conform.components.spool import Spool
 from rebsync.roundtrip.conform.recording import Place
 
 UNORDERED = -1  # the lane of messages whose publisher is not known
@@ -33,8 +33,14 @@ class Output(NamedTuple):
 
     stamp: float
     cells: Cells
-    place: Place
     values: tuple[object, ...]
+    file: int
+    number: int
+
+    @property
+    def place(self) -> Place:
+        """Where in the recordings it is."""
+        return Place(self.file, self.number)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +68,9 @@ class Component:
     rebec: int
     bodies: ComponentBodies
     timing: Timing
-    inputs: Sequence[Input]
+    inputs: Spool[Input]
     topics: tuple[str, ...]
-    outputs: tuple[Sequence[Output], ...]
+    outputs: tuple[Spool[Output], ...]
     by_server: dict[int, int]
     conflicts: frozenset[tuple[int, int]] = frozenset()
     in_threads: bool = False

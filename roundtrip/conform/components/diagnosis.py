@@ -7,6 +7,7 @@ from math import inf
 from typing import NamedTuple
 
 from rebsync.checker.endless import EndlessBody
+from rebsync.checker.program import Cell
 from rebsync.model import MessageServer, Model, ReactiveClass, walk
 from rebsync.roundtrip.conform.components.bodies import Publication
 from rebsync.roundtrip.conform.components.component import Component, Output
@@ -51,9 +52,8 @@ class TopicDiagnosis:
     def of(self, found: Inclusion) -> Deviation:
         """The first message that is not the model's, by the hypothesis that came furthest."""
         best = max(found.dead, key=lambda dead: dead.progress)
-        expected = sorted(
-            {e for dead in found.dead if dead.matched == best.matched for e in self._expected(dead)}
-        )
+        alike = (dead for dead in found.dead if dead.matched == best.matched)
+        expected = sorted({e for dead in alike for e in self._expected(dead)}, key=_order)
         following = self._next(best)
         kind, why, output, at = self._reason(best, expected, following)
         allowed = tuple(dict.fromkeys(map(self._allowed, expected)))[:_FEW]
@@ -131,7 +131,7 @@ class TopicDiagnosis:
             why = "it was published before, and the model publishes it once"
             return Reason("repeated", why, output, output.stamp)
         early = [e for e in expected if e.topic == topic and e.low > output.stamp]
-        if early and self.search.is_output(topic, number, early[0].sent):
+        if early and self.search.is_output(output, early[0].sent):
             why = f"the model publishes it from {early[0].low:.3f} s on"
             return Reason("early", why, output, output.stamp)
         return Reason("unexpected", "the model publishes nothing then", output, output.stamp)
@@ -158,9 +158,7 @@ class TopicDiagnosis:
     def _is(self, dead: Hypothesis, expected: Expected, further: int) -> bool:
         number = dead.matched[expected.topic] + further
         outputs = self.component.outputs[expected.topic]
-        return number < len(outputs) and self.search.is_output(
-            expected.topic, number, expected.sent
-        )
+        return number < len(outputs) and self.search.is_output(outputs[number], expected.sent)
 
     def _unlike(self, dead: Hypothesis, expected: Expected, recorded: Sequence[Output]) -> Reason:
         """Another message was recorded when the model publishes."""
@@ -193,18 +191,23 @@ class TopicDiagnosis:
         return Allowed(self.component.name, server, "", start, start, state, 0)
 
 
+def _order(expected: Expected) -> tuple[float, float, int, tuple[Cell, ...], int, int]:
+    low, high, topic, sent, server = expected
+    return low, high, topic, sent.cells, sent.after, server
+
+
 def _code_of(server: MessageServer) -> CodePlace | None:
     spans = (getattr(node, "span", None) for node in walk(server))
     found = next((span for span in spans if isinstance(span, SourceSpan)), None)
     if found is None:
         return None
-    return CodePlace(found.source.path, found.source.position(found.start).line)
+    return CodePlace(found.source.path, found.source.position(found.start).line, found)
 
 
 def _overdue(dead: Hypothesis) -> list[Candidate]:
     """What should have been served, and was not in time."""
     due = sorted(dead.pending, key=lambda p: p.high)[:1]
-    return [Candidate(p.server, p.cells, p.low, p.high, -1, p) for p in due]
+    return [Candidate(p.server, p.cells, p.low, p.high, p) for p in due]
 
 
 def _shown(output: Output | None) -> str:

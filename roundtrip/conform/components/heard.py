@@ -5,13 +5,14 @@ from __future__ import annotations
 import heapq
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice, zip_longest
+from typing import Any
 
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.bags import OwnTypes
 from rebsync.roundtrip.conform.components.spool import Spool
 from rebsync.roundtrip.conform.reading import check_readable, events_of
 from rebsync.roundtrip.conform.recording import Event, Heard, Place
-from rebsync.roundtrip.conform.topics import Convert, Message, Topic
+from rebsync.roundtrip.conform.topics import Message, Topic
 
 
 class _Names:
@@ -29,7 +30,7 @@ class _FieldChoice:
     """Reads of topics the fields at some paths."""
 
     def __init__(self, wanted: Mapping[str, Sequence[str]]) -> None:
-        self._topics = {name: Topic(name, "", _convert(name, at)) for name, at in wanted.items()}
+        self._topics = {name: _topic(name, at) for name, at in wanted.items()}
 
     def topic(self, name: str, path: str) -> Topic | None:
         """The topic, if its messages are wanted."""
@@ -41,18 +42,21 @@ def absolute(name: str) -> str:
     return f"/{name.strip('/')}"
 
 
-def _convert(name: str, paths: Sequence[str]) -> Convert:
+def _topic(name: str, paths: Sequence[str]) -> Topic:
     split = [path.split(".") for path in paths]
 
+    def build(values: Sequence[object], stamp: float, place: Place, publisher: str) -> Event:
+        return Heard(name, tuple(values), stamp, place.file, place.number, publisher)
+
     def convert(message: Message, stamp: float, place: Place, publisher: str) -> Event:
-        return Heard(name, tuple(_at(message, words) for words in split), stamp, place, publisher)
+        return build([_at(message, words) for words in split], stamp, place, publisher)
 
-    return convert
+    return Topic(name, "", convert, False, tuple(paths), build)
 
 
-def _at(message: object, words: Sequence[str]) -> object:
+def _at(message: Any, words: Sequence[str]) -> object:  # noqa: ANN401
     for word in words:
-        message = message[word] if isinstance(message, Mapping) else getattr(message, word)
+        message = message[word]
     return message
 
 
@@ -96,7 +100,7 @@ class HeardRecordings:
         for event in self._merged(wanted):
             if isinstance(event, Heard) and spans.is_shared(event):
                 files = shared.setdefault(event.topic, {})
-                files.setdefault(event.place.file, Spool()).append(event.values)
+                files.setdefault(event.file, Spool()).append(event.values)
         return {topic: _agree(list(files.values())) for topic, files in shared.items()}
 
     def _merged(self, wanted: Mapping[str, Sequence[str]]) -> Iterator[Event]:
@@ -139,8 +143,8 @@ class _Spans:
     def see(self, heard: Heard) -> None:
         """Takes a message into account."""
         files = self._of.setdefault(heard.topic, {})
-        first, last = files.get(heard.place.file, (heard.stamp, heard.stamp))
-        files[heard.place.file] = min(first, heard.stamp), max(last, heard.stamp)
+        first, last = files.get(heard.file, (heard.stamp, heard.stamp))
+        files[heard.file] = min(first, heard.stamp), max(last, heard.stamp)
 
     def is_shared(self, heard: Heard) -> bool:
         """Whether another file has messages on the topic before and after this one."""
@@ -148,11 +152,11 @@ class _Spans:
 
     def has_two(self, heard: Heard) -> bool:
         """Whether one that began before does, so that it has the message, too."""
-        own = heard.place.file
+        own = heard.file
         begun = self._of[heard.topic][own][0], own
         return any((first, file) < begun for file, first in self._others(heard))
 
     def _others(self, heard: Heard) -> Iterator[tuple[int, float]]:
         for file, (first, last) in self._of[heard.topic].items():
-            if file != heard.place.file and first <= heard.stamp <= last:
+            if file != heard.file and first <= heard.stamp <= last:
                 yield file, first

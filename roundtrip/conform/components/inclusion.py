@@ -10,7 +10,8 @@ Errors of time do not add up: each body is counted from what caused it, and from
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterable, Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
 from itertools import count
 from math import inf
 from typing import Literal, NamedTuple
@@ -19,13 +20,22 @@ from rebsync.checker.endless import EndlessBody
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.components.bodies import BodyRun, Publication
-from rebsync.roundtrip.conform.components.component import UNORDERED, Cells, Component
+from rebsync.roundtrip.conform.components.component import (
+    UNORDERED,
+    Cells,
+    Component,
+    Input,
+    Output,
+)
 from rebsync.roundtrip.conform.components.interface import is_same
 from rebsync.roundtrip.conform.components.spool import Spool
 
 CONNECTS = 2.0  # s after a node has shown itself in which its topics may not be connected yet
 BEFORE = 60.0  # s before a recording in which nodes may have begun
 _KEPT = 20  # hypotheses that came furthest
+
+Fit = tuple[float, float, tuple[int, ...]]
+"""When a body may have run, and how many outputs of each topic fit then."""
 
 
 class Posted(NamedTuple):
@@ -63,14 +73,16 @@ class Hypothesis(NamedTuple):
 
 
 class Candidate(NamedTuple):
-    """A message that may be served next, in an interval of time; `input` is -1 of a posted one."""
+    """A message that may be served next, in an interval of time: what the rebec has posted to
+    itself, or an input, by its number, too; neither for the constructor."""
 
     server: int
     cells: Cells
     low: float
     high: float
-    input: int
     posted: Posted | None = None
+    number: int = -1
+    input: Input | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,9 +115,11 @@ class InclusionSearch:
         self._settled = Spool[Hypothesis]()  # the way up to where only one was possible
         self.failures: dict[Failure, None] = {}
         self._timing = component.timing
+        self._received = len(component.inputs)
+        self._recorded = tuple(map(len, component.outputs))
         self._dead: list[Hypothesis] = []
         self._waiting: list[tuple[float, int, Hypothesis]] = []
-        self._seen: dict[float, set[Hypothesis]] = {}
+        self._seen: defaultdict[float, set[Hypothesis]] = defaultdict(set)
         self._numbers = count()
 
     # --- beginnings
@@ -115,7 +129,7 @@ class InclusionSearch:
         nothing = tuple(0 for _ in self.component.outputs)
         low, high = self._timing.begin - BEFORE, self._timing.first
         before = Hypothesis(low, high, (-inf, -inf), (), (), 0, frozenset(), nothing)
-        candidate = Candidate(-1, (), low, high, -1)
+        candidate = Candidate(-1, (), low, high)
         runs = self.component.bodies.constructed()
         return [after for run in runs for after in self._ran(before, candidate, run)]
 
@@ -143,7 +157,7 @@ class InclusionSearch:
             if self._is_complete(hypothesis):
                 return self._ended("fits", "", widest, hypothesis)
             try:
-                after = list(self.successors(hypothesis))
+                after = self.successors(hypothesis)
             except EndlessBody as endless:
                 body = self.component.program.body_at(endless.pc).name
                 return self._ended("cut", f"a body of {body} does not end", widest)
@@ -178,7 +192,7 @@ class InclusionSearch:
         return Inclusion(verdict, reason, dead, self.raced, failures, widest, last)
 
     def _push(self, hypothesis: Hypothesis) -> None:
-        seen = self._seen.setdefault(hypothesis.low, set())
+        seen = self._seen[hypothesis.low]
         if hypothesis not in seen:
             seen.add(hypothesis)
             heapq.heappush(self._waiting, (hypothesis.low, next(self._numbers), hypothesis))
@@ -192,23 +206,21 @@ class InclusionSearch:
 
     def _is_complete(self, hypothesis: Hypothesis) -> bool:
         """Whether all that was recorded is explained, and nothing was due before the end."""
-        outputs = self.component.outputs
-        if any(n < len(all_) for n, all_ in zip(hypothesis.matched, outputs, strict=True)):
+        if hypothesis.matched != self._recorded:
             return False
         return self._latest(hypothesis) >= self._timing.end
 
     # --- steps
 
-    def successors(self, before: Hypothesis) -> Iterator[Hypothesis]:
+    def successors(self, before: Hypothesis) -> list[Hypothesis]:
         """What may happen next. EndlessBody: a body does not end."""
+        found: list[Hypothesis] = []
         for candidate in self.candidates(before):
-            if candidate.input >= 0 and self._may_miss(before, candidate):
-                yield self._missed(before, candidate)
+            if candidate.input is not None and self._may_miss(before, candidate.input):
+                found.append(_missed(before, candidate.number))
             for run in self.runs(before, candidate):
-                if run.failure is not None:
-                    self.failures[run.failure] = None
-                else:
-                    yield from self._ran(before, candidate, run)
+                found += self._ran(before, candidate, run)
+        return found
 
     def runs(self, before: Hypothesis, candidate: Candidate) -> tuple[BodyRun, ...]:
         """The ways to serve a message."""
@@ -217,33 +229,27 @@ class InclusionSearch:
     def candidates(self, before: Hypothesis) -> list[Candidate]:
         """The messages that may be served next: none of the others would be too late then."""
         limit = min(self._latest(before), self._next_output(before))
-        if limit < before.low:
+        earliest, _, (free, _), _, pending, base, taken, _, _, _ = before
+        begin, slack = max(earliest, free), self._timing.slack
+        if limit < begin:
             return []
         found: list[Candidate] = []
-        for each in dict.fromkeys(before.pending):
-            low = max(before.low, each.low - self._timing.slack, before.free[0])
-            high = min(limit, self._upper(before, each.low, each.high))
-            if low <= high:
-                found.append(Candidate(each.server, each.cells, low, high, -1, each))
+        for each in pending:
+            low = max(begin, each.low - slack)
+            if low <= limit:
+                found.append(Candidate(each.server, each.cells, low, limit, each))
         lanes: set[int] = set()
-        for number in self._open_inputs(before):
-            each_in = self.component.inputs[number]
-            if each_in.stamp - self._timing.slack > limit:
+        for number, each_in in enumerate(self.component.inputs.since(base), base):
+            stamp, server, cells, lane, _ = each_in
+            if stamp - slack > limit:
                 break
-            if each_in.lane != UNORDERED:
-                if each_in.lane in lanes:
-                    continue
-                lanes.add(each_in.lane)
-            low = max(before.low, each_in.stamp - self._timing.slack, before.free[0])
-            high = min(limit, self._upper(before, each_in.stamp, each_in.stamp))
-            if low <= high:
-                found.append(Candidate(each_in.server, each_in.cells, low, high, number))
+            if number in taken or lane in lanes:
+                continue
+            if lane != UNORDERED:
+                lanes.add(lane)
+            low = max(begin, stamp - slack)
+            found.append(Candidate(server, cells, low, limit, None, number, each_in))
         return found
-
-    def _open_inputs(self, before: Hypothesis) -> Iterator[int]:
-        for number in range(before.base, len(self.component.inputs)):
-            if number not in before.taken:
-                yield number
 
     def _upper(self, before: Hypothesis, low: float, high: float) -> float:
         """The latest time at which something is served that is due in an interval."""
@@ -251,25 +257,26 @@ class InclusionSearch:
         return (max(high, busy) if low - self._timing.slack <= busy else high) + self._timing.slack
 
     def _latest(self, before: Hypothesis) -> float:
-        """The time up to which something has to be served."""
-        times = [self._upper(before, each.low, each.high) for each in before.pending]
-        latest = min(times, default=inf)
-        for number in self._open_inputs(before):
-            stamp = self.component.inputs[number].stamp
-            if stamp - self._timing.slack > latest:
-                break
+        """The time up to which something has to be served; of inputs the first is due first."""
+        latest = inf
+        for each in before.pending:
+            latest = min(latest, self._upper(before, each.low, each.high))
+        if before.base < self._received:
+            stamp = self.component.inputs[before.base].stamp
             latest = min(latest, self._upper(before, stamp, stamp))
         return latest
 
     def _next_output(self, before: Hypothesis) -> float:
-        both = zip(before.matched, self.component.outputs, strict=True)
-        return min((all_[n].stamp for n, all_ in both if n < len(all_)), default=inf)
+        stamp = inf
+        for topic, number in enumerate(before.matched):
+            if number < self._recorded[topic]:
+                stamp = min(stamp, self.component.outputs[topic][number].stamp)
+        return stamp
 
     # --- inputs that did not come
 
-    def _may_miss(self, before: Hypothesis, candidate: Candidate) -> bool:
+    def _may_miss(self, before: Hypothesis, each: Input) -> bool:
         """Whether an input may not have come: it was not connected yet, or a queue was full."""
-        each = self.component.inputs[candidate.input]
         if each.may_drop or each.stamp <= self.served_before:
             return True
         if self.component.is_bounded and before.free[0] >= each.stamp:
@@ -277,22 +284,18 @@ class InclusionSearch:
         is_new = each.lane == UNORDERED or each.lane not in before.connected
         return is_new and each.stamp <= self._timing.first + self._timing.slack
 
-    def _missed(self, before: Hypothesis, candidate: Candidate) -> Hypothesis:
-        base, taken = _advanced(before, candidate.input)
-        return before._replace(base=base, taken=taken)
-
     # --- bodies
 
-    def _ran(self, before: Hypothesis, candidate: Candidate, run: BodyRun) -> Iterator[Hypothesis]:
+    def _ran(self, before: Hypothesis, candidate: Candidate, run: BodyRun) -> list[Hypothesis]:
         if run.failure is not None:
             self.failures[run.failure] = None
-            return
-        for low, high, matched in self.published(before, candidate, run.published):
-            yield self._after(before, candidate, run, low, high, matched)
+            return []
+        ways = self.published(before, candidate, run.published)
+        return [self._after(before, candidate, run, *way) for way in ways]
 
     def published(
         self, before: Hypothesis, candidate: Candidate, sent: tuple[Publication, ...]
-    ) -> list[tuple[float, float, tuple[int, ...]]]:
+    ) -> list[Fit]:
         """When a body may have run by what it publishes, and the outputs that fit then."""
         ways = [(candidate.low, candidate.high, before.matched)]
         for each in sent:
@@ -301,31 +304,29 @@ class InclusionSearch:
                 ways = [after for way in ways for after in self._fitting(way, topic, each)]
         return ways
 
-    def _fitting(
-        self, way: tuple[float, float, tuple[int, ...]], topic: int, sent: Publication
-    ) -> Iterator[tuple[float, float, tuple[int, ...]]]:
+    def _fitting(self, way: Fit, topic: int, sent: Publication) -> list[Fit]:
+        found: list[Fit] = []
         low, high, matched = way
         number, timing = matched[topic], self._timing
-        outputs, elapsed = self.component.outputs[topic], sent.after * timing.unit
-        if number < len(outputs):
-            stamp = outputs[number].stamp - elapsed
-            if self.is_output(topic, number, sent):
+        elapsed = sent.after * timing.unit
+        if number < self._recorded[topic]:
+            output = self.component.outputs[topic][number]
+            stamp = output.stamp - elapsed
+            if self.is_output(output, sent):
                 first, last = max(low, stamp - timing.slack), min(high, stamp)
                 if first <= last:
                     now = (*matched[:topic], number + 1, *matched[topic + 1 :])
-                    yield first, last, now
+                    found.append((first, last, now))
             high = min(high, stamp)
-        if number == 0 and low + elapsed <= timing.first + CONNECTS and low <= high:
-            yield low, high, matched
-            return
-        low = max(low, timing.end - timing.slack - elapsed)
+        if number or low + elapsed > timing.first + CONNECTS:
+            low = max(low, timing.end - timing.slack - elapsed)
         if low <= high:
-            yield low, high, matched
+            found.append((low, high, matched))
+        return found
 
-    def is_output(self, topic: int, number: int, sent: Publication) -> bool:
+    def is_output(self, output: Output, sent: Publication) -> bool:
         """Whether a recorded message has the values that a body publishes."""
-        recorded = self.component.outputs[topic][number].cells
-        return is_same(self.component.program, sent.server, recorded, sent.cells)
+        return is_same(self.component.program, sent.server, output.cells, sent.cells)
 
     def _after(
         self,
@@ -338,31 +339,24 @@ class InclusionSearch:
     ) -> Hypothesis:
         unit = self._timing.unit
         self.raced |= self._races(before, candidate, low)
-        pending = list(before.pending)
-        if candidate.posted is not None:
-            pending.remove(candidate.posted)
-        pending += (
-            Posted(p.server, p.cells, low + p.after * unit, high + p.after * unit)
-            for p in run.posted
-        )
-        base, taken, connected = before.base, before.taken, before.connected
-        if candidate.input >= 0:
-            base, taken = _advanced(before, candidate.input)
-            connected |= {self.component.inputs[candidate.input].lane}
-        busy = run.busy * unit
-        free = (low + busy, high + busy) if run.busy else before.free
-        variables, last = run.variables, candidate.server
+        _, _, free, _, pending, base, taken, _, connected, _ = before
+        server, _, _, _, posted, number, received = candidate
+        if posted is not None or run.posted:
+            still = list(pending)
+            if posted is not None:
+                still.remove(posted)
+            for after in run.posted:
+                due = after.after * unit
+                still.append(Posted(after.server, after.cells, low + due, high + due))
+            pending = tuple(sorted(still))
+        if received is not None:
+            base, taken = _advanced(before, number)
+            if received.lane not in connected:
+                connected |= {received.lane}
+        if run.busy:
+            free = low + run.busy * unit, high + run.busy * unit
         return Hypothesis(
-            low,
-            high,
-            free,
-            variables,
-            tuple(sorted(pending)),
-            base,
-            taken,
-            matched,
-            connected,
-            last,
+            low, high, free, run.variables, pending, base, taken, matched, connected, server
         )
 
     def _races(self, before: Hypothesis, candidate: Candidate, low: float) -> bool:
@@ -376,10 +370,16 @@ class InclusionSearch:
         return pair in component.conflicts and low - self._timing.slack <= before.high
 
 
+def _missed(before: Hypothesis, number: int) -> Hypothesis:
+    base, taken = _advanced(before, number)
+    return before._replace(base=base, taken=taken)
+
+
 def _advanced(before: Hypothesis, number: int) -> tuple[int, frozenset[int]]:
     """The inputs that were taken with one more."""
-    taken, base = {*before.taken, number}, before.base
-    while base in taken:
-        taken.remove(base)
+    if number > before.base:
+        return before.base, before.taken | {number}
+    base = number + 1
+    while base in before.taken:
         base += 1
-    return base, frozenset(taken)
+    return base, frozenset(n for n in before.taken if n > base)

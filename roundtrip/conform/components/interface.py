@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from rebsync import model as m
 from rebsync.checker.program import Cell, Kind, Program
 from rebsync.checker.values import cell_of, real
 from rebsync.records import dataclass
+from rebsync.reverse.texts import OTHER
 from rebsync.roundtrip.conform.components.environment import CLASS, Link
 from rebsync.roundtrip.conform.observable import is_close
 
@@ -140,16 +141,27 @@ class Unmodelled(Exception):
     """A value that no variable of the model holds; the text says which."""
 
 
-def cells_of(program: Program, server: int, values: Sequence[object]) -> tuple[Cell, ...]:
-    """The arguments of a server by the values of fields. Unmodelled: the model has none such."""
-    cells: list[Cell] = []
+def reader(
+    program: Program, server: int, texts: Sequence[str]
+) -> Callable[[Sequence[object]], tuple[Cell, ...]]:
+    """What makes the arguments of a server of the values of fields, texts as their numbers.
+
+    Unmodelled: the model has none such.
+    """
     parameters = program.bodies[program.servers[server].body].parameters
-    for slot, value in zip(parameters, values, strict=True):
-        elements = _elements(value)
-        if len(elements) != slot.size:
-            raise Unmodelled(f"{slot.name} has {len(elements)} elements, not {slot.size}")
-        cells += (cell_of_field(slot.name, slot.kind, each) for each in elements)
-    return tuple(cells)
+
+    def cells_of(values: Sequence[object]) -> tuple[Cell, ...]:
+        cells: list[Cell] = []
+        for slot, value in zip(parameters, values, strict=True):
+            if isinstance(value, str):
+                value = texts.index(value) if value in texts else OTHER
+            elements = [value] if isinstance(value, (int, float)) else _elements(value)
+            if len(elements) != slot.size:
+                raise Unmodelled(f"{slot.name} has {len(elements)} elements, not {slot.size}")
+            cells += [cell_of_field(slot.name, slot.kind, each) for each in elements]
+        return tuple(cells)
+
+    return cells_of
 
 
 def _elements(value: Any) -> list[object]:  # noqa: ANN401

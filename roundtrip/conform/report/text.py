@@ -91,24 +91,29 @@ def property_line(evaluated: Evaluated) -> str:
 
 
 def findings(found: Conformance, subject: Subject) -> tuple[Findings, ...]:
-    """What is wrong, with places in the model."""
-    all_ = tuple(_diagnostics(found, subject))
-    return (Findings(subject.source, all_),) if all_ else ()
+    """What is wrong, with places in the model, or in code that people wrote."""
+    deviating = _deviating(found, found.deviation, subject) if found.deviation is not None else ()
+    others = tuple(_diagnostics(found))
+    return (*deviating, Findings(subject.source, others)) if others else deviating
 
 
-def _diagnostics(found: Conformance, subject: Subject) -> Iterator[Diagnostic]:
-    deviation = found.deviation
-    if deviation is not None:
-        code = "RS986" if found.verdict == "violated" else "RS980"
-        hint = None
-        if deviation.allowed:
-            shown = [allowed_line(a) for a in deviation.allowed[:_FEW]]
-            hint = "the model allows " + ", or ".join(shown)
-        message = f"{deviation.kind}: {deviation.message}"
-        if deviation.code is not None:
-            message += f" (in the code: {deviation.code.path}:{deviation.code.line})"
-        yield Diagnostic(code, _line(subject, deviation.line), message, hint)
-    elif found.verdict == "undetermined":
+def _deviating(found: Conformance, deviation: Deviation, subject: Subject) -> tuple[Findings, ...]:
+    code = "RS986" if found.verdict == "violated" else "RS980"
+    hint = None
+    if deviation.allowed:
+        shown = [allowed_line(a) for a in deviation.allowed[:_FEW]]
+        hint = "the model allows " + ", or ".join(shown)
+    message = f"{deviation.kind}: {deviation.message}"
+    source, span, place = subject.source, _line(subject, deviation.line), deviation.code
+    if place is not None and place.span is not None:
+        source, span = place.span.source, Span(place.span.start, place.span.end)
+    elif place is not None:
+        message += f" (in the code: {place.path}:{place.line})"
+    return (Findings(source, (Diagnostic(code, span, message, hint),)),)
+
+
+def _diagnostics(found: Conformance) -> Iterator[Diagnostic]:
+    if found.verdict == "undetermined" and found.deviation is None:
         yield Diagnostic("RS984", NOWHERE, found.reason, severity=Severity.WARNING)
     for evaluated in found.properties:
         if evaluated.verdict == "violated":

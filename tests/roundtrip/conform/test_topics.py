@@ -221,6 +221,11 @@ def test_what_messages_took_is_measured(tmp_path: Path) -> None:
 # --- what is not known
 
 
+def test_choices_that_lead_equally_far_are_told(tmp_path: Path) -> None:
+    hasty = TopicBounds(3, False, 0.02)  # by less than this run is late
+    assert of("doors", recorded("doors", 0, 40), tmp_path, hasty).verdict == "undetermined"
+
+
 def test_a_refusal_is_open_where_the_states_before_are_not_known(tmp_path: Path) -> None:
     log = recorded("counter", 5)
     own = [n for n, message in enumerate(log) if message["topic"] == "/count"]
