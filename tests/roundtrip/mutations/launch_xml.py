@@ -106,7 +106,9 @@ KINDS = (
     Kind(
         "parameter set in the launch file",
         in_files(
-            ".launch", r"(<launch>\n)", r'\1  <param name="mailbox/time_unit" value="2.0"/>\n'
+            ".launch",
+            r'(  <rosparam param="mailbox/rebecs">)',
+            r'  <param name="mailbox/time_unit" value="2.0"/>\n\1',
         ),
     ),
     Kind("launch file gone", gone(".launch")),
