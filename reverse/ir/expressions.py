@@ -153,7 +153,8 @@ class Attribute:
 class Index:
     """An element of a container by its index or key; a part of it where the index is a slice.
 
-    `from_end` is whether negative indices count from the end.
+    `from_end` is whether negative indices count from the end. It fails where there is no such
+    element, unless it is not `checked`: then it is undefined.
     """
 
     object: Expression
@@ -161,6 +162,7 @@ class Index:
     type: Type = UNKNOWN
     dynamic: bool = True
     from_end: bool = True
+    checked: bool = field(default=True, compare=False)
     place: Span = place_field()
 
 

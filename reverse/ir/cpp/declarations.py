@@ -22,6 +22,7 @@ from rebsync.reverse.ir.cpp.initialisation import by_arguments, by_value, initia
 from rebsync.reverse.ir.cpp.names import field_of
 from rebsync.reverse.ir.cpp.objects import (
     address,
+    as_value,
     default_constructed,
     dereferenced,
     ends_with_scope,
@@ -293,7 +294,8 @@ def bind_parts(context: Context, binding: Node, whole: Value, place: Span) -> No
     for number, name in enumerate(names):
         if isinstance(whole.type, t.Array):
             at = e.Literal(number, t.Integer(64), place=place)
-            found = e.Index(whole.expression, at, whole.type.element, False, False, place)
+            element = whole.type.element
+            found = e.Index(whole.expression, at, element, False, False, False, place)
             context.bind(name, Value(found, whole.type.element, is_lvalue=True))
         elif fields is None:
             found_unknown = e.Attribute(whole.expression, str(number), t.UNKNOWN, True, place)
@@ -324,17 +326,22 @@ def _static_local(
     name, place = declared_name(declarator), context.place(node)
     declared = context.world.types.declared(context.cpp, context.scope, type_node, declarator)
     is_auto = "auto" in text_of(type_node).split()
-    if name is None or declared.reference is not ReferenceKind.NONE or is_auto:
+    if name is None or declared.reference is not ReferenceKind.NONE:
         raise Unlowered("a static local of this kind")
     own = context.unique(f"static {text_of(name)}")
     static = e.Global(context.name, own.removeprefix("static "), declared.type, place)
+    type_ = declared.type
     ready = e.Global(context.name, f"{static.name} is initialised", t.TRUTH, place)
     with context.body() as body, context.full_expression():
         if value is None:
             default_constructed(context, static, declared.type, place)
+        elif is_auto:
+            first = lower_value(context, value)
+            type_, static = first.type, replace(static, type=first.type)
+            context.emit(s.Assign(static, as_value(context, first, place), place))
         else:
             initialised(context, static, declared.type, value)
         context.emit(s.Assign(ready, e.Literal(True, t.TRUTH, place=place), place))
     test = e.Unary(Operator.NOT, ready, t.TRUTH, False, place)
     context.emit(s.If(test, tuple(body), (), False, place))
-    context.bind(text_of(name), Value(static, declared.type, is_lvalue=True))
+    context.bind(text_of(name), Value(static, type_, is_lvalue=True))

@@ -341,10 +341,10 @@ def element(context: Context, of: Value, index: Value, place: Span) -> Value:
             return called
         case t.Reference():
             # What the pointer leads into is not known: any element of it.
-            found = e.Index(of.expression, index.expression, of.type.to, True, False, place)
+            found = e.Index(of.expression, index.expression, of.type.to, True, False, False, place)
             return Value(found, of.type.to, is_lvalue=True)
         case _:
-            found = e.Index(of.expression, index.expression, t.UNKNOWN, True, False, place)
+            found = e.Index(of.expression, index.expression, t.UNKNOWN, True, False, False, place)
             return Value(found, t.UNKNOWN, is_lvalue=True)
 
 
@@ -354,7 +354,7 @@ def _element(context: Context, of: Value, index: Value, type_: t.Type, place: Sp
     else:
         at = implicitly(context, index, SIZE, place).expression
     is_dynamic = not isinstance(index.type, t.Integer | t.Enumeration | t.Truth)
-    found = e.Index(of.expression, at, type_, is_dynamic, False, place)
+    found = e.Index(of.expression, at, type_, is_dynamic, False, False, place)
     return Value(found, type_, of.is_lvalue)
 
 
@@ -362,7 +362,7 @@ def _entry(context: Context, of: Value, key: Value, type_: t.Type, place: Span) 
     at = key.expression
     if not isinstance(at, e.Literal | e.Temporary):
         at = context.stored(as_value(context, key, place), key.type, place)
-    found = e.Index(of.expression, at, type_, False, False, place)
+    found = e.Index(of.expression, at, type_, False, False, False, place)
     lacks = e.Binary(Operator.NOT_IN, at, of.expression, t.TRUTH, False, place)
     with context.body() as body:
         value = default_value(context, type_, place)

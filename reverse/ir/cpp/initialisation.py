@@ -134,6 +134,10 @@ def _filled(
     if len(values) == 1 and values[0].type == type_:
         by_value(context, target, type_, values[0], place)
         return
+    if len(values) == 2 and values[0].type == values[1].type == t.UNKNOWN:
+        arguments = tuple(s.CallArgument(as_value(context, v, place)) for v in values)
+        context.emit(s.Call(target, s.LibraryCallee("std::vector"), arguments, place))
+        return
     if not isinstance(values[0].type, t.Integer) or len(values) > 2:
         raise Unlowered("a container made of a range")
     count = implicitly(context, values[0], t.Integer(64, False), place).expression

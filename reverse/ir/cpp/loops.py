@@ -208,7 +208,7 @@ def _over_entries(context: Context, node: Node, range_: Value, place: Span) -> N
     context.emit(s.Call(keys, s.LibraryCallee("std::map::keys", range_.expression), (), place))
     declarator = part(node, "declarator")
     key = context.temporary(key_type, place)
-    element = e.Index(range_.expression, key, value_type, False, False, place)
+    element = e.Index(range_.expression, key, value_type, False, False, False, place)
     first, second = Value(key, key_type), Value(element, value_type, is_lvalue=True)
     with context.scoped(), context.body() as start:
         declared, name = _declared(context, node, declarator, t.UNKNOWN)

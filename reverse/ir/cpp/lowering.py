@@ -79,6 +79,15 @@ class CppLowering:
             if _has_implicit(self.world, owner) and name not in self._defined():
                 self._implicit[name] = owner
 
+    def file_of(self, name: str) -> Cpp:
+        """The file that a function or lambda of the program stands in."""
+        around = self._lambdas.get(name, name)
+        if around in self._modules:
+            return self._modules[around]
+        if around in self._implicit:
+            return self._implicit[around].cpp
+        return self.world.symbols.functions[around].code.cpp
+
     def program(self) -> Program:
         """The program, of which nothing is lowered yet."""
         for name, function in self._defined().items():

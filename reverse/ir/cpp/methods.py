@@ -116,7 +116,7 @@ def _indexed(of: Value, index: int, element: t.Type | None, place: Span) -> Valu
     if element is None:
         return None
     at = e.Literal(index, t.Integer(64), place=place)
-    found = e.Index(of.expression, at, element, False, index < 0, place)
+    found = e.Index(of.expression, at, element, False, index < 0, False, place)
     return Value(found, element, of.is_lvalue)
 
 
@@ -131,7 +131,8 @@ def _at(context: Context, of: Value, node: Node, place: Span) -> Value | None:
         if found is None or not isinstance(index.type, t.Integer):
             return None
         element, at = found, index.expression
-    return Value(e.Index(of.expression, at, element, False, False, place), element, of.is_lvalue)
+    entry = e.Index(of.expression, at, element, False, False, True, place)
+    return Value(entry, element, of.is_lvalue)
 
 
 def _put(
