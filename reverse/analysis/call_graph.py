@@ -14,8 +14,10 @@ from rebsync.records import dataclass
 from rebsync.reverse.analysis.locations import CapturedVariable, GlobalVariable, Location, Member
 from rebsync.reverse.analysis.stores import (
     AnyValue,
+    CallResult,
     ClassValue,
     Key,
+    ObjectValue,
     Stores,
     key_of,
     stores_of,
@@ -244,7 +246,7 @@ class CallGraph:
         found = NO_TARGETS
         for name, value in self.stores.of(key):
             match value:
-                case AnyValue():
+                case AnyValue() | ObjectValue() | CallResult():
                     found = found.join(UNKNOWN_TARGETS)
                 case ClassValue(class_name):
                     found = found.join(self.construction(class_name))

@@ -27,6 +27,20 @@ class ClassValue:
 
 
 @dataclass(frozen=True, slots=True)
+class ObjectValue:
+    """A new object of a class of the program."""
+
+    class_name: str
+
+
+@dataclass(frozen=True, slots=True)
+class CallResult:
+    """What a call gives."""
+
+    call: s.Call
+
+
+@dataclass(frozen=True, slots=True)
 class TemporaryVariable:
     """A temporary of a function."""
 
@@ -36,7 +50,8 @@ class TemporaryVariable:
 
 # Locals that nobody captures are `CapturedVariable` here as well.
 Key: TypeAlias = GlobalVariable | CapturedVariable | Member | TemporaryVariable
-Stored: TypeAlias = tuple[str, e.Expression | AnyValue | ClassValue]
+Value: TypeAlias = e.Expression | AnyValue | ClassValue | ObjectValue | CallResult
+Stored: TypeAlias = tuple[str, Value]
 ANY_VALUE = AnyValue()
 
 
@@ -79,7 +94,7 @@ def key_of(target: e.Expression, function: str) -> Key | None:
             return None
 
 
-def _stores(function: Function) -> Iterator[tuple[Key, e.Expression | AnyValue | ClassValue]]:
+def _stores(function: Function) -> Iterator[tuple[Key, Value]]:
     for parameter in function.parameters:
         yield CapturedVariable(function.name, parameter.name), ANY_VALUE
     for node in walk(function):
@@ -91,7 +106,7 @@ def _stores(function: Function) -> Iterator[tuple[Key, e.Expression | AnyValue |
                     yield Member(target.name), value
 
 
-def _stored(node: object) -> Iterator[tuple[e.Expression, e.Expression | AnyValue | ClassValue]]:
+def _stored(node: object) -> Iterator[tuple[e.Expression, Value]]:
     """What one node stores, and where."""
     match node:
         case s.Assign(target, value):
@@ -111,15 +126,16 @@ def _stored(node: object) -> Iterator[tuple[e.Expression, e.Expression | AnyValu
         case s.ForEach(target) | s.Yield(target) | s.Await(target) | s.Handler(_, _, target):
             if target is not None:
                 yield target, ANY_VALUE
-        case s.Call(target) | s.Unsupported(_, _, _, target) | s.With(_, target):
+        case s.Call(target) if target is not None:
+            yield target, CallResult(node)
+        case s.Construct(target, class_name) if target is not None:
+            yield target, ObjectValue(class_name)
+        case s.Unsupported(_, _, _, target) | s.With(_, target):
             if target is not None:
                 yield target, ANY_VALUE
             if isinstance(node, s.Unsupported):
                 for written in node.writes:
                     yield written, ANY_VALUE
-        case s.Construct(target):
-            if target is not None:
-                yield target, ANY_VALUE
         case s.DefineClass(target, name):
             yield target, ClassValue(name)
         case s.Import(target, module, name, is_program) if target is not None:

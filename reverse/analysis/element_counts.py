@@ -1,0 +1,231 @@
+"""How many elements containers have at least, by all that is ever stored and done in a program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+from rebsync.reverse.analysis.origins import FunctionOrigin, Origin, Origins
+from rebsync.reverse.analysis.stores import (
+    AnyValue,
+    CallResult,
+    ClassValue,
+    Key,
+    ObjectValue,
+    Stored,
+    key_of,
+)
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.walk import Node, walk
+from rebsync.reverse.libraries.outcome_rules import Size, Tells
+
+_LIMIT = 8  # sizes from here on are one
+
+
+class ElementCounts:
+    """The containers of one program."""
+
+    def __init__(self, origins: Origins) -> None:
+        self.origins = origins
+        self.graph = origins.graph
+        self.table = origins.table
+
+    def size(self, value: e.Expression, function: str) -> int:
+        """How many elements a container has at least, whenever that is asked."""
+        return self._size(value, function, {})
+
+    def _size(self, value: e.Expression, function: str, assumed: dict[Key, int]) -> int:
+        match value:
+            case e.Build(_, elements):
+                parts = (
+                    self._size(p.operand, function, assumed) if isinstance(p, e.Spread) else 1
+                    for p in elements
+                )
+                return min(sum(parts), _LIMIT)
+            case e.BuildMapping(_, entries):
+                return int(any(not isinstance(p, e.Spread) for p in entries))
+            case e.Binary(Operator.ADD, left, right):
+                sizes = (self._size(p, function, assumed) for p in (left, right))
+                return min(sum(sizes), _LIMIT)
+            case e.Binary(Operator.MULTIPLY, of, e.Literal(int() as times)):
+                return min(self._size(of, function, assumed) * max(times, 0), _LIMIT)
+            case e.Index(of, e.Slice(low, high, None)):
+                return _of_slice(self._size(of, function, assumed), low, high)
+            case e.Conditional(_, left, right):
+                return min(self._size(p, function, assumed) for p in (left, right))
+            case e.Copy(of) | e.Dereference(of) | e.AddressOf(of):
+                return self._size(of, function, assumed)
+        key = key_of(value, function)
+        return 0 if key is None or self._may_lose(key) else self._least(key, assumed)
+
+    def _least(self, key: Key, assumed: dict[Key, int]) -> int:
+        """The least size that is stored under a name: the greatest that is true of all stores."""
+        if key in assumed:
+            return assumed[key]
+        stored, size = self.graph.stores.of(key), _LIMIT if self.graph.stores.of(key) else 0
+        while size:
+            sizes = (self._stored_size(each, {**assumed, key: size}) for each in stored)
+            least = min(sizes)
+            if least >= size:
+                break
+            size = least
+        return size
+
+    def _stored_size(self, stored: Stored, assumed: dict[Key, int]) -> int:
+        function, value = stored
+        match value:
+            case CallResult(s.Call(_, s.LibraryCallee(name), arguments)) if arguments:
+                copies = self.table.function(name).tells is Tells.SAME
+                return self._size(arguments[0].value, function, assumed) if copies else 0
+            case CallResult(call):
+                return min((self._size(v, f, assumed) for f, v in self._results(call)), default=0)
+            case AnyValue() | ClassValue() | ObjectValue():
+                return 0
+            case _:
+                return self._size(value, function, assumed)
+
+    def _results(self, call: s.Call) -> Iterator[tuple[str, e.Expression]]:
+        """What the functions of the program give that a call may reach."""
+        match call.callee:
+            case s.FunctionCallee(name):
+                called = frozenset[Origin]({FunctionOrigin(name)})
+            case s.ValueCallee(value):
+                called = self.origins.of(value, "")
+            case _:
+                return
+        for origin in called:
+            if isinstance(origin, FunctionOrigin):
+                for node in walk(self.graph.program.function(origin.name)):
+                    if isinstance(node, s.Return) and node.value is not None:
+                        yield origin.name, node.value
+
+    def has_key(self, value: e.Expression, key: e.Literal, function: str) -> bool:
+        """Whether a mapping has something at a constant key, whenever that is asked."""
+        name = key_of(value, function)
+        stored = self.graph.stores.of(name) if name is not None else []
+        return (
+            name is not None
+            and bool(stored)
+            and not self._may_lose(name)
+            and all(_has(v, key) for _, v in stored)
+        )
+
+    def elements(self, value: e.Expression, function: str) -> int:
+        """How many elements each element of a container has at least."""
+        match value:
+            case e.Build(_, parts):
+                return min(
+                    (self.size(p, function) for p in parts if not isinstance(p, e.Spread)),
+                    default=0,
+                )
+            case e.Dereference(of) | e.Copy(of) | e.Index(of, e.Slice()):
+                return self.elements(of, function)
+        key = key_of(value, function)
+        if key is None or key in self._growing:
+            return 0
+        return min((self._elements(each) for each in self.graph.stores.of(key)), default=0)
+
+    def _elements(self, stored: Stored) -> int:
+        function, value = stored
+        match value:
+            case CallResult(s.Call(_, s.LibraryCallee(name), arguments)) if arguments:
+                tells = self.table.function(name).tells
+                if tells is Tells.PAIRS:
+                    return max(2, len(arguments))
+                is_same = tells is Tells.SAME
+                return self.elements(arguments[0].value, function) if is_same else 0
+            case CallResult(s.Call(_, s.MethodCallee(_, name))):
+                return 2 if self.table.method(None, name).tells is Tells.PAIRS else 0
+            case AnyValue() | ClassValue() | ObjectValue() | CallResult():
+                return 0
+            case _:
+                return self.elements(value, function)
+
+    @cached_property
+    def _growing(self) -> frozenset[Key | None]:
+        """The names of containers that get more elements."""
+        found = set[Key | None]()
+        for name in self.origins.own:
+            for node in walk(self.graph.program.function(name)):
+                match node:
+                    case s.Call(_, s.MethodCallee(receiver, method)):
+                        size = self.table.method(None, method).size
+                        if size in (Size.GROWS, Size.MORE):
+                            found.add(key_of(receiver, name))
+                    case _:
+                        pass
+        return frozenset(found)
+
+    def _may_lose(self, key: Key) -> bool:
+        """Whether elements may be taken out of what is stored under a name, by whatever name."""
+        return self._losing is None or key in self._losing
+
+    @property
+    def keeps_elements(self) -> bool:
+        """Whether no function takes elements out of containers."""
+        return self._losing == frozenset()
+
+    def has_other_names(self, container: e.Local, function: str) -> bool:
+        """Whether a container may be known by another name than that of a local variable."""
+        key = key_of(container, function)
+        assert key is not None
+        stores = self.graph.stores
+        if not stores.of(key) or any(_is_other(v) for _, v in stores.of(key)):
+            return True
+        kept = (v for found in stores.values.values() for _, v in found)
+        return any(v == container for v in kept)
+
+    @cached_property
+    def _losing(self) -> frozenset[Key] | None:
+        """The names of containers that lose elements; None where these have other names too."""
+        found: set[Key] = set()
+        for name in self.origins.own:
+            for node in walk(self.graph.program.function(name)):
+                if (container := self._loses(node)) is not None:
+                    key = key_of(container, name)
+                    if key is None or any(_is_other(v) for _, v in self.graph.stores.of(key)):
+                        return None
+                    found.add(key)
+        return frozenset(found)
+
+    def _loses(self, node: Node) -> e.Expression | None:
+        """The container that a node may take elements out of."""
+        match node:
+            case s.Delete(e.Index(of)) | s.Assign(e.Index(of, e.Slice())):
+                return of
+            case s.Call(_, s.MethodCallee(of, name)):
+                size = self.table.method(None, name).size
+            case s.Call(_, s.LibraryCallee(name, of)) if of is not None:
+                size = self.table.function(name).size
+            case _:
+                return None
+        return of if size in (Size.LOSES, Size.ANY) else None
+
+
+def _has(value: object, key: e.Literal) -> bool:
+    if not isinstance(value, e.BuildMapping):
+        return False
+    return any(not isinstance(p, e.Spread) and p[0] == key for p in value.entries)
+
+
+def _is_other(value: object) -> bool:
+    """Whether a stored value may be one that another name stands for."""
+    fresh = e.Build | e.BuildMapping | e.Literal | e.Binary | CallResult
+    return not isinstance(value, fresh)
+
+
+def _of_slice(size: int, low: e.Expression | None, high: e.Expression | None) -> int:
+    """How many elements a part has at least of a container of a size."""
+    match low, high:
+        case None, None:
+            return size
+        case e.Literal(int() as first), None if first >= 0:
+            return max(size - first, 0)
+        case e.Unary(Operator.NEGATE, e.Literal(int() as last)), None:
+            return min(size, last)
+        case None, e.Literal(int() as end) if end >= 0:
+            return min(size, end)
+        case _:
+            return 0

@@ -1,0 +1,242 @@
+"""What is known where a statement stands: sizes of containers, keys that are there, what is true.
+
+Facts are about expressions as they are written. An assignment ends those that name its target, and
+whatever may take elements out of a container ends those about all containers.
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from rebsync.records import dataclass
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.walk import walk
+
+_LIMIT = 8
+
+
+@dataclass(frozen=True, slots=True)
+class HasSize:
+    """A container has so many elements, or more."""
+
+    container: e.Expression
+    size: int
+
+
+@dataclass(frozen=True, slots=True)
+class HasKey:
+    """A container has something at a key or index."""
+
+    container: e.Expression
+    key: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Holds:
+    """A value is other than nothing: true, not zero, or there."""
+
+    value: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
+class IsSize:
+    """A value was the number of elements of a container."""
+
+    value: e.Expression
+    container: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
+class IsSame:
+    """A temporary holds what a variable does."""
+
+    value: e.Temporary
+    other: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
+class IsBelow:
+    """A value is a whole number from zero to before a bound."""
+
+    value: e.Expression
+    bound: int
+
+
+@dataclass(frozen=True, slots=True)
+class Implies:
+    """If a value counts as true (or as false), something else is so as well."""
+
+    value: e.Expression
+    is_true: bool
+    fact: HasSize | HasKey
+
+
+Fact: TypeAlias = HasSize | HasKey | Holds | IsSize | IsSame | IsBelow | Implies
+Facts: TypeAlias = frozenset[Fact]
+NO_FACTS: Facts = frozenset()
+
+
+def sized(container: e.Expression, size: int) -> Facts:
+    """That a container has some elements; fewer are implied, so that facts can be intersected."""
+    return frozenset(HasSize(container, n) for n in range(1, min(size, _LIMIT) + 1))
+
+
+def size_of(facts: Facts, container: e.Expression) -> int:
+    """How many elements a container is known to have."""
+    sizes = (f.size for f in facts if isinstance(f, HasSize) and f.container == container)
+    return max(sizes, default=0)
+
+
+def names_of(facts: Facts, value: e.Expression) -> frozenset[e.Expression]:
+    """A value, and what else is known to be the same."""
+    others = (f.other for f in facts if isinstance(f, IsSame) and f.value == value)
+    return frozenset({value, *others})
+
+
+def without(facts: Facts, target: e.Expression) -> Facts:
+    """The facts that are left when something else is stored in a target."""
+    base = target
+    while isinstance(base, e.Index):
+        base = base.object
+    return frozenset(f for f in facts if not _names(f, base, isinstance(target, e.Index)))
+
+
+def without_shared(facts: Facts) -> Facts:
+    """The facts that are left when other code ran: those of variables of the function only."""
+    return frozenset(f for f in facts if not any(map(_is_shared, _expressions(f))))
+
+
+def without_sizes(facts: Facts) -> Facts:
+    """The facts that are left when some container may have lost elements."""
+    lost = (HasSize, HasKey, IsSize, Implies)
+    return frozenset(f for f in facts if not isinstance(f, lost))
+
+
+def _expressions(fact: Fact) -> tuple[e.Expression, ...]:
+    match fact:
+        case HasSize(container):
+            return (container,)
+        case HasKey(container, key):
+            return container, key
+        case Holds(value) | IsBelow(value):
+            return (value,)
+        case IsSize(value, container):
+            return value, container
+        case IsSame(value, other):
+            return value, other
+        case Implies(value, _, inner):
+            return value, *_expressions(inner)
+
+
+def _names(fact: Fact, base: e.Expression, is_part: bool) -> bool:
+    """Whether a fact is about what is stored in; to store in a part leaves sizes as they are."""
+    for expression in _expressions(fact):
+        for node in walk(expression):
+            if node == base and not (is_part and expression == base):
+                return True
+            same = isinstance(node, e.Attribute) and isinstance(base, e.Attribute)
+            if same and node.name == base.name:  # type: ignore[union-attr]
+                return True
+    return False
+
+
+def _is_shared(expression: e.Expression) -> bool:
+    shared = (e.Global, e.Captured, e.Attribute, e.Index, e.Dereference)
+    return any(isinstance(n, shared) for n in walk(expression))
+
+
+# --- what tests say -------------------------------------------------------------------------------
+
+_OPPOSITE = {
+    Operator.EQUAL: Operator.UNEQUAL,
+    Operator.UNEQUAL: Operator.EQUAL,
+    Operator.LESS: Operator.GREATER_EQUAL,
+    Operator.GREATER_EQUAL: Operator.LESS,
+    Operator.GREATER: Operator.LESS_EQUAL,
+    Operator.LESS_EQUAL: Operator.GREATER,
+    Operator.IN: Operator.NOT_IN,
+    Operator.NOT_IN: Operator.IN,
+    Operator.SAME: Operator.NOT_SAME,
+    Operator.NOT_SAME: Operator.SAME,
+}
+_MIRRORED = {
+    Operator.LESS: Operator.GREATER,
+    Operator.GREATER: Operator.LESS,
+    Operator.LESS_EQUAL: Operator.GREATER_EQUAL,
+    Operator.GREATER_EQUAL: Operator.LESS_EQUAL,
+}
+
+
+def tested(facts: Facts, test: e.Expression, is_true: bool) -> Facts:
+    """What is known where a test was true, or false."""
+    match test:
+        case e.Unary(Operator.NOT, operand):
+            return tested(facts, operand, not is_true)
+        case e.And(left, right) if is_true:
+            return tested(tested(facts, left, True), right, True)
+        case e.Or(left, right) if not is_true:
+            return tested(tested(facts, left, False), right, False)
+        case e.Convert(_, operand):
+            return tested(facts, operand, is_true) | _held(facts, test, is_true)
+        case e.Conditional(inner, e.Literal(then), e.Literal(otherwise)):
+            if bool(then) != bool(otherwise):
+                return tested(facts, inner, is_true == bool(then))
+            return facts
+        case e.Binary(operator, left, right) if operator in _OPPOSITE:
+            return _compared(facts, operator if is_true else _OPPOSITE[operator], left, right)
+        case _:
+            return _held(facts, test, is_true)
+
+
+def _held(facts: Facts, value: e.Expression, is_true: bool) -> Facts:
+    """A value that counts as true is not nothing, and a container is not empty."""
+    found = set(facts)
+    if is_true:
+        found |= {Holds(value), HasSize(value, 1)}
+        found |= {
+            HasSize(f.container, 1) for f in facts if isinstance(f, IsSize) and f.value == value
+        }
+    for fact in facts:
+        if isinstance(fact, Implies) and fact.value == value and fact.is_true == is_true:
+            found.add(fact.fact)
+    return frozenset(found)
+
+
+def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Expression) -> Facts:
+    if operator is Operator.IN:
+        return facts | {HasKey(right, left)}
+    if isinstance(left, e.Literal) and not isinstance(right, e.Literal):
+        return _compared(facts, _MIRRORED.get(operator, operator), right, left)
+    if not isinstance(right, e.Literal):
+        return facts
+    number = right.value
+    if number is None and operator in (Operator.NOT_SAME, Operator.UNEQUAL):
+        return facts | {Holds(left)}
+    if not isinstance(number, int | float):
+        return facts
+    is_zero = number == 0
+    if operator is Operator.EQUAL and is_zero:
+        return _held(facts, left, False)
+    excludes = {
+        Operator.UNEQUAL: is_zero,
+        Operator.EQUAL: not is_zero,
+        Operator.GREATER: number >= 0,
+        Operator.LESS: number <= 0,
+        Operator.GREATER_EQUAL: number > 0,
+        Operator.LESS_EQUAL: number < 0,
+    }
+    if excludes.get(operator, False):
+        facts = _held(facts, left, True)
+    least = {Operator.GREATER: number + 1, Operator.GREATER_EQUAL: number, Operator.EQUAL: number}
+    if operator in least:
+        for fact in list(facts):
+            if isinstance(fact, IsSize) and fact.value == _bare(left):
+                facts |= sized(fact.container, int(least[operator]))
+    return facts
+
+
+def _bare(value: e.Expression) -> e.Expression:
+    while isinstance(value, e.Convert):
+        value = value.operand
+    return value

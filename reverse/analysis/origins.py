@@ -1,0 +1,204 @@
+"""What values may be: which callables, classes, objects and containers a name may stand for.
+
+By what is stored under each name anywhere in the program (flow-insensitive), as in the call graph.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias
+
+from rebsync.records import dataclass
+from rebsync.reverse.analysis.call_graph import CallGraph
+from rebsync.reverse.analysis.locations import Member
+from rebsync.reverse.analysis.stores import (
+    AnyValue,
+    CallResult,
+    ClassValue,
+    Key,
+    ObjectValue,
+    Stored,
+    key_of,
+)
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.outcomes import LibraryOutcomes
+
+_LIMIT = 8  # sizes from here on are one
+
+
+@dataclass(frozen=True, slots=True)
+class FunctionOrigin:
+    """A function of the program."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class ClassOrigin:
+    """A class of the program, or (`of_object`) an object of it."""
+
+    name: str
+    of_object: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryOrigin:
+    """What a library has under a full name, or (`of_object`) an object that it gave."""
+
+    name: str
+    of_object: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class PlainOrigin:
+    """A number, a text that was computed, or nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class AnyOrigin:
+    """A value of which nothing is known."""
+
+
+Origin: TypeAlias = FunctionOrigin | ClassOrigin | LibraryOrigin | PlainOrigin | AnyOrigin
+ANYTHING = frozenset[Origin]({AnyOrigin()})
+PLAIN = frozenset[Origin]({PlainOrigin()})
+_KINDS = {
+    t.ContainerKind.SEQUENCE: "list",
+    t.ContainerKind.TUPLE: "tuple",
+    t.ContainerKind.QUEUE: "deque",
+    t.ContainerKind.SET: "set",
+    t.ContainerKind.MAPPING: "dict",
+}
+
+
+class Origins:
+    """What the values of one program may be; `own` are the functions that people wrote."""
+
+    def __init__(self, graph: CallGraph, table: LibraryOutcomes, own: Sequence[str]) -> None:
+        self.graph = graph
+        self.table = table
+        self.own = own
+        self._known: dict[Key, frozenset[Origin]] = {}
+
+    def of(self, value: e.Expression, function: str) -> frozenset[Origin]:
+        """What the value of an expression in a function may be."""
+        match value:
+            case e.Closure(name) | e.FunctionReference(name):
+                return frozenset({FunctionOrigin(name)})
+            case e.ClassReference(name):
+                return frozenset({ClassOrigin(name, False)})
+            case e.LibraryReference(name):
+                return frozenset({LibraryOrigin(name)})
+            case e.Build(t.Container(kind)) | e.BuildMapping(t.Container(kind)):
+                return frozenset({LibraryOrigin(_KINDS[kind], True)})
+            case e.Format() | e.Literal(str()):
+                return frozenset({LibraryOrigin("str", True)})
+            case e.Build() | e.Literal() | e.Unary():
+                return PLAIN
+            case e.Binary(Operator.ADD | Operator.MULTIPLY, left, right):
+                return self.of(left, function) | self.of(right, function)
+            case e.Binary():
+                return PLAIN
+            case e.Conditional(_, left, right) | e.And(left, right) | e.Or(left, right):
+                return self.of(left, function) | self.of(right, function)
+            case e.Copy(operand) | e.Move(operand) | e.Convert(_, operand):
+                return self.of(operand, function)
+            case e.Dereference(operand) | e.AddressOf(operand):
+                return self.of(operand, function)
+            case e.Index(operand, e.Slice()):
+                return self.of(operand, function)
+            case e.Attribute(e.Local() | e.Captured() | e.Attribute() | e.Temporary() as of, name):
+                return self._member(of, name, function)
+        key = key_of(value, function)
+        return ANYTHING if key is None else self._stored(key)
+
+    def _member(self, of: e.Expression, name: str, function: str) -> frozenset[Origin]:
+        held = self.of(of, function)
+        if held and all(isinstance(o, LibraryOrigin) and not o.of_object for o in held):
+            return frozenset(
+                LibraryOrigin(f"{o.name}.{name}") for o in held if isinstance(o, LibraryOrigin)
+            )
+        found = self._stored(Member(name))
+        methods = {
+            f for o in held if isinstance(o, ClassOrigin) for f in self.methods(o.name, name)
+        }
+        return found.union(map(FunctionOrigin, methods)) or ANYTHING
+
+    def _stored(self, key: Key) -> frozenset[Origin]:
+        """What is stored under a name; what is being looked for adds nothing (least fixpoint)."""
+        if key not in self._known:
+            self._known[key] = frozenset()
+            stored = self.graph.stores.of(key)
+            found = frozenset[Origin]().union(*(self.of_stored(each) for each in stored))
+            self._known[key] = found or ANYTHING
+        return self._known[key]
+
+    def of_stored(self, stored: Stored) -> frozenset[Origin]:
+        """What a stored value may be."""
+        function, value = stored
+        match value:
+            case ClassValue(name):
+                return frozenset({ClassOrigin(name, False)})
+            case ObjectValue(name):
+                return frozenset({ClassOrigin(name)})
+            case CallResult(call):
+                return self.result(call, function)
+            case AnyValue():
+                return ANYTHING
+            case _:
+                return self.of(value, function)
+
+    def result(self, call: s.Call, function: str) -> frozenset[Origin]:
+        """What a call gives."""
+        match call.callee:
+            case s.FunctionCallee(name):
+                return self._returned(name)
+            case s.LibraryCallee(name):
+                return self._made(LibraryOrigin(name), call, function)
+            case s.ValueCallee(value):
+                held = self.of(value, function)
+                results = (self._made(origin, call, function) for origin in held)
+                return frozenset[Origin]().union(*results)
+            case _:
+                return ANYTHING
+
+    def _made(self, origin: Origin, call: s.Call, function: str) -> frozenset[Origin]:
+        match origin:
+            case ClassOrigin(name, False):
+                return frozenset({ClassOrigin(name)})
+            case FunctionOrigin(name):
+                return self._returned(name)
+            case LibraryOrigin(name, is_object) if self.table.function(name).returns:
+                plain = [a.value for a in call.arguments if a.name is None]
+                if plain:
+                    return self.of(plain[0], function)
+                return ANYTHING if is_object else frozenset({LibraryOrigin(name, True)})
+            case LibraryOrigin(name, False):
+                outcome = self.table.function(name)
+                if outcome.gives == "number":
+                    return PLAIN
+                return frozenset({LibraryOrigin(outcome.gives or name, True)})
+            case _:
+                return ANYTHING
+
+    def _returned(self, name: str) -> frozenset[Origin]:
+        body = self.graph.program.function(name)
+        values = [n.value for n in walk(body) if isinstance(n, s.Return)]
+        found = (self.of(v, name) if v is not None else PLAIN for v in values)
+        return frozenset[Origin]().union(*found) or PLAIN
+
+    # --- classes ---------------------------------------------------------------------------------
+
+    def methods(self, of: str, name: str) -> frozenset[str]:
+        """The functions that a method of an object may be, by the class it is declared of."""
+        classes = (self.graph.program.classes.get(c) for c in self.graph.family(of))
+        return frozenset(f for c in classes if c is not None for n, f in c.methods if n == name)
+
+    def methods_of_any(self, name: str) -> frozenset[str]:
+        """The methods of a name that any class has."""
+        classes = self.graph.program.classes.values()
+        return frozenset(f for c in classes for n, f in c.methods if n == name)

@@ -1,0 +1,280 @@
+"""What calls may do, by all that they may reach, and what is known after them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from rebsync.reverse.analysis.facts import (
+    Facts,
+    without,
+    without_shared,
+)
+from rebsync.reverse.analysis.locations import Member
+from rebsync.reverse.analysis.origins import (
+    AnyOrigin,
+    ClassOrigin,
+    FunctionOrigin,
+    LibraryOrigin,
+    Origin,
+    PlainOrigin,
+)
+from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
+from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
+from rebsync.reverse.analysis.problems import Problem, ProblemNotes
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.operators import ImplicitCall
+from rebsync.reverse.libraries.outcome_rules import PLAIN_CLASSES
+from rebsync.reverse.libraries.outcomes import CallOutcome
+
+_WAITING_ALONE = frozenset({"get", "join"})
+_UNKNOWN = "what is called is not known"
+
+
+class OutcomeCalls:
+    """Calls in one function; `of` gives what a function of the program may do."""
+
+    def __init__(
+        self,
+        notes: ProblemNotes,
+        expressions: OutcomeExpressions,
+        sizes: OutcomeSizes,
+        of: Callable[[str], frozenset[Problem]],
+    ) -> None:
+        self.notes = notes
+        self.expressions = expressions
+        self._sizes = sizes
+        self.of = of
+        self.origins = notes.origins
+        self.function = notes.function.name
+
+    def call(self, node: s.Call, facts: Facts) -> Facts:
+        """Notes what a call may do, and gives what is known after it."""
+        self._arguments(node, facts)
+        match node.callee:
+            case s.FunctionCallee(name):
+                self._enters(node, name)
+            case s.LibraryCallee(name, receiver):
+                if receiver is not None:
+                    self.expressions.check(receiver, facts)
+                self._library(node, name, self.notes.table.function(name), receiver, facts)
+            case s.ValueCallee(value):
+                self.expressions.check(value, facts)
+                for origin in self.origins.of(value, self.function):
+                    self._value(node, value, origin, facts)
+            case s.MethodCallee(receiver):
+                self.expressions.check(receiver, facts)
+                self._method(node, node.callee, facts)
+        after = self._sizes.kept(node, facts)
+        if node.target is None:
+            return after
+        return without(after, node.target) | self._sizes.told(node, facts)
+
+    def construct(self, node: s.Construct, facts: Facts) -> Facts:
+        """Notes what making an object of a class of the program may do."""
+        for argument in node.arguments:
+            self.expressions.check(argument.value, facts)
+        if node.constructor is not None:
+            self._enters(node, node.constructor)
+        else:
+            self._makes(node, node.class_name)
+        facts = without_shared(facts)
+        return facts if node.target is None else without(facts, node.target)
+
+    def destroy(self, node: s.Destroy) -> None:
+        """Notes what the end of an object may do."""
+        if node.class_name is not None:
+            for name in self._answers(node.class_name, ImplicitCall.DESTROY):
+                self._enters(node, name)
+
+    def entered(self, context: e.Expression, facts: Facts) -> None:
+        """Notes what entering a context of a library may do."""
+        self.expressions.check(context, facts)
+        for origin in self.origins.of(context, self.function):
+            if isinstance(origin, LibraryOrigin) and origin.of_object:
+                self._acts(context, origin.name)
+
+    def called(self, place: e.Expression, origin: Origin) -> None:
+        """Notes what calling a value may do, with arguments of which nothing is known."""
+        callee = s.ValueCallee(place)
+        self._value(s.Call(None, callee, (), place.place), place, origin, frozenset())
+
+    # --- what is called --------------------------------------------------------------------------
+
+    def _enters(self, node: s.Statement, name: str) -> None:
+        """A function of the program runs."""
+        if self.notes.is_model(name):
+            self.notes.problem(node, f'"{name.rpartition("/")[2]}" is the model\'s')
+        else:
+            self.notes.take(self.of(name))
+
+    def _arguments(self, node: s.Call, facts: Facts) -> None:
+        keeps = self._keeps_types(node)
+        sizes = [self.notes.counts.elements(a.value, self.function) for a in node.arguments]
+        for argument in node.arguments:
+            value = argument.value
+            self.expressions.check(value, facts)
+            for origin in self.origins.of(value, self.function):
+                match origin:
+                    case FunctionOrigin(name):
+                        known = self.notes.elements.get(name, 0)
+                        self.notes.elements[name] = max(known, *sizes)
+                        self._enters(node, name)
+                    case ClassOrigin(name, False) if not keeps:
+                        self._makes(node, name)
+                    case LibraryOrigin(name, False) if not keeps:
+                        outcome = self.notes.table.function(name)
+                        self._library(node, name, outcome, None, facts)
+                    case _:
+                        pass
+
+    def _keeps_types(self, node: s.Call) -> bool:
+        """Whether what is called only looks at classes that it gets, or makes plain values."""
+        callee = node.callee
+        return isinstance(callee, s.LibraryCallee) and self.notes.table.function(callee.name).keeps
+
+    def _value(self, node: s.Call, value: e.Expression, origin: Origin, facts: Facts) -> None:
+        match origin:
+            case FunctionOrigin(name):
+                self.notes.elements[name] = max(
+                    [self.notes.counts.elements(a.value, self.function) for a in node.arguments],
+                    default=0,
+                )
+                self._enters(node, name)
+            case ClassOrigin(name, False):
+                self._makes(node, name)
+            case ClassOrigin(name):
+                for method in self._answers(name, ImplicitCall.CALL):
+                    self._enters(node, method)
+            case LibraryOrigin(name, False):
+                self._library(node, name, self.notes.table.function(name), None, facts)
+            case LibraryOrigin(name) if not self.notes.table.is_standard(name):
+                pass
+            case _:
+                # What a function gets was looked at where it was handed over.
+                if not self.notes.is_parameter(value):
+                    self.notes.problem(node, _UNKNOWN)
+
+    def _makes(self, node: s.Statement, name: str) -> None:
+        if self.notes.is_model(name):
+            self.notes.problem(node, f'"{name}" is the model\'s')
+        for method in self._answers(name, ImplicitCall.CONSTRUCT):
+            self._enters(node, method)
+        for base in self.origins.graph.bases(name):
+            if base not in self.origins.graph.program.classes:
+                self._acts(node, base)
+
+    def _acts(self, node: s.Statement | e.Expression, name: str) -> None:
+        """What a class of a library does when an object of it is made."""
+        if acts := self.notes.table.function(name).acts:
+            self.notes.problem(node, f'"{name}": {acts}')
+
+    def _answers(self, name: str, implicit: ImplicitCall) -> list[str]:
+        """The functions by which a class, or one it extends, answers what no text calls."""
+        graph = self.origins.graph
+        line = [name, *graph.bases(name)]
+        classes = [graph.program.classes[c] for c in line if c in graph.program.classes]
+        return [
+            function
+            for class_ in classes
+            for operator, method in class_.operators
+            if operator is implicit
+            for own, function in class_.methods
+            if own == method
+        ]
+
+    def _method(self, node: s.Call, callee: s.MethodCallee, facts: Facts) -> None:
+        if callee.declared is not None:
+            found = self.origins.methods(callee.declared, callee.name)
+            for name in sorted(found):
+                self._enters(node, name)
+            if not found:
+                outcome = self.notes.table.method(callee.declared, callee.name)
+                self._library(node, callee.name, outcome, callee.receiver, facts)
+            return
+        held = self.origins.of(callee.receiver, self.function)
+        for origin in sorted(held, key=str):
+            self._of_object(node, callee, origin, facts)
+
+    def _of_object(
+        self, node: s.Call, callee: s.MethodCallee, origin: Origin, facts: Facts
+    ) -> None:
+        """A method of one of the objects that a receiver may be."""
+        name, receiver = callee.name, callee.receiver
+        match origin:
+            case ClassOrigin(of):
+                found = self.origins.methods(of, name)
+                self._stored_in(node, name, facts)
+                for method in sorted(found):
+                    self._enters(node, method)
+                if not found:
+                    for base in self.origins.graph.bases(of):
+                        self._library(
+                            node, name, self.notes.table.method(base, name), receiver, facts
+                        )
+            case LibraryOrigin(of, False):
+                full = f"{of}.{name}"
+                self._library(node, full, self.notes.table.function(full), receiver, facts)
+            case LibraryOrigin(of):
+                self._library(node, name, self.notes.table.method(of, name), receiver, facts)
+                if of not in PLAIN_CLASSES and name in _WAITING_ALONE and not node.arguments:
+                    self.notes.problem(node, f'"{name}" may wait')
+            case PlainOrigin():
+                self._library(node, name, self.notes.table.method(None, name), receiver, facts)
+            case _:
+                self._stored_in(node, name, facts)
+                for method in sorted(self.origins.methods_of_any(name)):
+                    if not self.notes.is_model(method):
+                        self._enters(node, method)
+                self._library(node, name, self.notes.table.method(None, name), receiver, facts)
+                if name in _WAITING_ALONE and not node.arguments:
+                    self.notes.problem(node, f'"{name}" may wait')
+
+    def _stored_in(self, node: s.Call, name: str, facts: Facts) -> None:
+        """What is stored in attributes of a name, and called in place of a method."""
+        for function, value in self.origins.graph.stores.of(Member(name)):
+            if isinstance(value, e.Closure):
+                continue
+            for origin in self.origins.of_stored((function, value)):
+                if isinstance(origin, FunctionOrigin | LibraryOrigin | AnyOrigin):
+                    self._value(node, e.Literal(None), origin, facts)
+
+    # --- libraries -------------------------------------------------------------------------------
+
+    def _library(
+        self,
+        node: s.Call,
+        name: str,
+        outcome: CallOutcome,
+        receiver: e.Expression | None,
+        facts: Facts,
+    ) -> None:
+        if outcome.acts:
+            self.notes.problem(node, f'"{name}": {outcome.acts}')
+        for raised in self._raised(node, outcome, receiver, facts):
+            self.notes.problem(node, f'"{name}" may raise an exception', raised)
+
+    def _raised(
+        self, node: s.Call, outcome: CallOutcome, receiver: e.Expression | None, facts: Facts
+    ) -> frozenset[str]:
+        """The exceptions that a call of a library may raise, by what it gets."""
+        first = node.arguments[0].value if node.arguments else None
+        has_default = len(node.arguments) > 1
+        raised = outcome.raises
+        if outcome.or_default and has_default:
+            raised = frozenset()
+        if outcome.of_negative and first is not None and self.expressions.is_positive(first):
+            raised = frozenset()
+        if self._is_plain_number(first, outcome):
+            raised = frozenset()
+        of = first if receiver is None else receiver
+        is_many = receiver is None and has_default
+        if is_many or (of is not None and self.expressions.size(of, facts)):
+            return raised
+        return raised | outcome.empty
+
+    def _is_plain_number(self, first: e.Expression | None, outcome: CallOutcome) -> bool:
+        """Whether a number is made of what is one."""
+        if outcome.gives != "number":
+            return False
+        return first is None or self.origins.of(first, self.function) == {PlainOrigin()}

@@ -1,0 +1,262 @@
+"""What evaluating an expression may do: divide by zero, lack an element, name the model's."""
+
+from __future__ import annotations
+
+from rebsync.reverse.analysis.facts import (
+    Facts,
+    HasKey,
+    Holds,
+    IsBelow,
+    IsSize,
+    names_of,
+    size_of,
+    tested,
+)
+from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin, Origin
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.stores import AnyValue, key_of
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.walk import parts
+from rebsync.reverse.libraries.outcome_rules import PLAIN_CLASSES
+
+_DIVIDING = frozenset(
+    {
+        *(Operator.TRUE_DIVIDE, Operator.CLASSIC_DIVIDE, Operator.FLOOR_DIVIDE),
+        *(Operator.TRUNCATING_DIVIDE, Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER),
+    }
+)
+_MODULO = (Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER)
+
+
+class OutcomeExpressions:
+    """Expressions of one function."""
+
+    def __init__(self, notes: ProblemNotes) -> None:
+        self.notes = notes
+        self.function = notes.function.name
+        self.origins = notes.origins
+
+    def check(self, value: e.Expression, facts: Facts) -> None:
+        """Notes what evaluating an expression may do."""
+        match value:
+            case e.And(left, right):
+                self.check(left, facts)
+                self.check(right, tested(facts, left, True))
+            case e.Or(left, right):
+                self.check(left, facts)
+                self.check(right, tested(facts, left, False))
+            case e.Conditional(test, then, otherwise):
+                self.check(test, facts)
+                self.check(then, tested(facts, test, True))
+                self.check(otherwise, tested(facts, test, False))
+            case e.Closure(_, _, defaults):
+                for _, default in defaults:
+                    self.check(default, facts)
+            case _:
+                for part in parts(value):
+                    self._part(part, facts)
+                self._itself(value, facts)
+
+    def _part(self, part: object, facts: Facts) -> None:
+        match part:
+            case e.Spread(operand) | e.FormatPiece(operand):
+                self.check(operand, facts)
+            case e.Capture():
+                pass
+            case _:
+                self.check(part, facts)  # type: ignore[arg-type]
+
+    def _itself(self, value: e.Expression, facts: Facts) -> None:
+        match value:
+            case e.Binary(operator, left, right) if operator in _DIVIDING:
+                self._divides(value, left, right, facts)
+            case e.Index():
+                self._reads_at(value, facts)
+            case e.Dereference(of):
+                if isinstance(getattr(of, "type", None), t.Optional) and Holds(of) not in facts:
+                    self.notes.fails(value, "is empty")
+            case e.LibraryReference(name):
+                if acts := self.notes.table.function(name).acts:
+                    self.notes.problem(value, f'"{name}": {acts}')
+            case e.Global(name) | e.ClassReference(name) | e.ModuleReference(name):
+                self._names(value, name)
+            case e.FunctionReference(name):
+                self._names(value, name)
+            case e.Attribute(e.Captured(owner), _, _, True) if self.notes.is_model(owner):
+                self.notes.problem(value, "this is the model's")
+            case _:
+                pass
+
+    def _names(self, value: e.Expression, name: str) -> None:
+        if self.notes.is_model(name):
+            self.notes.problem(value, f'"{name.rpartition("/")[2]}" is the model\'s')
+
+    # --- division --------------------------------------------------------------------------------
+
+    def _divides(
+        self, value: e.Binary, left: e.Expression, right: e.Expression, facts: Facts
+    ) -> None:
+        if isinstance(value.type, t.Float) and not value.dynamic:
+            return
+        if value.operator is Operator.FLOOR_MODULO and self.is_text(left):
+            return
+        if not self.is_nonzero(right, facts):
+            self.notes.fails(value, "divides by zero")
+
+    def is_text(self, value: e.Expression) -> bool:
+        """Whether a value is a text."""
+        return self.origins.of(value, self.function) == {LibraryOrigin("str", True)}
+
+    def is_nonzero(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a number is known not to be zero."""
+        if Holds(value) in facts:
+            return True
+        match value:
+            case e.Literal(int() | float() as number):
+                return number != 0
+            case e.Convert(_, operand, type_) if not isinstance(type_, t.Truth):
+                return self.is_nonzero(operand, facts) and self._is_kept(operand, type_)
+            case e.Unary(Operator.NEGATE | Operator.PLUS, operand):
+                return self.is_nonzero(operand, facts)
+            case e.Conditional(test, then, otherwise):
+                first = self.is_nonzero(then, tested(facts, test, True))
+                return first and self.is_nonzero(otherwise, tested(facts, test, False))
+            case e.Binary(Operator.MULTIPLY, left, right, type_):
+                is_exact = not isinstance(type_, t.Integer) or type_.bits is None
+                return is_exact and all(self.is_nonzero(p, facts) for p in (left, right))
+            case _:
+                sizes = (f for f in facts if isinstance(f, IsSize) and f.value == value)
+                if any(self.size(f.container, facts) for f in sizes):
+                    return True
+                return self._is_constant(value)
+
+    def _is_kept(self, operand: e.Expression, type_: t.Type) -> bool:
+        """Whether a number that is not zero is none either as one of a type."""
+        of = getattr(operand, "type", t.UNKNOWN)
+        if isinstance(operand, e.Literal | e.Convert | e.Temporary) or isinstance(type_, t.Float):
+            return True
+        wide = isinstance(type_, t.Integer) and (type_.bits or 64) >= 32
+        return wide and isinstance(of, t.Integer)
+
+    def _is_constant(self, value: e.Expression) -> bool:
+        """Whether all that is ever stored under a name are numbers other than zero."""
+        if not isinstance(value, e.Global | e.Attribute | e.Local | e.Captured):
+            return False
+        key = key_of(value, self.function)
+        stored = self.origins.graph.stores.of(key) if key is not None else []
+        values = [v for _, v in stored]
+        return bool(values) and all(
+            isinstance(v, e.Literal) and isinstance(v.value, int | float) and v.value != 0
+            for v in values
+        )
+
+    # --- elements --------------------------------------------------------------------------------
+
+    def size(self, container: e.Expression, facts: Facts) -> int:
+        """How many elements a container has at least."""
+        return max(size_of(facts, container), self.notes.counts.size(container, self.function))
+
+    def _reads_at(self, value: e.Index, facts: Facts) -> None:
+        if not value.checked or isinstance(value.index, e.Slice):
+            return
+        holders, indices = names_of(facts, value.object), names_of(facts, value.index)
+        if any(HasKey(holder, index) in facts for holder in holders for index in indices):
+            return
+        kinds = self.origins.of(value.object, self.function)
+        if all(self._is_foreign(kind) for kind in kinds):
+            return
+        is_mapping = self._is_of(kinds, "dict") or _is_typed_mapping(value.object)
+        if self._is_of(kinds, "dict", "defaultdict"):
+            literal = isinstance(value.index, e.Literal)
+            if self._is_of(kinds, "defaultdict"):
+                return
+            if literal and self.notes.counts.has_key(value.object, value.index, self.function):  # type: ignore[arg-type]
+                return
+        if not is_mapping and self._is_within(value, facts):
+            return
+        self.notes.fails(value, "lacks the key" if is_mapping else "lacks the element")
+        if AnyOrigin() in kinds and not is_mapping and value.from_end:
+            self.notes.fails(value, "lacks the key")
+
+    def _is_foreign(self, kind: Origin) -> bool:
+        """Whether a value is an object of a library that no table has to know."""
+        if not isinstance(kind, LibraryOrigin) or kind.name in PLAIN_CLASSES:
+            return False
+        return kind.of_object and not self.notes.table.is_standard(kind.name)
+
+    def is_positive(self, value: e.Expression) -> bool:
+        """Whether a number cannot be negative, by how it is computed."""
+        match value:
+            case e.Literal(int() | float() as number):
+                return number >= 0
+            case e.Binary(Operator.POWER, _, e.Literal(int() as power)):
+                return power % 2 == 0
+            case e.Binary(Operator.MULTIPLY, left, right) if left == right:
+                return True
+            case e.Binary(Operator.ADD | Operator.MULTIPLY, left, right):
+                return self.is_positive(left) and self.is_positive(right)
+            case _:
+                return False
+
+    def stored_at(self, target: e.Index, facts: Facts) -> None:
+        """Notes what storing an element may do: a mapping takes any key."""
+        self.check(target.object, facts)
+        if not isinstance(target.index, e.Slice):
+            self.check(target.index, facts)
+        kinds = self.origins.of(target.object, self.function)
+        if target.checked and not self._is_of(kinds, "dict", "defaultdict"):
+            self._reads_at(target, facts)
+
+    def _is_of(self, kinds: frozenset[Origin], *names: str) -> bool:
+        return bool(kinds) and kinds <= {LibraryOrigin(name, True) for name in names}
+
+    def _is_within(self, value: e.Index, facts: Facts) -> bool:
+        """Whether an index is one of an element that is there."""
+        size = self.size(value.object, facts)
+        if isinstance(value.object, e.Local) and self.notes.is_parameter(value.object):
+            size = max(size, self.notes.elements.get(self.function, 0))
+        match self.bare(value.index):
+            case e.Literal(int() as index):
+                return -size <= index < size if value.from_end else 0 <= index < size
+            case e.Unary(Operator.NEGATE, e.Literal(int() as index)):
+                return value.from_end and index <= size
+            case e.Binary(operator, _, e.Literal(int() as bound)) if operator in _MODULO:
+                return operator is Operator.FLOOR_MODULO and 0 < bound <= size
+            case e.Binary(Operator.FLOOR_MODULO, _, right):
+                holders = names_of(facts, value.object)
+                return any(IsSize(right, h) in facts for h in holders) and size > 0
+            case index:
+                bounds = (f.bound for f in facts if isinstance(f, IsBelow) and f.value == index)
+                return any(bound <= size for bound in bounds) or self._is_ring(index, size)
+
+    def _is_ring(self, index: e.Expression, size: int) -> bool:
+        """Whether all that is ever stored under an index's name is below a size."""
+        if not isinstance(index, e.Global | e.Attribute):
+            return False
+        key = key_of(index, self.function)
+        stored = self.origins.graph.stores.of(key) if key is not None else []
+        return bool(stored) and all(self._is_low(v, size) for _, v in stored)
+
+    def _is_low(self, value: object, size: int) -> bool:
+        match value:
+            case AnyValue():
+                return False
+            case e.Literal(int() as number):
+                return 0 <= number < size
+            case e.Binary(Operator.FLOOR_MODULO, _, e.Literal(int() as bound)):
+                return 0 < bound <= size
+            case _:
+                return False
+
+    def bare(self, value: e.Expression) -> e.Expression:
+        """A value without the conversions around it."""
+        while isinstance(value, e.Convert):
+            value = value.operand
+        return value
+
+
+def _is_typed_mapping(value: e.Expression) -> bool:
+    type_ = getattr(value, "type", None)
+    return isinstance(type_, t.Container) and type_.kind is t.ContainerKind.MAPPING

@@ -1,0 +1,189 @@
+"""What is known after calls, and what they do to the numbers of elements of containers."""
+
+from __future__ import annotations
+
+from rebsync.reverse.analysis.facts import (
+    Facts,
+    HasKey,
+    HasSize,
+    Holds,
+    Implies,
+    IsBelow,
+    IsSize,
+    size_of,
+    sized,
+    without_shared,
+    without_sizes,
+)
+from rebsync.reverse.analysis.origins import FunctionOrigin, LibraryOrigin
+from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.stores import TemporaryVariable
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.outcome_rules import Size, Tells
+from rebsync.reverse.libraries.outcomes import CallOutcome
+
+_WAITING_ALONE = frozenset({"get", "join"})
+GROWING = frozenset({Size.GROWS, Size.MORE})
+CHANGING = GROWING | {Size.LOSES, Size.ANY}
+_UNKNOWN = "what is called is not known"
+
+
+class OutcomeSizes:
+    """Calls in one function, by what they do to containers and say of them."""
+
+    def __init__(self, notes: ProblemNotes, expressions: OutcomeExpressions) -> None:
+        self.notes = notes
+        self.expressions = expressions
+        self.origins = notes.origins
+        self.function = notes.function.name
+
+    def kept(self, node: s.Call, facts: Facts) -> Facts:
+        """What is still known after a call."""
+        outcome, receiver = self._of_receiver(node)
+        if outcome is None:
+            facts = without_shared(facts)
+            return facts if self.notes.counts.keeps_elements else without_sizes(facts)
+        if receiver is None:
+            return facts
+        match outcome.size:
+            case Size.GROWS:
+                return facts | {HasSize(receiver, 1)}
+            case Size.LOSES:
+                return without_sizes(facts) | sized(receiver, size_of(facts, receiver) - 1)
+            case Size.ANY:
+                return without_sizes(facts)
+            case _:
+                return facts
+
+    def _of_receiver(self, node: s.Call) -> tuple[CallOutcome | None, e.Expression | None]:
+        """What a method of a library does, with its object; None for functions of the program."""
+        match node.callee:
+            case s.LibraryCallee(name, receiver):
+                return self.notes.table.function(name), receiver
+            case s.MethodCallee(receiver, name, None) if not self.origins.methods_of_any(name):
+                held = self.origins.of(receiver, self.function)
+                classes = {o.name for o in held if isinstance(o, LibraryOrigin)}
+                of = classes.pop() if len(classes) == 1 and len(held) == 1 else None
+                return self.notes.table.method(of, name), receiver
+            case _:
+                return None, None
+
+    def told(self, node: s.Call, facts: Facts) -> Facts:
+        """What the result of a call says of what the call got."""
+        outcome, receiver = self._of_receiver(node)
+        of = receiver
+        if of is None and node.arguments:
+            of = node.arguments[0].value
+        if outcome is None or of is None or node.target is None:
+            return self._of_result(node)
+        first = node.arguments[0].value if node.arguments else None
+        match outcome.tells:
+            case Tells.SIZE:
+                return frozenset({IsSize(node.target, of)})
+            case Tells.EMPTY:
+                return frozenset({Implies(node.target, False, HasSize(of, 1))})
+            case Tells.HAS if first is not None:
+                return frozenset({Implies(node.target, True, HasKey(of, first))})
+            case Tells.SAME:
+                return sized(node.target, self.expressions.size(of, facts))
+            case Tells.RANGE if len(node.arguments) == 1:
+                return self._of_range(node.target, of, facts)
+            case Tells.MOST:
+                values = [a.value for a in node.arguments]
+                is_above = any(
+                    isinstance(v, e.Literal) and isinstance(v.value, int | float) and v.value > 0
+                    for v in values
+                )
+                return frozenset({Holds(node.target)} if is_above and len(values) > 1 else ())
+            case _:
+                return frozenset()
+
+    def _of_result(self, node: s.Call) -> Facts:
+        assert node.target is not None
+        return sized(node.target, self.notes.counts.size(node.target, self.function))
+
+    def _of_range(self, target: e.Lvalue, of: e.Expression, facts: Facts) -> Facts:
+        """The numbers below one, which may be the size of a container."""
+        if isinstance(of, e.Literal) and isinstance(of.value, int):
+            return frozenset({IsBelow(target, of.value)})
+        sizes = (f for f in facts if isinstance(f, IsSize) and f.value == of)
+        return frozenset(IsSize(target, f.container) for f in sizes)
+
+    # --- loops -----------------------------------------------------------------------------------
+
+    def is_bound(self, node: s.Call) -> bool:
+        """Whether a call gives the size or the end of a container."""
+        outcome, _ = self._of_receiver(node)
+        is_end = isinstance(node.callee, s.LibraryCallee) and node.callee.name.endswith("end")
+        return is_end or (outcome is not None and outcome.tells is Tells.SIZE)
+
+    def is_emptied(self, loop: s.Loop) -> bool:
+        """Whether each round takes an element out of the container whose size is tested."""
+        test = self.expressions.bare(loop.test)
+        if isinstance(test, e.Binary) and isinstance(test.right, e.Literal):
+            if test.operator not in (Operator.GREATER, Operator.GREATER_EQUAL):
+                return False
+            test = self.expressions.bare(test.left)
+        tested = {test}
+        for node in loop.prelude:
+            if isinstance(node, s.Call) and node.target == test and self.is_bound(node):
+                _, receiver = self._of_receiver(node)
+                tested.add(receiver or node.arguments[0].value)
+        taken = [self._of_receiver(n) for n in loop.body if isinstance(n, s.Call)]
+        loses = (of for outcome, of in taken if outcome is not None and outcome.size is Size.LOSES)
+        skips = any(isinstance(n, s.Continue) for n in walk(loop.body))
+        return not skips and any(of in tested for of in loses)
+
+    def is_fresh(self, value: e.Expression) -> bool:
+        """Whether a container has no other name: it was made for the loop."""
+        if isinstance(value, e.Temporary):
+            key = TemporaryVariable(self.function, value.number)
+            stored = self.origins.graph.stores.of(key)
+            return all(not isinstance(v, e.AddressOf) for _, v in stored)
+        return isinstance(value, e.Index) and isinstance(value.index, e.Slice)
+
+    def changes(self, body: s.Body, iterable: e.Expression | None, sizes: frozenset[Size]) -> bool:
+        """Whether a body, or what it calls of the program, changes sizes of containers so."""
+        waiting, seen = [(self.function, body)], set[str]()
+        while waiting:
+            function, inner = waiting.pop()
+            for node in walk(inner):
+                if isinstance(node, s.Unsupported):
+                    return True
+                if not isinstance(node, s.Call):
+                    continue
+                outcome, receiver = self._of_receiver(node)
+                if outcome is not None and outcome.size in sizes:
+                    is_own = function == self.function and receiver != iterable
+                    if not (is_own and self._is_private(receiver)):
+                        return True
+                reached = self._reached(node, function)
+                waiting += ((n, self._body(n)) for n in reached - seen)
+                seen |= reached
+        return False
+
+    def _reached(self, node: s.Call, function: str) -> frozenset[str]:
+        """The functions of the program that a call may run; of unknown ones none is meant."""
+        match node.callee:
+            case s.FunctionCallee(name):
+                return frozenset({name})
+            case s.MethodCallee(_, name):
+                return self.origins.methods_of_any(name)
+            case s.ValueCallee(value):
+                held = self.origins.of(value, function)
+                return frozenset(o.name for o in held if isinstance(o, FunctionOrigin))
+            case _:
+                return frozenset()
+
+    def _body(self, name: str) -> s.Body:
+        return self.origins.graph.program.function(name).body
+
+    def _is_private(self, container: e.Expression | None) -> bool:
+        """Whether a container is one that the function made itself, and that has no other name."""
+        if not isinstance(container, e.Local) or container.name in self.notes.function.captured:
+            return False
+        return not self.notes.counts.has_other_names(container, self.function)

@@ -1,0 +1,73 @@
+"""Places where a function may do more than to give a value."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from rebsync.records import dataclass
+from rebsync.reverse.analysis.element_counts import ElementCounts
+from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.program import Function
+from rebsync.reverse.libraries.outcomes import LibraryOutcomes
+from rebsync.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """A place in a function; `raises` is the exception that is raised there, if one is.
+
+    Nothing catches what has none: it does not end, acts, or has no lowering.
+    """
+
+    function: str
+    place: Span
+    why: str
+    raises: str = ""
+
+
+class ProblemNotes:
+    """What was found in a function so far, and what is known of the program around it.
+
+    `is_model` says of a module, class or function whether it is the model's; `elements` how many
+    elements each element of what a function gets has, by the function's name.
+    """
+
+    def __init__(
+        self,
+        function: Function,
+        origins: Origins,
+        counts: ElementCounts,
+        is_model: Callable[[str], bool],
+        elements: dict[str, int],
+    ) -> None:
+        self.function = function
+        self.origins = origins
+        self.counts = counts
+        self.is_model = is_model
+        self.elements = elements
+        self.found: set[Problem] = set()
+
+    @property
+    def table(self) -> LibraryOutcomes:
+        """What is known of libraries."""
+        return self.origins.table
+
+    def problem(self, node: s.Statement | e.Expression, why: str, raises: str = "") -> None:
+        """Notes what may happen at a place."""
+        place = getattr(node, "place", self.function.place)
+        self.found.add(Problem(self.function.name, place, why, raises))
+
+    def fails(self, node: s.Statement | e.Expression, failure: str) -> None:
+        """Notes that an operation may raise what the language raises for a failure."""
+        self.problem(node, f"this may fail: it {failure}", self.table.of_failure(failure))
+
+    def take(self, problems: Iterable[Problem]) -> None:
+        """Notes what a function that is called may do."""
+        self.found |= set(problems)
+
+    def is_parameter(self, value: e.Expression) -> bool:
+        """Whether an expression is what the function gets for a parameter."""
+        names = {p.name for p in self.function.parameters}
+        return isinstance(value, e.Local) and value.name in names

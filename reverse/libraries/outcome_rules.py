@@ -1,0 +1,371 @@
+"""How calls of the standard libraries may end: each rule once, with its names in both languages.
+
+A name that begins with a dot is a method, of any object or of the class before the dot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import Enum
+
+from rebsync.records import dataclass
+
+
+class Size(Enum):
+    """What a method does to the number of its object's elements."""
+
+    SAME = "same"
+    GROWS = "one more, or as many where there is a bound"
+    MORE = "perhaps more"
+    LOSES = "one less"
+    ANY = "any"
+
+
+class Tells(Enum):
+    """What the result of a call says of its first argument, or of its object."""
+
+    NOTHING = "nothing"
+    SIZE = "how many elements it has"
+    EMPTY = "whether it has none"
+    HAS = "whether it has an element, or a key"
+    RANGE = "the numbers below it"
+    MOST = "the greatest of all"
+    PAIRS = "pairs of its elements and others"
+    SAME = "the same elements"
+
+
+@dataclass(frozen=True, slots=True)
+class OutcomeRule:
+    """What some functions do besides giving a value; see `CallOutcome`."""
+
+    cpp: str = ""
+    python: str = ""
+    raises: str = ""
+    empty: str = ""
+    acts: str = ""
+    size: Size = Size.SAME
+    gives: str = ""
+    returns: bool = False
+    tells: Tells = Tells.NOTHING
+    keeps: bool = False
+    of_negative: bool = False
+    or_default: bool = False
+
+
+# What operations raise that are no calls, in C++ and in Python; in C++ dividing ends the program.
+FAILURES: Mapping[str, tuple[str, str]] = {
+    "divides by zero": ("", "builtins.ZeroDivisionError"),
+    "lacks the element": ("std::out_of_range", "builtins.IndexError"),
+    "lacks the key": ("std::out_of_range", "builtins.KeyError"),
+    "has another number of elements": ("", "builtins.ValueError"),
+    "is empty": ("std::bad_optional_access", "builtins.AttributeError"),
+    "does not hold": ("", "builtins.AssertionError"),
+}
+# Each exception with the class that it extends.
+EXCEPTIONS: Mapping[str, str] = {
+    **dict.fromkeys(("std::out_of_range", "std::invalid_argument"), "std::logic_error"),
+    **dict.fromkeys(("std::length_error", "std::domain_error"), "std::logic_error"),
+    **dict.fromkeys(("std::range_error", "std::overflow_error"), "std::runtime_error"),
+    **dict.fromkeys(("std::underflow_error", "std::system_error"), "std::runtime_error"),
+    **dict.fromkeys(("std::regex_error",), "std::runtime_error"),
+    **dict.fromkeys(("std::logic_error", "std::runtime_error"), "std::exception"),
+    **dict.fromkeys(("std::bad_alloc", "std::bad_cast"), "std::exception"),
+    **dict.fromkeys(("std::bad_optional_access", "std::bad_variant_access"), "std::exception"),
+    **dict.fromkeys(("std::bad_function_call", "std::bad_any_cast"), "std::exception"),
+    **dict.fromkeys(("builtins.IndexError", "builtins.KeyError"), "builtins.LookupError"),
+    **dict.fromkeys(("builtins.ZeroDivisionError",), "builtins.ArithmeticError"),
+    **dict.fromkeys(("builtins.OverflowError",), "builtins.ArithmeticError"),
+    **dict.fromkeys(("builtins.UnicodeDecodeError",), "builtins.ValueError"),
+    **dict.fromkeys(("json.JSONDecodeError", "statistics.StatisticsError"), "builtins.ValueError"),
+    **dict.fromkeys(("builtins.FileNotFoundError", "builtins.IOError"), "builtins.OSError"),
+    **dict.fromkeys(("builtins.TimeoutError", "builtins.PermissionError"), "builtins.OSError"),
+    **dict.fromkeys(("builtins.NotImplementedError",), "builtins.RuntimeError"),
+    **dict.fromkeys(("builtins.LookupError", "builtins.ArithmeticError"), "builtins.Exception"),
+    **dict.fromkeys(("builtins.ValueError", "builtins.OSError"), "builtins.Exception"),
+    **dict.fromkeys(("builtins.RuntimeError", "builtins.StopIteration"), "builtins.Exception"),
+    **dict.fromkeys(("builtins.AssertionError", "builtins.TypeError"), "builtins.Exception"),
+    **dict.fromkeys(("builtins.AttributeError", "struct.error"), "builtins.Exception"),
+    "builtins.Exception": "builtins.BaseException",
+    "builtins.SystemExit": "builtins.BaseException",
+    "builtins.KeyboardInterrupt": "builtins.BaseException",
+}
+# Classes of objects that have the methods without a class in the rules, and no others that count.
+PLAIN_CLASSES = frozenset(
+    {
+        *("std::vector", "std::map", "std::set", "std::string", "std::optional", "std::queue"),
+        *("std::ostream", "std::function", "std::pair", "std::tuple", "std::chrono::time_point"),
+        *("std::chrono::duration", "std::chrono::milliseconds", "std::chrono::seconds"),
+        *("std::array", "std::bitset", "std::atomic", "std::unique_ptr", "std::shared_ptr"),
+        *("list", "dict", "set", "str", "tuple", "deque", "file", "logger"),
+    }
+)
+# Names of classes that do the same as another.
+CLASSES: Mapping[str, str] = {
+    **dict.fromkeys(("std::deque", "std::list", "std::span", "std::stack"), "std::vector"),
+    **dict.fromkeys(("std::priority_queue", "std::initializer_list"), "std::vector"),
+    **dict.fromkeys(("std::unordered_map", "std::multimap"), "std::map"),
+    **dict.fromkeys(("std::unordered_set", "std::multiset"), "std::set"),
+    **dict.fromkeys(("std::string_view", "std::basic_string"), "std::string"),
+    **dict.fromkeys(("std::stringstream", "std::ostringstream", "std::istringstream"), "file"),
+    **dict.fromkeys(("std::ofstream", "std::ifstream", "std::fstream"), "file"),
+    **dict.fromkeys(("std::recursive_mutex", "std::shared_mutex"), "std::mutex"),
+    **dict.fromkeys(("std::timed_mutex",), "std::mutex"),
+    **dict.fromkeys(("std::scoped_lock", "std::lock_guard"), "std::unique_lock"),
+    **dict.fromkeys(("std::condition_variable_any",), "std::condition_variable"),
+    **dict.fromkeys(("std::atomic_bool", "std::atomic_int", "std::atomic_flag"), "std::atomic"),
+    "std::weak_ptr": "std::shared_ptr",
+    "std::shared_future": "std::future",
+    "builtins.list": "list",
+    "builtins.dict": "dict",
+    "builtins.set": "set",
+    "builtins.frozenset": "set",
+    "builtins.str": "str",
+    "builtins.tuple": "tuple",
+    "builtins.open": "file",
+    "io.StringIO": "file",
+    "pathlib.Path": "path",
+    "collections.deque": "deque",
+    "collections.defaultdict": "dict",
+    "collections.OrderedDict": "dict",
+    "collections.Counter": "dict",
+    "logging.getLogger": "logger",
+    "logging.Logger": "logger",
+    "rclpy.logging.get_logger": "logger",
+    "threading.RLock": "threading.Lock",
+    "queue.SimpleQueue": "queue.Queue",
+    "queue.LifoQueue": "queue.Queue",
+    "queue.PriorityQueue": "queue.Queue",
+    "multiprocessing.Queue": "queue.Queue",
+}
+_WAITS = "waits"
+_ANYTHING = "may do anything"
+_ENDLESS = "may never end"
+_PROCESS = "runs another program"
+
+RULES = (
+    # Numbers.
+    OutcomeRule("abs fabs fabsf labs", "builtins.abs math.fabs", gives="number"),
+    OutcomeRule("ceil floor round roundf lround llround trunc rint nearbyint lrint"),
+    OutcomeRule("sqrt sqrtf cbrt pow exp exp2 expm1 hypot log log10 log1p log2 fma ldexp"),
+    OutcomeRule("sin cos tan asin acos atan atan2 sinh cosh tanh fmod remainder copysign erf"),
+    OutcomeRule("isfinite isinf isnan isnormal signbit fmin fmax lerp midpoint gcd lcm"),
+    OutcomeRule("max", tells=Tells.MOST),
+    OutcomeRule("min clamp minmax swap exchange move forward pair tuple make_pair tie"),
+    OutcomeRule("make_tuple as_const ref cref addressof sizeof static_cast byte to_integer"),
+    OutcomeRule("max_element min_element minmax_element accumulate reduce inner_product count"),
+    OutcomeRule("count_if find find_if find_if_not any_of all_of none_of for_each for_each_n"),
+    OutcomeRule("copy copy_n copy_if copy_backward fill fill_n transform sort stable_sort rotate"),
+    OutcomeRule("nth_element partial_sort reverse unique remove remove_if replace replace_if iota"),
+    OutcomeRule("lower_bound upper_bound binary_search equal equal_range adjacent_find mismatch"),
+    OutcomeRule("partial_sum adjacent_difference distance next prev advance begin end size data"),
+    OutcomeRule("rbegin rend cbegin cend empty back_inserter ostream_iterator is_sorted generate"),
+    OutcomeRule("search swap_ranges includes set_union set_intersection set_difference merge"),
+    OutcomeRule("shift_left shift_right partition stable_partition sample shuffle ranges::sort"),
+    OutcomeRule("memcpy memset memmove memcmp strlen strcmp strncmp getenv to_string quoted"),
+    OutcomeRule("atof atoi atol strtol strtod strtof strtoul isdigit isalpha isspace toupper"),
+    OutcomeRule("tolower snprintf sprintf printf puts fprintf fputs fflush putchar time difftime"),
+    OutcomeRule("make_unique make_shared unique_ptr shared_ptr static_pointer_cast"),
+    OutcomeRule("dynamic_pointer_cast in_place nullopt make_optional optional numeric_limits"),
+    OutcomeRule("vector deque list array map set unordered_map unordered_set multimap multiset"),
+    OutcomeRule("queue stack priority_queue string string_view bitset initializer_list span"),
+    OutcomeRule("mutex recursive_mutex shared_mutex atomic atomic_bool atomic_int atomic_flag"),
+    OutcomeRule("lock_guard scoped_lock unique_lock shared_lock condition_variable hash less"),
+    OutcomeRule("greater plus minus equal_to function ifstream ofstream fstream stringstream"),
+    OutcomeRule("ostringstream istringstream setprecision setw setfill filesystem::exists"),
+    OutcomeRule("std::numeric_limits.max std::numeric_limits.min std::numeric_limits.lowest"),
+    OutcomeRule("numeric_limits::max numeric_limits::min numeric_limits::lowest"),
+    OutcomeRule("numeric_limits::infinity numeric_limits::quiet_NaN numeric_limits::epsilon"),
+    OutcomeRule("numeric_limits::has_infinity size_t int32_t uint32_t int64_t uint64_t"),
+    OutcomeRule("chrono::seconds chrono::milliseconds chrono::microseconds chrono::nanoseconds"),
+    OutcomeRule("chrono::minutes chrono::hours chrono::duration chrono::duration_cast"),
+    OutcomeRule("chrono::steady_clock::now chrono::system_clock::now chrono::time_point"),
+    OutcomeRule("chrono::high_resolution_clock::now chrono::steady_clock::time_point"),
+    OutcomeRule("chrono::system_clock::to_time_t chrono::system_clock::time_point"),
+    OutcomeRule("random_device mt19937 uniform_int_distribution uniform_real_distribution rand"),
+    OutcomeRule("normal_distribution default_random_engine literals", "builtins.divmod"),
+    OutcomeRule("exception runtime_error logic_error invalid_argument out_of_range domain_error"),
+    OutcomeRule("range_error overflow_error underflow_error length_error bad_alloc"),
+    OutcomeRule("stoi stol stoll stoul stoull stof stod stold", raises="std::invalid_argument"),
+    OutcomeRule("regex regex_match regex_search regex_replace", raises="std::regex_error"),
+    OutcomeRule("get visit", raises="std::bad_variant_access"),
+    OutcomeRule("any_cast", raises="std::bad_any_cast"),
+    OutcomeRule(python="builtins.max", empty="builtins.ValueError", tells=Tells.MOST),
+    OutcomeRule(python="builtins.min", empty="builtins.ValueError"),
+    OutcomeRule(
+        python="builtins.round math.floor math.ceil math.trunc builtins.hash", gives="number"
+    ),
+    OutcomeRule(python="builtins.int builtins.float", raises="builtins.ValueError", gives="number"),
+    OutcomeRule(python="builtins.complex builtins.bytes", raises="builtins.ValueError"),
+    OutcomeRule(
+        python="math.isfinite math.isinf math.isnan math.hypot math.atan2 math.atan", gives="number"
+    ),
+    OutcomeRule(python="math.sin math.cos math.tan math.degrees math.radians math.copysign"),
+    OutcomeRule(python="math.tanh math.pi math.inf math.nan math.e math.tau math.isclose"),
+    OutcomeRule(python="math.fsum math.prod math.dist math.gcd math.erf"),
+    OutcomeRule(python="math.sqrt", raises="builtins.ValueError", of_negative=True),
+    OutcomeRule(python="math.log math.log10 math.log2", raises="builtins.ValueError"),
+    OutcomeRule(python="math.acos math.asin math.log1p math.fmod", raises="builtins.ValueError"),
+    OutcomeRule(python="math.exp math.pow math.sinh math.cosh", raises="builtins.OverflowError"),
+    OutcomeRule(python="builtins.bool", gives="number"),
+    OutcomeRule(python="builtins.repr builtins.format builtins.ascii"),
+    OutcomeRule(python="builtins.str builtins.hex builtins.bin builtins.oct", gives="str"),
+    OutcomeRule(python="builtins.chr", raises="builtins.ValueError"),
+    OutcomeRule(python="builtins.ord builtins.type"),
+    OutcomeRule(python="builtins.isinstance builtins.issubclass dataclasses.field", keeps=True),
+    OutcomeRule(python="builtins.callable builtins.hasattr builtins.id"),
+    OutcomeRule(python="builtins.object builtins.slice builtins.super"),
+    OutcomeRule(python="statistics.median statistics.mean", empty="statistics.StatisticsError"),
+    OutcomeRule(python="statistics.fmean statistics.mode", empty="statistics.StatisticsError"),
+    OutcomeRule(python="statistics.stdev statistics.variance", raises="statistics.StatisticsError"),
+    OutcomeRule(python="random.random random.uniform random.gauss random.randint", gives="number"),
+    OutcomeRule(python="random.choice", empty="builtins.IndexError"),
+    # Collections.
+    OutcomeRule(python="builtins.len", gives="number", tells=Tells.SIZE),
+    OutcomeRule(python="builtins.sum builtins.any builtins.all", gives="number"),
+    OutcomeRule(".size .length", tells=Tells.SIZE),
+    OutcomeRule(".empty", tells=Tells.EMPTY),
+    OutcomeRule(".count .contains", tells=Tells.HAS),
+    OutcomeRule(python="builtins.range", tells=Tells.RANGE),
+    OutcomeRule(python="builtins.enumerate builtins.zip", tells=Tells.PAIRS),
+    OutcomeRule(python="builtins.reversed", tells=Tells.SAME),
+    OutcomeRule(python="builtins.map builtins.filter"),
+    OutcomeRule(python="builtins.sorted builtins.list", gives="list", tells=Tells.SAME),
+    OutcomeRule(python="builtins.tuple", gives="tuple", tells=Tells.SAME),
+    OutcomeRule(python="builtins.dict", gives="dict"),
+    OutcomeRule(python="builtins.set builtins.frozenset", gives="set"),
+    OutcomeRule(python="collections.deque", gives="deque", tells=Tells.SAME),
+    OutcomeRule(python="collections.defaultdict", gives="defaultdict", keeps=True),
+    OutcomeRule(python="collections.Counter", gives="defaultdict"),
+    OutcomeRule(python="collections.OrderedDict", gives="dict"),
+    OutcomeRule(python="builtins.next", raises="builtins.StopIteration", or_default=True),
+    OutcomeRule(python="itertools.islice itertools.chain itertools.pairwise itertools.product"),
+    OutcomeRule(python="itertools.takewhile itertools.accumulate itertools.combinations"),
+    OutcomeRule(python="itertools.groupby itertools.zip_longest"),
+    OutcomeRule(python="itertools.count itertools.cycle itertools.repeat", acts=_ENDLESS),
+    OutcomeRule(python="builtins.iter", acts=_ENDLESS),
+    OutcomeRule(python="functools.lru_cache functools.cache functools.wraps", returns=True),
+    OutcomeRule(python="dataclasses.dataclass builtins.staticmethod", returns=True),
+    OutcomeRule(python="builtins.classmethod builtins.property enum.unique", returns=True),
+    OutcomeRule(python="abc.abstractmethod contextlib.contextmanager", returns=True),
+    OutcomeRule(python="typing.final functools.total_ordering", returns=True),
+    OutcomeRule(python="functools.partial functools.reduce functools.cmp_to_key"),
+    OutcomeRule(python="operator.itemgetter", raises="builtins.LookupError"),
+    OutcomeRule(python="operator.attrgetter operator.add operator.mul operator.sub"),
+    OutcomeRule(python="dataclasses.replace dataclasses.asdict enum.auto"),
+    OutcomeRule(python="typing.NamedTuple enum.Enum enum.IntEnum typing.TypeVar typing.NewType"),
+    OutcomeRule(python="typing.Protocol abc.ABC enum.IntFlag enum.Flag typing.Generic"),
+    OutcomeRule(python="collections.namedtuple copy.copy copy.deepcopy bisect.bisect"),
+    OutcomeRule(python="bisect.bisect_left bisect.bisect_right bisect.insort heapq.heappush"),
+    OutcomeRule(python="builtins.print sys.stdout.write sys.stderr.write warnings.warn"),
+    OutcomeRule("cerr cout clog endl flush hex dec fixed boolalpha", "sys.stdout sys.stderr"),
+    OutcomeRule(python="sys.stdout.flush sys.stderr.flush sys.maxsize sys.platform sys.argv"),
+    OutcomeRule(python="time.time time.monotonic time.perf_counter time.time_ns", gives="number"),
+    OutcomeRule(python="time.strftime time.monotonic_ns time.localtime datetime.datetime.now"),
+    OutcomeRule(python="datetime.timedelta datetime.datetime datetime.datetime.utcnow"),
+    OutcomeRule(python="logging.getLogger rclpy.logging.get_logger", gives="logger"),
+    OutcomeRule(python="logging.debug logging.info logging.warning logging.error"),
+    OutcomeRule(python="logging.critical logging.exception logging.log logging.warn"),
+    OutcomeRule(python="builtins.Exception builtins.ValueError builtins.KeyError"),
+    OutcomeRule(python="builtins.RuntimeError builtins.IndexError builtins.TypeError"),
+    OutcomeRule(python="builtins.OSError builtins.ZeroDivisionError builtins.LookupError"),
+    OutcomeRule(python="builtins.AssertionError builtins.NotImplementedError"),
+    OutcomeRule(python="builtins.SystemExit builtins.StopIteration builtins.OverflowError"),
+    OutcomeRule(python="builtins.AttributeError builtins.BaseException"),
+    OutcomeRule(python="threading.Lock threading.RLock threading.local", gives="threading.Lock"),
+    OutcomeRule(python="threading.current_thread threading.get_ident"),
+    OutcomeRule(python="contextlib.suppress contextlib.nullcontext"),
+    OutcomeRule(python="re.compile re.match re.search re.sub re.findall re.fullmatch re.split"),
+    OutcomeRule(python="string.Template string.ascii_letters string.digits"),
+    OutcomeRule(python="json.dumps pathlib.Path os.path.exists os.path.join os.path.isfile"),
+    OutcomeRule(python="os.path.basename os.path.dirname os.path.isdir os.environ.get os.getenv"),
+    OutcomeRule(python="os.path.abspath os.path.expanduser os.sep os.O_RDONLY os.O_RDWR"),
+    OutcomeRule(python="os.O_NONBLOCK os.uname os.getcwd os.access"),
+    OutcomeRule(python="os.environ", raises="builtins.KeyError"),
+    OutcomeRule(python="json.loads json.load", raises="json.JSONDecodeError"),
+    OutcomeRule(python="struct.pack struct.unpack struct.unpack_from", raises="struct.error"),
+    OutcomeRule(python="builtins.open", raises="builtins.OSError", gives="file"),
+    OutcomeRule(python="os.open os.close os.lseek os.pread", raises="builtins.OSError"),
+    OutcomeRule(python="os.listdir os.stat os.scandir os.read", raises="builtins.OSError"),
+    # Methods.
+    OutcomeRule(python=".append .appendleft .insert .add", size=Size.GROWS),
+    OutcomeRule(".push_back .push_front .emplace_back .emplace_front .push", size=Size.GROWS),
+    OutcomeRule(".insert .emplace .try_emplace .insert_or_assign", size=Size.GROWS),
+    OutcomeRule(python=".extend .setdefault .update .extendleft", size=Size.MORE),
+    OutcomeRule(python=".pop .popleft .popitem", empty="builtins.IndexError", size=Size.LOSES),
+    OutcomeRule(python="dict.pop", raises="builtins.KeyError", size=Size.ANY, or_default=True),
+    OutcomeRule(python="set.pop", empty="builtins.KeyError", size=Size.LOSES),
+    OutcomeRule(python=".remove .index", raises="builtins.ValueError", size=Size.ANY),
+    OutcomeRule(python="set.remove", raises="builtins.KeyError", size=Size.ANY),
+    OutcomeRule(python=".discard .clear", size=Size.ANY),
+    OutcomeRule(".pop_front .pop_back .pop", size=Size.LOSES),
+    OutcomeRule(".clear .resize .assign .reset", size=Size.ANY),
+    OutcomeRule(".erase std::vector.erase", size=Size.LOSES),
+    OutcomeRule("std::map.erase std::set.erase std::string.erase", size=Size.ANY),
+    OutcomeRule(
+        "std::vector.at std::array.at std::map.at std::string.at", raises="std::out_of_range"
+    ),
+    OutcomeRule("std::string.substr std::bitset.test", raises="std::out_of_range"),
+    OutcomeRule("std::optional.value", raises="std::bad_optional_access"),
+    OutcomeRule(python=".decode .encode", raises="builtins.UnicodeDecodeError"),
+    OutcomeRule(python=".strip .split .lower .upper .replace .format .join .rstrip .lstrip"),
+    OutcomeRule(python=".read .readline .readlines .write", raises="builtins.OSError"),
+    OutcomeRule(".keys .elements std::map.keys", "dict.get .values .copy"),
+    OutcomeRule(python=".items", tells=Tells.PAIRS),
+    OutcomeRule("std::random_device.operator() std::mutex.unlock std::unique_lock.unlock"),
+    OutcomeRule(
+        "std::mutex.try_lock std::unique_lock.owns_lock std::condition_variable.notify_one"
+    ),
+    OutcomeRule("std::condition_variable.notify_all", "threading.Lock.release"),
+    OutcomeRule(python="queue.Queue.put_nowait queue.Queue.qsize queue.Queue.empty"),
+    OutcomeRule(python="queue.Queue.full collections.namedtuple._replace"),
+    OutcomeRule(python="queue.Queue.get_nowait", raises="builtins.Exception"),
+    OutcomeRule(python="path.exists path.is_file path.joinpath"),
+    OutcomeRule(python="path.read_text path.read_bytes", raises="builtins.OSError", gives="str"),
+    # What waits, runs others, or ends the program.
+    OutcomeRule("sleep usleep nanosleep clock_nanosleep pause", "time.sleep", acts="takes time"),
+    OutcomeRule("this_thread::sleep_for this_thread::sleep_until", acts="takes time"),
+    OutcomeRule("select pselect poll ppoll epoll_wait epoll_pwait recv recvfrom", acts=_WAITS),
+    OutcomeRule("recvmsg accept accept4 pthread_rwlock_rdlock", acts=_WAITS),
+    OutcomeRule("this_thread::get_id"),
+    OutcomeRule(
+        "system popen pclose execv execvp execl execlp fork vfork posix_spawn", acts=_PROCESS
+    ),
+    OutcomeRule(
+        "exit _exit _Exit abort quick_exit terminate kill raise longjmp", acts="ends the node"
+    ),
+    OutcomeRule("exit std::exit std::abort std::terminate std::_Exit", acts="ends the node"),
+    OutcomeRule("signal sigaction atexit at_quick_exit setitimer alarm", acts=_ANYTHING),
+    OutcomeRule(
+        "async thread jthread pthread_create call_once packaged_task", acts="starts a thread"
+    ),
+    OutcomeRule(
+        "pthread_join pthread_cond_wait sem_wait sem_timedwait sigwait sigwaitinfo", acts=_WAITS
+    ),
+    OutcomeRule(
+        "wait waitpid wait3 wait4 msgrcv mq_receive semop lockf flock tcdrain", acts=_WAITS
+    ),
+    OutcomeRule("connect send sendto sendmsg getaddrinfo gethostbyname", acts=_WAITS),
+    OutcomeRule("getchar getc fgetc gets fgets scanf fscanf getline getch getpass", acts=_WAITS),
+    OutcomeRule("std::condition_variable.wait std::condition_variable.wait_for", acts=_WAITS),
+    OutcomeRule("std::condition_variable.wait_until std::future.get std::future.wait", acts=_WAITS),
+    OutcomeRule("std::mutex.lock std::unique_lock.lock pthread_mutex_lock", acts=_WAITS),
+    OutcomeRule("std::thread.join .join .wait .wait_for .wait_until .timed_wait", acts=_WAITS),
+    OutcomeRule("std::future.wait_for std::atomic.wait std::promise.get_future", acts=_WAITS),
+    OutcomeRule("std::cin cin std::wcin stdin", "sys.stdin", acts=_WAITS),
+    OutcomeRule(
+        python=".acquire .wait .result .recv .recvfrom .accept .connect .sendall", acts=_WAITS
+    ),
+    OutcomeRule(python="threading.Lock.acquire queue.Queue.get queue.Queue.put", acts=_WAITS),
+    OutcomeRule(python="queue.Queue.join .communicate .readexactly .serve_forever", acts=_WAITS),
+    OutcomeRule(
+        python="sys.exit builtins.exit builtins.quit os._exit os.abort", acts="ends the node"
+    ),
+    OutcomeRule(python="builtins.input sys.stdin.readline sys.stdin.read", acts=_WAITS),
+    OutcomeRule(
+        python="builtins.eval builtins.exec builtins.getattr builtins.setattr", acts=_ANYTHING
+    ),
+    OutcomeRule(
+        python="builtins.delattr builtins.globals builtins.locals builtins.vars", acts=_ANYTHING
+    ),
+    OutcomeRule(python="builtins.compile builtins.__import__ builtins.breakpoint", acts=_ANYTHING),
+)

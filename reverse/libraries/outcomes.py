@@ -1,0 +1,145 @@
+"""How calls of libraries may end: what they raise, whether they wait, and what they give back.
+
+One table for both languages: a rule says what its functions do, with their names in C++ and in
+Python; a name that begins with a dot is a method of any object that is not known to be of another
+class. What a standard library or a client library has and no table knows may do anything. A
+function of any other library gets values, and gives one.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Mapping
+
+from rebsync.records import dataclass
+from rebsync.reverse.libraries import cpp, outcome_rules, python
+from rebsync.reverse.libraries.effects import of_function
+from rebsync.reverse.libraries.outcome_rules import Size, Tells
+from rebsync.reverse.libraries.registry import derived
+from rebsync.reverse.libraries.routines import Effect, Language
+
+_LOOKS = frozenset(
+    {*(Effect.NONE, Effect.CLOCK, Effect.LOGS, Effect.READS, Effect.RANDOM), Effect.CHANGES}
+)
+_UNKNOWN = "nothing is known of it"
+
+
+@dataclass(frozen=True, slots=True)
+class CallOutcome:
+    """How a call may end, besides giving a value.
+
+    `raises` are the exceptions, of which `empty` only where its first argument has no elements, and
+    `lacks` only where the object has none for it; `acts` says what else it does, and is empty where
+    it does nothing. `size` is what it does to the number of elements of its object. `gives` is the
+    class of what it gives; it may be the first argument (`returns`). One that `keeps` only looks at
+    classes that it gets, or calls them when it is asked for something; one `of_negative` raises
+    for negative numbers only, one `or_default` unless it gets another value to give.
+    """
+
+    raises: frozenset[str] = frozenset()
+    empty: frozenset[str] = frozenset()
+    acts: str = ""
+    size: Size = Size.SAME
+    gives: str = ""
+    returns: bool = False
+    tells: Tells = Tells.NOTHING
+    keeps: bool = False
+    of_negative: bool = False
+    or_default: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryOutcomes:
+    """The table as a program of one language asks it.
+
+    `opaque` are names of the program itself that no lowering sees through: macros, and modules of
+    which it is not known where they are.
+    """
+
+    language: Language
+    opaque: frozenset[str] = frozenset()
+
+    @property
+    def _named(self) -> Mapping[str, CallOutcome]:
+        return _named(self.language)
+
+    def function(self, name: str) -> CallOutcome:
+        """How a call of a function or class may end, by its full name."""
+        name = name.removeprefix("::")
+        if name in self.opaque or name.partition(".")[0] in self.opaque:
+            return CallOutcome(acts="what it stands for is not known")
+        known = self._named.get(name)
+        if known is None and self.language is Language.CPP:
+            known = self._named.get(name.partition("<")[0].removeprefix("std::"))
+        if known is not None:
+            return known
+        of, _, last = name.rpartition("::" if self.language is Language.CPP else ".")
+        if of and self.language is Language.CPP and (found := self._of_class(of, last)) is not None:
+            return found
+        effect = of_function(self.language, name).effect
+        if effect in _LOOKS:
+            return CallOutcome()
+        if effect is not Effect.UNKNOWN:
+            return CallOutcome(acts=effect.value)
+        return CallOutcome(acts=_UNKNOWN if self.is_standard(name) else "")
+
+    def method(self, of: str | None, name: str) -> CallOutcome:
+        """How a call of a method may end, by its object's class, if that is known."""
+        if of is not None and (found := self._of_class(of, name)) is not None:
+            return found
+        if of is not None and self.is_standard(of):
+            return CallOutcome(acts=_UNKNOWN)
+        is_asking = name in python.asking_names() if self.language is Language.PYTHON else False
+        acting = python.acting_methods() if self.language is Language.PYTHON else cpp.acting()
+        if is_asking or name in acting:
+            return CallOutcome(acts="acts on a node")
+        return self._named.get(f".{name}", CallOutcome())
+
+    def of_failure(self, failure: str) -> str:
+        """The exception that an operation raises; empty where none can be caught."""
+        return outcome_rules.FAILURES[failure][self.language is Language.PYTHON]
+
+    def are_above(self, name: str) -> Iterable[str]:
+        """An exception, and the classes that it extends."""
+        yield name
+        while name in outcome_rules.EXCEPTIONS:
+            name = outcome_rules.EXCEPTIONS[name]
+            yield name
+
+    def _of_class(self, of: str, name: str) -> CallOutcome | None:
+        """A method of a class of the table; classes that do the same are one."""
+        plain = of.partition("<")[0]
+        of = outcome_rules.CLASSES.get(plain, plain)
+        found = self._named.get(f"{of}.{name}")
+        if found is None and of in outcome_rules.PLAIN_CLASSES:
+            found = self._named.get(f".{name}", CallOutcome())
+        return found
+
+    def is_standard(self, name: str) -> bool:
+        """Whether a name is of a standard library, or of one that nodes are made with."""
+        if self.language is Language.PYTHON:
+            first = name.partition(".")[0]
+            is_standard = first in sys.stdlib_module_names or first == "builtins"
+            return is_standard or python.is_of_client(name)
+        is_client = name.startswith(cpp.scopes()) or name.rpartition("::")[2] in cpp.own_classes()
+        return is_client or name.startswith("std::") or name.partition("<")[0] in cpp.acting()
+
+
+@derived
+def _named(language: Language) -> Mapping[str, CallOutcome]:
+    found: dict[str, CallOutcome] = {}
+    for rule in outcome_rules.RULES:
+        for name in (rule.cpp if language is Language.CPP else rule.python).split():
+            found[name] = CallOutcome(
+                frozenset(rule.raises.split()),
+                frozenset(rule.empty.split()),
+                rule.acts,
+                rule.size,
+                rule.gives,
+                rule.returns,
+                rule.tells,
+                rule.keeps,
+                rule.of_negative,
+                rule.or_default,
+            )
+    return found
