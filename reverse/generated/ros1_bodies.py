@@ -21,7 +21,7 @@ from rebsync.reverse.generated.ros1_free import passed_by_reference
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import Taken, parameters_of
 from rebsync.reverse.generated.ros1_timers import Timer, sent_later, with_rearming
-from rebsync.reverse.generated.sensor_functions import SensorFunctions
+from rebsync.reverse.generated.sensor_functions import acting_for_sensors, acting_in_blocks
 from rebsync.reverse.generated.sensors import list_unseen
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction, CppParameter
@@ -131,7 +131,10 @@ class GeneratedBodies:
     def _read(self, cpp: Cpp, inside: Scope, body: Node, within: str) -> m.Block:
         """A body, and what it asks of sensors besides what they saw."""
         read = self._said(cpp, inside, body, within)
-        for source, unread in SensorFunctions(self.code, inside).acting(cpp, body):
+        for source, unread in acting_for_sensors(self.code, cpp, body):
+            self.findings.unreadable(source, unread, within)
+        listed = [f.span for f in self.findings.all if f.source == cpp.source]
+        for source, unread in acting_in_blocks(self.code, cpp, body, listed):
             self.findings.unreadable(source, unread, within)
         return read
 

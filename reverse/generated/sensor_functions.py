@@ -6,138 +6,135 @@ hardware is theirs; the rebec, its messages and its time are the model's.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Collection, Iterator
 
 from tree_sitter import Node
 
-from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_effects import Effects
-from rebsync.reverse.bodies.cpp_kinds import LEAVES
-from rebsync.reverse.bodies.cpp_plain_locals import declared_names
-from rebsync.reverse.bodies.known_functions import acts, starts_nothing
-from rebsync.reverse.bodies.scope import Scope
-from rebsync.reverse.bodies.touches import Touches
+from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
+from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.generated.ros1_meanings import is_runtime_header
 from rebsync.reverse.generated.ros1_names import has_mailbox
-from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.libraries.effects import of_function
-from rebsync.reverse.libraries.routines import Effect, Language
-from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
+from rebsync.reverse.ir.cpp.functions import lambda_names
+from rebsync.reverse.ir.cpp.lowering import CppLowering
+from rebsync.reverse.ir.cpp.symbols import FunctionSymbol
+from rebsync.reverse.ir.program import Program
+from rebsync.reverse.libraries.outcomes import LibraryOutcomes
+from rebsync.reverse.libraries.routines import Language
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import Code
-from rebsync.reverse.syntax.cpp_tree import Cpp, inside, part, text_of
-from rebsync.reverse.syntax.macros import hides
-from rebsync.source import Source
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+from rebsync.source import Source, Span
 
 _ASKED = "this runs when it is asked what a sensor saw"
-_LOOKED_AT = frozenset({Effect.NONE, Effect.CLOCK, Effect.LOGS})
-_NAMES = ("identifier", "type_identifier", "qualified_identifier", "namespace_identifier")
-_NOT_ENDED = (*(kind for kind in LEAVES if kind != "return_statement"), "gnu_asm_expression")
+_BLOCK = re.compile(r"^[ \t]*//[ \t]*rebsync:[ \t]*(user[ \t]+\S+|end\b)", re.MULTILINE)
+_UNKNOWN = "only a function of the package says what a sensor saw"
+_DEFINED = re.compile(rb"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
+# What a function is made of that only gives a field of what it gets, as generated ones do.
+_PLAIN = frozenset(
+    {"return_statement", "field_expression", "identifier", "field_identifier", "comment"}
+)
 
 
-@dataclass(frozen=True, slots=True)
-class SensorFunctions:
-    """Looks through what a body asks of its sensors; `scope` is what it can name."""
-
-    code: Code
-    scope: Scope
-
-    def acting(self, cpp: Cpp, body: Node) -> Iterator[tuple[Source, Unread]]:
-        """The places that may do more than to say what was seen."""
-        asked = [c.arguments[1] for c in self.code.calls_in(cpp, body) if _asks(c)]
-        if not asked:
-            return
-        waiting = [name for _, name in self.code.definitions if name.startswith("operator")]
-        for argument in asked:
-            looked = _seeing(argument)
-            if looked is None:
-                yield cpp.source, Unread(cpp.span(argument), "no sensor is asked here")
-            elif looked.type == "lambda_expression":
-                yield from self._of_lambda(cpp, looked)
-            else:
-                waiting.append(text_of(looked).lstrip("& ").rpartition("::")[2])
-        yield from _Reach(self.code, _modelled(self.code)).acting(waiting)
-
-    def _of_lambda(self, cpp: Cpp, node: Node) -> Iterator[tuple[Source, Unread]]:
-        """A lambda in the body, which may look at the rebec."""
-        try:
-            Effects(cpp, self.scope, returning=True).check(part(node, "body"))
-        except Touches as touches:
-            yield cpp.source, touches
+def acting_for_sensors(code: Code, cpp: Cpp, body: Node) -> Iterator[tuple[Source, Unread]]:
+    """The places that may do more than to say what was seen, where a body asks its sensors."""
+    asked = [c.arguments[1] for c in code.calls_in(cpp, body) if _asks(c)]
+    looked = []
+    for argument in asked:
+        if (found := _seeing(argument)) is None:
+            yield cpp.source, Unread(cpp.span(argument), "no sensor is asked here")
+        elif not _is_plain(code, found):
+            looked.append(found)
+    if looked:
+        yield from _SensorProgram(code).acting(cpp, looked)
 
 
-@dataclass(frozen=True, slots=True)
-class _Reach:
-    """Functions and what these name; `modelled` are the classes of rebecs and of their run time."""
+def acting_in_blocks(
+    code: Code, cpp: Cpp, body: Node, listed: Collection[Span]
+) -> Iterator[tuple[Source, Unread]]:
+    """The places in users' own blocks of a body that do not go on with what stands after them.
 
-    code: Code
-    modelled: frozenset[str]
+    Blocks with places that are `listed` already are left out.
+    """
+    blocks = _blocks(cpp, body)
+    spans = [b for b in blocks if not any(b.start <= at.start <= b.end for at in listed)]
+    if spans:
+        yield from _SensorProgram(code).acting_in(cpp, body, spans)
 
-    def acting(self, waiting: list[str]) -> Iterator[tuple[Source, Unread]]:
-        """What functions do, and what these call."""
-        reached = set[str]()
-        while waiting:
-            if (name := waiting.pop()) not in reached:
-                reached.add(name)
-                for cpp, node in self._declared(name):
-                    waiting += _names_in(node)
-                    listed: list[Node] = []
-                    for at, why in self._done_in(cpp, node):
-                        if not any(_is_in(at, outer) for outer in listed):
-                            listed.append(at)
-                            yield cpp.source, Unread(cpp.span(at), f"{_ASKED}: {why}")
 
-    def _declared(self, name: str) -> Iterator[tuple[Cpp, Node]]:
-        """The functions, variables and macros of a name that stand in files of the user's."""
-        for (owner, own), functions in self.code.definitions.items():
-            if name in (own, owner) and owner not in self.modelled:
-                yield from ((f.cpp, f.node) for f in functions)
-        for class_ in self.code.all_classes.get(name, ()):
-            if name not in self.modelled:
-                yield class_.cpp, class_.node
-        for variable in self.code.variables.get(name, ()):
-            yield variable.cpp, variable.node
-        for defined in self.code.macros.get(name, ()):
-            yield self.code.file_of(defined), defined
+def _blocks(cpp: Cpp, body: Node) -> Iterator[Span]:
+    """What stands between `rebsync: user NAME` and `rebsync: end`."""
+    around, start = cpp.span(body), None
+    for marker in _BLOCK.finditer(cpp.source.text, around.start, around.end):
+        if marker[1] != "end":
+            start = marker.end()
+        elif start is not None:
+            yield Span(start, marker.start())
+            start = None
 
-    def _done_in(self, cpp: Cpp, node: Node) -> Iterator[tuple[Node, str]]:
-        """What the text of a function, or the declaration of what it names, does."""
-        own = frozenset(n for d in inside(node, "declaration") for n in declared_names(d))
-        for leaving in inside(node, *_NOT_ENDED):
-            yield leaving, LEAVES.get(leaving.type, "this does something")
-        for call in calls_in(node):
-            if (why := self._called(cpp, call)) is not None:
-                yield call.node, why
-        for each in inside(node, *_NAMES):
-            if (why := self._named(text_of(each), own)) is not None:
-                yield each, why
-        if node.type == "preproc_function_def":
-            yield node, "what this macro does is not known"
 
-    def _named(self, name: str, own: frozenset[str]) -> str | None:
-        """What naming something may do to the node."""
-        last = name.partition("<")[0].rpartition("::")[2]
-        if last in self.modelled:
-            return f'"{name}" is the model\'s'
-        if last in own:
-            return None
-        is_ros = name.startswith(libraries.scopes()) or last in libraries.own_classes()
-        if is_ros and of_function(Language.CPP, name).effect not in _LOOKED_AT:
-            return f'"{name}" has to do with the node'
-        if last in libraries.acting() or not starts_nothing(last) or last in libraries.threaded():
-            return f'"{name}" acts on the node'
-        return None
+class _SensorProgram:
+    """The program that a package is, without the model's classes."""
 
-    def _called(self, cpp: Cpp, call: CppCall) -> str | None:
-        name = call.name.rpartition("::")[2]
-        does = acts(cpp, call, True)
-        if does is not None:
-            return f'"{name}" {does}'
-        if name in libraries.telling_words():
-            return f'"{name}" has to do with messages'
-        if hides(name) and name not in self.code.macros:
-            return f'"{name}" may be a macro that hides statements'
-        return None
+    def __init__(self, code: Code) -> None:
+        self.code = code
+        self.lowering = CppLowering(code)
+        self.modelled = _modelled(code)
+        program = self.lowering.program()
+        own = [name for name in program.functions if not self._is_model(name)]
+        classes = [c for c in program.classes.values() if not self._is_model(c.name)]
+        self.program = Program(own, classes, program.function, program.modules.items())
+        macros = {m.decode() for cpp in code.files for m in _DEFINED.findall(cpp.data)}
+        table = LibraryOutcomes(Language.CPP, frozenset(macros))
+        self.analysis = OutcomeAnalysis(self.program, table, self._is_model)
+
+    def _is_model(self, name: str) -> bool:
+        """Whether a class, function or file is of the rebecs or of the run-time part."""
+        symbol = self._symbols.get(name)
+        if symbol is not None and symbol.owner is None:
+            return False
+        parts = name.split("::")
+        return any(each.partition("<")[0] in self.modelled for each in parts) or (
+            "/" in name and is_runtime_header(name)
+        )
+
+    @property
+    def _symbols(self) -> dict[str, FunctionSymbol]:
+        return self.lowering.world.symbols.functions
+
+    def acting(self, cpp: Cpp, looked: list[Node]) -> Iterator[tuple[Source, Unread]]:
+        """What the functions do that are handed over, and what these call."""
+        found = set[Problem]()
+        for node in looked:
+            names = self._functions(node)
+            if not names:
+                yield cpp.source, Unread(cpp.span(node), _UNKNOWN)
+            found = found.union(*map(self.analysis.of, names))
+        for problem in sorted(found, key=lambda p: (p.function, p.place.start, p.why)):
+            source = self.lowering.file_of(problem.function).source
+            yield source, Unread(problem.place, f"{_ASKED}: {problem.why}")
+
+    def acting_in(self, cpp: Cpp, body: Node, spans: list[Span]) -> Iterator[tuple[Source, Unread]]:
+        """What statements of a body do."""
+        names = (n for n, s in self._symbols.items() if s.code.body == body)
+        for function in map(self.program.function, names):
+            for span in spans:
+                for problem in sorted(self.analysis.of_statements(function, span), key=str):
+                    source = self.lowering.file_of(problem.function).source
+                    yield source, Unread(problem.place, f"in a user's block: {problem.why}")
+
+    def _functions(self, node: Node) -> list[str]:
+        """The functions that say what was seen: all of a name, or a lambda of a method."""
+        if node.type == "lambda_expression":
+            for symbol in self._symbols.values():
+                owner = self.lowering.world.symbols.classes.get(symbol.owner or "")
+                if node.id in (names := lambda_names(symbol, owner)):
+                    return [names[node.id]]
+            return []
+        name = text_of(node).lstrip("& ").rpartition("::")[2]
+        own = (n for n, s in self._symbols.items() if s.simple == name and s.owner is None)
+        return sorted(n for n in own if n in self.program)
 
 
 def _modelled(code: Code) -> frozenset[str]:
@@ -166,9 +163,14 @@ def _seeing(node: Node) -> Node | None:
     return looked if is_name or looked.type == "lambda_expression" else None
 
 
-def _names_in(node: Node) -> list[str]:
-    return [text_of(n).rpartition("::")[2] for n in inside(node, *_NAMES, "field_identifier")]
-
-
-def _is_in(node: Node, outer: Node) -> bool:
-    return outer.start_byte <= node.start_byte and node.end_byte <= outer.end_byte
+def _is_plain(code: Code, looked: Node) -> bool:
+    """Whether all functions of a name only give a field of what they get."""
+    name = text_of(looked).lstrip("& ").rpartition("::")[2]
+    functions = [f for (_, own), found in code.definitions.items() if own == name for f in found]
+    waiting = [n for f in functions if f.body is not None for n in f.body.named_children]
+    while waiting:
+        node = waiting.pop()
+        if node.type not in _PLAIN:
+            return False
+        waiting += node.named_children
+    return bool(functions) and name.isidentifier()

@@ -35,7 +35,13 @@ _PLAIN = frozenset(
         "enum.unique",
         "abc.abstractmethod",
     }
-    | {"threading.Lock", "threading.RLock", "threading.Event", "collections.OrderedDict"}
+    | {
+        "threading.Lock",
+        "threading.RLock",
+        "threading.Event",
+        "collections.OrderedDict",
+        "collections.Counter",
+    }
 )
 _IN_SETUP = _PLAIN | {
     *("setuptools.setup", "distutils.core.setup", "setuptools.find_packages", "glob.glob"),

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import ast
 import re
-import textwrap
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,7 @@ from tree_sitter import Node
 from rebsync.reverse.python.import_effects import parsed
 from rebsync.reverse.python.log_words import HARMLESS
 from rebsync.reverse.python.py_tree import field, named, text_of
-from rebsync.reverse.python.user_effects import UserEffects, names_in
+from rebsync.reverse.python.user_effects import effects_of
 from rebsync.source import Source
 
 if TYPE_CHECKING:
@@ -59,34 +58,23 @@ def _blocks(text: str) -> tuple[tuple[int, int], ...]:
 def check(reader: ModelExpressionReader, node: Node) -> None:
     """Unread: a statement of a user's block does something to what the model has."""
     _check_part(reader, node)
-    effects, functions = _effects(reader.py.source)
-    indented = " " * node.start_point.column + text_of(node)
-    waiting: list[ast.AST] = [ast.parse(textwrap.dedent(indented))]
-    reached = set[str]()
-    while waiting:
-        part = waiting.pop()
-        for _, why in effects.acting(part):
-            raise reader.unread(node, why)
-        fresh = (set(names_in(part)) & functions.keys()) - reached
-        reached |= fresh
-        waiting += (functions[name] for name in fresh)
+    effects = effects_of(reader.py, _modelled(reader.py.source))
+    for problem in effects.acting(reader.py.span(node)):
+        raise reader.unread(node, f"in a user's block: {problem.why}")
 
 
 @lru_cache(maxsize=8)
-def _effects(source: Source) -> tuple[UserEffects, dict[str, ast.stmt]]:
-    """What the names of a module do, and its functions and classes."""
+def _modelled(source: Source) -> frozenset[str]:
+    """What a module imports of the package but for plain values, by full names."""
     tree = parsed(source.text) or ast.Module([], [])
     own = source.path.rpartition("/")[0].rpartition("/")[2]
     imports = (n for n in ast.walk(tree) if isinstance(n, ast.ImportFrom))
-    modelled = frozenset(
-        a.asname or a.name
+    return frozenset(
+        f"{'.' * node.level}{node.module or ''}.{a.name}"
         for node in imports
         for a in node.names
         if _is_of_package(node, own) and (node.module or "").rpartition(".")[2] not in _PLAIN
     )
-    kinds = (ast.FunctionDef, ast.ClassDef)
-    functions: dict[str, ast.stmt] = {n.name: n for n in ast.walk(tree) if isinstance(n, kinds)}
-    return UserEffects.of(tree, modelled), functions
 
 
 def _is_of_package(node: ast.ImportFrom, own: str) -> bool:

@@ -6,136 +6,147 @@ Whatever they give is among the model's choices.
 from __future__ import annotations
 
 import ast
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator
 
-from rebsync.records import dataclass
-from rebsync.reverse.build.built_python import files_of_import
+from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.program import Program
+from rebsync.reverse.ir.python.lowering import python_program
+from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.outcomes import LibraryOutcomes
+from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.python.import_effects import parsed
-from rebsync.reverse.python.user_effects import UserEffects, names_in
+from rebsync.reverse.python.py_index import PyCode
+from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.source import Source, Span
 
 _ASKED = "this runs when it is asked what a sensor saw"
+_UNKNOWN = "only a function of a module says what a sensor saw"
+# What a function is made of that only gives a value of what it gets.
+_PLAIN = (ast.Return, ast.Attribute, ast.Name, ast.Constant, ast.expr_context)
 
 
-def list_sensor_effects(
-    sources: Mapping[str, Source], generated: Collection[str], findings: Findings
-) -> None:
+def list_sensor_effects(code: PyCode, generated: Collection[str], findings: Findings) -> None:
     """Lists what modules do where generated ones, by their paths, ask what a sensor saw."""
-    trees = {path: parsed(source.text) or ast.Module([], []) for path, source in sources.items()}
-    code = _SensorCode(sources, trees, frozenset(generated))
-    asked = (path for path, source in sources.items() if source.path in generated)
-    for path in asked:
-        for looked in _asked(trees[path]):
-            for source, node, why in code.acting(path, looked):
-                start = source.start_of(node.lineno)
-                line = source.text[start:].partition("\n")[0]
-                findings.unreadable(source, Unread(Span(start, start + len(line)), why), "")
+    texts = {path: scope.py.source for path, scope in code.modules.items()}
+    asked = [
+        (path, given)
+        for path, source in texts.items()
+        if source.path in generated and ".choose(" in source.text
+        for given in _given(source)
+    ]
+    if not asked or all(_is_plain(texts, path, given) for path, given in asked):
+        return
+    sensors = _SensorModules(code, frozenset(generated))
+    for path, given in asked:
+        for source, span, why in sensors.acting(path, given):
+            start = source.text.rfind("\n", 0, span.start) + 1
+            line = source.text[start:].partition("\n")[0]
+            findings.unreadable(source, Unread(Span(start, start + len(line)), why), "")
 
 
-def _asked(tree: ast.Module) -> Iterator[ast.expr]:
+def _given(source: Source) -> list[ast.expr]:
     """What choices of the model are handed besides: what a sensor makes of its message."""
-    for node in ast.walk(tree):
+    found = []
+    for node in ast.walk(parsed(source.text) or ast.Module([], [])):
         match node:
             case ast.Call(func=ast.Attribute(attr="choose"), args=[_, given]):
-                yield given
+                found.append(given)
             case _:
                 pass
+    return found
 
 
-@dataclass(frozen=True, slots=True)
-class _SensorCode:
-    """The modules of a package by their paths; `generated` are those of classes and run-time."""
+def _looked(given: ast.expr) -> ast.expr | None:
+    """What a sensor is handed, to say what it saw; None where no sensor is asked."""
+    match given:
+        case ast.Call(
+            func=ast.Attribute(ast.Attribute(ast.Name("self"), member), "seen"), args=[looked]
+        ) if member.endswith("_sensor"):
+            return looked
+        case _:
+            return None
 
-    sources: Mapping[str, Source]
-    trees: Mapping[str, ast.Module]
-    generated: frozenset[str]
 
-    def acting(
-        self, path: str, given: ast.expr
-    ) -> Iterator[tuple[Source, ast.expr | ast.stmt, str]]:
+def _is_plain(texts: dict[str, Source], path: str, given: ast.expr) -> bool:
+    """Whether all functions of a name only give a field of what they get, as generated ones do."""
+    looked = _looked(given)
+    if not isinstance(looked, ast.Name):
+        return False
+    trees = (parsed(t.text) for t in texts.values() if f"def {looked.id}(" in t.text)
+    nodes = (n for tree in trees if tree is not None for n in ast.walk(tree))
+    functions = [n for n in nodes if isinstance(n, ast.FunctionDef) and n.name == looked.id]
+    bodies = [n for f in functions for body in f.body for n in ast.walk(body)]
+    return bool(functions) and all(isinstance(n, _PLAIN) for n in bodies)
+
+
+class _SensorModules:
+    """The program that a package is; `generated` are the modules of classes and run-time."""
+
+    def __init__(self, code: PyCode, generated: frozenset[str]) -> None:
+        self.program = python_program(code)
+        self.code = code
+        self.generated = generated
+        own = [name for name in self.program.functions if not self._is_model(name)]
+        classes = [c for c in self.program.classes.values() if not self._is_model(c.name)]
+        program = Program(own, classes, self.program.function, self.program.modules.items())
+        folders = {part for path in code.modules for part in path.split("/")[:-1]}
+        modules = {path.rpartition("/")[2].removesuffix(".py") for path in code.modules}
+        table = LibraryOutcomes(Language.PYTHON, frozenset(folders | modules) - {"", "src"})
+        self.analysis = OutcomeAnalysis(program, table, self._is_model)
+
+    def _is_model(self, name: str) -> bool:
+        """Whether a module or function is of the generated classes or run-time part."""
+        path, _, function = name.partition(":")
+        if path not in self.code.modules:
+            return False
+        source = self.code.modules[path].py.source
+        if not function or is_runtime_file(source):
+            return source.path in self.generated
+        return source.path in self.generated and ("." in function or function[:1].isupper())
+
+    def acting(self, path: str, given: ast.expr) -> Iterator[tuple[Source, Span, str]]:
         """The places that may do more than to say what was seen."""
-        source = self.sources[path]
-        match given:
-            case ast.Call(
-                func=ast.Attribute(ast.Attribute(ast.Name("self"), member), "seen"), args=[looked]
-            ) if member.endswith("_sensor"):
-                pass
-            case _:
-                yield source, given, "no sensor is asked here"
-                return
-        waiting, names, reached = list[tuple[str, str]](), set[tuple[str, str]](), set[ast.stmt]()
-        match looked:
-            case ast.Name(name):
-                waiting.append((path, name))
-            case ast.Lambda():
-                waiting += ((path, name) for name in names_in(looked))
-                modelled = self._modelled(path) | {"self"}
-                for at, why in UserEffects.of(self.trees[path], modelled).acting(looked):
-                    yield source, at, f"{_ASKED}: {why}"
-            case _:
-                yield source, given, "only a function of a module says what a sensor saw"
-        while waiting:
-            if (place := waiting.pop()) in names:
-                continue
-            names.add(place)
-            waiting += self._imported(*place)
-            file = place[0]
-            for node in self._declared(*place):
-                if node not in reached:
-                    reached.add(node)
-                    waiting += ((file, name) for name in names_in(node))
-                    for at, why in self._effects(file).acting(node):
-                        yield self.sources[file], at, f"{_ASKED}: {why}"
+        source = self.code.modules[path].py.source
+        place = _place(source, given)
+        looked = _looked(given)
+        if looked is None:
+            yield source, place, "no sensor is asked here"
+            return
+        names = self._functions(path, source, looked)
+        if not names:
+            yield source, place, _UNKNOWN
+        found = {problem for name in names for problem in self.analysis.of(name)}
+        for problem in sorted(found, key=lambda p: (p.function, p.place.start, p.why)):
+            of = self.code.modules[problem.function.partition(":")[0]].py.source
+            yield of, problem.place, f"{_ASKED}: {problem.why}"
 
-    def _effects(self, path: str) -> UserEffects:
-        return UserEffects.of(self.trees[path], self._modelled(path))
-
-    def _declared(self, path: str, name: str) -> Iterator[ast.stmt]:
-        """The statements of a module that bind a name, wherever they stand."""
-        is_generated = self.sources[path].path in self.generated
-        for node in ast.walk(self.trees[path]):
+    def _functions(self, path: str, source: Source, looked: ast.expr) -> list[str]:
+        """The functions that say what was seen."""
+        if isinstance(looked, ast.Lambda):
+            start = _place(source, looked).start
+            inner = (n for n in self.program.functions if n.startswith(f"{path}:"))
+            lambdas = (n for n in inner if "<lambda" in n)
+            return [n for n in lambdas if self.program.function(n).place.start == start]
+        if not isinstance(looked, ast.Name):
+            return []
+        name = looked.id
+        values: list[e.Expression] = [e.Global(path, name)]
+        for node in walk(self.program.function(path)):
             match node:
-                case ast.FunctionDef(name=own) | ast.ClassDef(name=own) if own == name:
-                    yield node
-                case ast.Assign() | ast.AnnAssign() if not is_generated and name in names_in(node):
-                    yield node
+                case s.Import(e.Global(_, bound), module, item, True) if bound == name and item:
+                    values.append(e.Global(module, item))
                 case _:
                     pass
+        found = {n for value in values for n in self.analysis.functions(value)}
+        return sorted(found)
 
-    def _imported(self, path: str, name: str) -> Iterator[tuple[str, str]]:
-        """What a module imports under a name from others of the package that users wrote."""
-        for node in ast.walk(self.trees[path]):
-            if isinstance(node, ast.ImportFrom):
-                module = "." * node.level + (node.module or "")
-                for item in (a.name for a in node.names if name == (a.asname or a.name)):
-                    for file in files_of_import(module, path, self.trees):
-                        if self.sources[file].path not in self.generated:
-                            yield file, item
 
-    def _modelled(self, path: str) -> frozenset[str]:
-        """The names in a module that are of the package's classes and run-time part."""
-        found = set[str]()
-        for node in ast.walk(self.trees[path]):
-            match node:
-                case ast.Import(names=names):
-                    whole = ((a, a.name.partition(".")[0]) for a in names)
-                    found |= {a.asname or first for a, first in whole if self._is_own(first, path)}
-                case ast.ImportFrom(module=of, names=names, level=level):
-                    inside = "." * level + (of or "")
-                    of_class = self._is_generated(inside, path)
-                    found |= {
-                        a.asname or a.name
-                        for a in names
-                        if of_class or self._is_generated(f"{inside}.{a.name}", path)
-                    }
-                case _:
-                    pass
-        return frozenset(found)
-
-    def _is_own(self, module: str, path: str) -> bool:
-        return any(True for _ in files_of_import(module, path, self.trees))
-
-    def _is_generated(self, module: str, path: str) -> bool:
-        files = files_of_import(module, path, self.trees)
-        return any(self.sources[f].path in self.generated for f in files)
+def _place(source: Source, node: ast.expr) -> Span:
+    """Where a node stands, in characters."""
+    line = source.start_of(node.lineno)
+    text = source.text[line:].encode()
+    start = line + len(text[: node.col_offset].decode())
+    return Span(start, start + 1)
