@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.cpp_roots import is_modelled, root
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -55,4 +56,4 @@ def _may_stop(node: Node) -> bool:
     """Whether the second operand is evaluated only where the first one leaves it open."""
     if node.type != "binary_expression":
         return False
-    return text_of(part(node, "operator")) in ("&&", "||", "and", "or")
+    return text_of(part(node, "operator")) in SHORT_CIRCUIT

@@ -10,6 +10,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import bare, binary, is_calm, is_place
 from rebsync.reverse.bodies.cpp_conversions import converted_to, operands, place_of
 from rebsync.reverse.bodies.cpp_expression_reader import Exchange
+from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.cpp_widths import check
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -55,7 +56,7 @@ def _is_first(node: Node) -> bool:
             return above is not None and _is_first(above)
         case "binary_expression" if above is not None:
             left, right = part(above, "left"), part(above, "right")
-            first = text_of(part(above, "operator")) in ("&&", "||", "and", "or")
+            first = text_of(part(above, "operator")) in SHORT_CIRCUIT
             alone = right.type == "number_literal" or first
             return left == node and alone and _is_first(above)
         case "init_declarator" if above is not None and above.parent is not None:

@@ -14,6 +14,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.intervals import exactly
+from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.cpp_ranges import range_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -45,7 +46,7 @@ def failing(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
         yield from _guarded(reader, condition, *ways)
         return
     operator = text_of(part(node, "operator")) if node.type == "binary_expression" else ""
-    if operator in ("&&", "||", "and", "or"):
+    if operator in SHORT_CIRCUIT:
         is_and = operator in ("&&", "and")
         left, right = part(node, "left"), part(node, "right")
         yield from _guarded(reader, left, *((right, None) if is_and else (None, right)))

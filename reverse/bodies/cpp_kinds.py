@@ -12,6 +12,8 @@ LEAVES = {
     **dict.fromkeys(_COROUTINES, "the model has no coroutines"),
 }
 LOOPS = frozenset({"for_statement", "while_statement", "do_statement", "for_range_loop"})
+# The operators whose right operand may not be evaluated.
+SHORT_CIRCUIT = frozenset({"&&", "||", "and", "or"})
 REPEATED = LOOPS | {"switch_statement"}
 # What touches nothing, whatever it is: not looked into, as most of all nodes are of these.
 PLAIN = frozenset(

@@ -16,6 +16,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_effects import touching
+from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.cpp_roots import declared_in, identifiers_in, parameters_of, root
 from rebsync.reverse.bodies.known_functions import may_change
 from rebsync.reverse.bodies.scope import (
@@ -38,14 +39,13 @@ _WHY = "C++ leaves open in which order this is evaluated"
 _HINT = "say it in two statements"
 _CHANGES = ("assignment_expression", "update_expression")
 _GUARDED = frozenset({"conditional_expression", "while_statement", "for_statement", "do_statement"})
-_SHORT_CIRCUIT = frozenset({"&&", "||", "and", "or"})
 
 
 def check_place(reader: CppStatementReader, node: Node) -> None:
     """Raises `Unread` where the call is not run once, and first of all in its statement."""
     below, above = node, node.parent
     while above is not None and not below.type.endswith(("_statement", "declaration")):
-        if above.type == "binary_expression" and text_of(part(above, "operator")) in ("&&", "||"):
+        if above.type == "binary_expression" and text_of(part(above, "operator")) in SHORT_CIRCUIT:
             guarded = part(above, "right").id == below.id
         elif above.type == "conditional_expression":
             guarded = part(above, "condition").id != below.id
@@ -95,7 +95,7 @@ def _beside(node: Node) -> Iterator[Node]:
     while above is not None and not below.type.endswith(("_statement", "declaration")):
         others = [c for c in named(above) if c.id != below.id]
         match above.type:
-            case "binary_expression" if text_of(part(above, "operator")) in _SHORT_CIRCUIT:
+            case "binary_expression" if text_of(part(above, "operator")) in SHORT_CIRCUIT:
                 others = []  # the left one is first; what is right of it has no place for a body
             case "assignment_expression" if text_of(part(above, "operator")) == "=":
                 left = part(above, "left")

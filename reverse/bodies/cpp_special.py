@@ -24,6 +24,7 @@ from rebsync.reverse.bodies.building import bare, is_calm, negated
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to, place_of
 from rebsync.reverse.bodies.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.cpp_failing import failing
+from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_time import pause, units
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
@@ -105,7 +106,7 @@ def _either(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
 
 
 def _joins(node: Node) -> bool:
-    return text_of(part(node, "operator")) in ("&&", "||", "and", "or")
+    return text_of(part(node, "operator")) in SHORT_CIRCUIT
 
 
 def _guarded(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
