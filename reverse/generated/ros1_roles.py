@@ -30,6 +30,7 @@ from rebsync.reverse.generated.ros2_words import (
     known_rebec,
     message_name,
 )
+from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_declarations import parameters_in
@@ -37,7 +38,6 @@ from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, CppPar
 from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
 from rebsync.static.constants import constant
 
-_SENSOR = "_sensor_"
 _DEEP = 100
 # The calls that offer a server, and how many arguments each takes.
 OFFERING = {
@@ -134,8 +134,9 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     roles = Roles()
     functions = list(code.functions_of(owner))
     for member in owner.fields:
-        if member.name.endswith(_SENSOR) and text_of(member.type).startswith("Sensor<"):
-            roles.sensors.add(original(member.name.removesuffix(_SENSOR)))
+        sensor = sensor_of(member.name)
+        if sensor is not None and text_of(member.type).startswith("Sensor<"):
+            roles.sensors.add(sensor)
     for function in functions:
         if function.name == owner.name:
             _wired(roles, function, {f.name: text_of(f.type) for f in owner.fields})

@@ -16,6 +16,7 @@ from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.generated.ros1_meanings import is_runtime_header
 from rebsync.reverse.generated.ros1_names import has_mailbox
+from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.ir.cpp.functions import lambda_names
 from rebsync.reverse.ir.cpp.lowering import CppLowering
 from rebsync.reverse.ir.cpp.symbols import FunctionSymbol
@@ -155,7 +156,7 @@ def _asks(call: CppCall) -> bool:
 def _seeing(node: Node) -> Node | None:
     """What `x_sensor_.seen(...)` gets; None where something else is asked for."""
     call = call_of(node)
-    is_sensor = call is not None and call.name == "seen" and call.on.endswith("_sensor_")
+    is_sensor = call is not None and call.name == "seen" and sensor_of(call.on) is not None
     if call is None or not is_sensor or len(call.arguments) != 1:
         return None
     looked = call.arguments[0]

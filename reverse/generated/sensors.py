@@ -9,9 +9,18 @@ from rebsync.names import original
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.source import Source
 
-_SEEN = re.compile(r"(?:\b_?)(\w+?)_sensor_?\s*\.\s*seen\s*\(")
+# The number tells it from a sensor of a class above.
+_MEMBER = r"\b_?(\w+?)_sensor_?(?:_\d+)?"
+_NAMED = re.compile(rf"{_MEMBER}\Z")
+_SEEN = re.compile(rf"{_MEMBER}\s*\.\s*seen\s*\(")
 _WHY = "the sensor does not decide this any more"
 _HINT = "hand over what it saw: `..._sensor.seen(...)`"
+
+
+def sensor_of(member: str) -> str | None:
+    """The server whose sensor a member is, by its name; None where it is no sensor's."""
+    found = _NAMED.search(member)
+    return original(found[1]) if found else None
 
 
 def list_unseen(body: m.Block, within: str, source: Source, findings: Findings) -> None:

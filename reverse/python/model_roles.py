@@ -20,6 +20,7 @@ from rebsync.reserved import OWN_TOPICS, PYTHON_FUNCTIONS, PYTHON_MEMBERS
 from rebsync.reverse.bodies.overloads import Signature
 from rebsync.reverse.build.field_order import are_named
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
+from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.python.model_logs import only_describes
 from rebsync.reverse.python.model_parameters import ParameterRead, declared_by, parameter_read
 from rebsync.reverse.python.model_queues import PASSED, queue_in
@@ -48,7 +49,6 @@ OFFERING = {
     **dict.fromkeys(("offer_action", "offer_action_on_bridge"), (6, 8)),
 }
 _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
-_SENSOR = "_sensor"
 
 
 @dataclass(frozen=True, slots=True)
@@ -250,7 +250,7 @@ def _member(roles: PyRoles, function: Scope, name: str, statement: Node, value: 
     elif called == "Drive":
         roles.has_drive = True
     elif called == "Sensor":
-        roles.sensors.add(original(name.removeprefix("_").removesuffix(_SENSOR)))
+        roles.sensors.add(sensor_of(name) or original(name.removeprefix("_")))
     elif called.startswith("self._mailbox."):
         _connected(roles, name, called.removeprefix("self._mailbox."), arguments)
     elif type_ is not None and name not in _RUNTIME:

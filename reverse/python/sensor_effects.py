@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterator
 
 from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Program
@@ -64,7 +65,7 @@ def _looked(given: ast.expr) -> ast.expr | None:
     match given:
         case ast.Call(
             func=ast.Attribute(ast.Attribute(ast.Name("self"), member), "seen"), args=[looked]
-        ) if member.endswith("_sensor"):
+        ) if sensor_of(member) is not None:
             return looked
         case _:
             return None
