@@ -391,11 +391,3 @@ def opened(reader: CppStatementReader, node: Node, unread: Unread) -> set[str]:
             return set()
         found |= effects.written
     return {name for name in found if name.partition(".")[0] in reader.scope.members}
-
-
-def says_more(node: Node, unread: Unread) -> bool:
-    """Whether what a statement touches is a better reason than that its value is not known."""
-    if not isinstance(unread, Unknown):
-        return False
-    inner = named(node) if node.type == "expression_statement" else []
-    return bool(inner) and inner[0].type == "call_expression"

@@ -32,7 +32,7 @@ from rebsync.reverse.bodies.cpp_expression_reader import Exchange
 from rebsync.reverse.bodies.cpp_expressions import MOVE
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-from rebsync.reverse.bodies.cpp_unknowns import Demote
+from rebsync.reverse.bodies.cpp_unknowns import Demote, Unknown
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Stores
 from rebsync.reverse.bodies.shared import WORDS
@@ -215,7 +215,7 @@ class CppStatements(CppStatementReader):
                     return
                 if not self.shared.again:
                     self.findings.open_members |= cpp_special.opened(self, node, unread)
-                unread = touches if cpp_special.says_more(node, unread) else unread
+                unread = touches if _says_more(node, unread) else unread
             except Unread:
                 pass
         yield from self._listed(node, unread)
@@ -356,3 +356,11 @@ class CppStatements(CppStatementReader):
         yield m.Local(declaration, annotations, self.cpp.span(node))
 
     # --- control --------------------------------------------------------------------------------
+
+
+def _says_more(node: Node, unread: Unread) -> bool:
+    """Whether what a statement touches is a better reason than that its value is not known."""
+    if not isinstance(unread, Unknown):
+        return False
+    inner = named(node) if node.type == "expression_statement" else []
+    return bool(inner) and inner[0].type == "call_expression"
