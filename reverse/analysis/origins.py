@@ -83,6 +83,9 @@ class Origins:
         self.table = table
         self.own = own
         self._known: dict[Key, frozenset[Origin]] = {}
+        # While names are looked for: what was found of them, and which this round has visited.
+        self._found: dict[Key, frozenset[Origin]] = {}
+        self._visited: set[Key] | None = None
 
     def of(self, value: e.Expression, function: str) -> frozenset[Origin]:
         """What the value of an expression in a function may be."""
@@ -129,13 +132,30 @@ class Origins:
         return found.union(map(FunctionOrigin, methods)) or ANYTHING
 
     def _stored(self, key: Key) -> frozenset[Origin]:
-        """What is stored under a name; what is being looked for adds nothing (least fixpoint)."""
-        if key not in self._known:
-            self._known[key] = frozenset()
-            stored = self.graph.stores.of(key)
-            found = frozenset[Origin]().union(*(self.of_stored(each) for each in stored))
-            self._known[key] = found or ANYTHING
+        """What is stored under a name: the least fixpoint of all that one is stored from."""
+        if key in self._known:
+            return self._known[key]
+        if self._visited is not None:
+            return self._visit(key, self._visited)
+        before: dict[Key, frozenset[Origin]] | None = None
+        while before != self._found:
+            before = dict(self._found)
+            self._visited = set()
+            self._visit(key, self._visited)
+        self._visited = None
+        self._known |= {k: found or ANYTHING for k, found in self._found.items()}
+        self._found.clear()
         return self._known[key]
+
+    def _visit(self, key: Key, visited: set[Key]) -> frozenset[Origin]:
+        """What was found under a name up to this round, in which each name is visited once."""
+        if key not in visited:
+            visited.add(key)
+            stored = self.graph.stores.of(key)
+            found = frozenset[Origin]().union(*map(self.of_stored, stored))
+            # Never less than in the round before: the rounds end.
+            self._found[key] = (found if stored else ANYTHING) | self._found.get(key, frozenset())
+        return self._found.get(key, frozenset())
 
     def of_stored(self, stored: Stored) -> frozenset[Origin]:
         """What a stored value may be."""
