@@ -125,7 +125,9 @@ class OutcomeSizes:
         """Whether each round takes an element out of the container whose size is tested."""
         test = self.expressions.bare(loop.test)
         if isinstance(test, e.Binary) and isinstance(test.right, e.Literal):
-            if test.operator not in (Operator.GREATER, Operator.GREATER_EQUAL):
+            least = {Operator.GREATER: 0, Operator.GREATER_EQUAL: 1}.get(test.operator)
+            limit = test.right.value
+            if least is None or not isinstance(limit, int) or limit < least:
                 return False
             test = self.expressions.bare(test.left)
         tested = {test}
@@ -133,7 +135,9 @@ class OutcomeSizes:
             if isinstance(node, s.Call) and node.target == test and self.is_bound(node):
                 _, receiver = self._of_receiver(node)
                 tested.add(receiver or node.arguments[0].value)
-        taken = [self._of_receiver(n) for n in loop.body if isinstance(n, s.Call)]
+        # With a default, `pop` of a key may take nothing.
+        calls = [n for n in loop.body if isinstance(n, s.Call) and len(n.arguments) < 2]
+        taken = [self._of_receiver(n) for n in calls]
         loses = (of for outcome, of in taken if outcome is not None and outcome.size is Size.LOSES)
         skips = any(isinstance(n, s.Continue) for n in walk(loop.body))
         return not skips and any(of in tested for of in loses)

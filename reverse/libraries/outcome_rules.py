@@ -299,7 +299,7 @@ RULES = (
     OutcomeRule(python=".discard .clear", size=Size.ANY),
     OutcomeRule(".pop_front .pop_back .pop", size=Size.LOSES),
     OutcomeRule(".clear .resize .assign .reset", size=Size.ANY),
-    OutcomeRule(".erase std::vector.erase", size=Size.LOSES),
+    OutcomeRule(".erase std::vector.erase", size=Size.ANY),
     OutcomeRule("std::map.erase std::set.erase std::string.erase", size=Size.ANY),
     OutcomeRule(
         "std::vector.at std::array.at std::map.at std::string.at", raises="std::out_of_range"
