@@ -54,11 +54,11 @@ _MESSAGE = re.compile(r"(?:.*/)?(\w+)\.msg")
 
 
 def facts_of_build(source: Source) -> Iterator[Fact]:
-    """The facts of a file, whatever conditions its commands are under."""
+    """The facts of a file; values say under which conditions the commands are."""
     commands = list(_commands(read_cmake(source).items))
-    names = dict(filter(None, map(_named, commands)))
-    own = {argument.text for command in commands for argument in command.arguments}
-    for command in commands:
+    names = dict(filter(None, (_named(command) for command, _ in commands)))
+    own = {argument.text for command, _ in commands for argument in command.arguments}
+    for command, condition in commands:
         words = [argument.text for argument in command.arguments]
         found = (
             *_compiled(command, words),
@@ -67,24 +67,34 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
         )
         for fact in (*found, *_made(command, words, names)):
             kind, owner, name, value, span = fact
-            yield Fact(kind, owner, name, value, source, span)
+            yield Fact(kind, owner, name, f"{value}{condition}", source, span)
 
 
 _Told = tuple[str, str, str, str, Span]
 
 
-def _commands(items: Iterable[Item]) -> Iterator[Command]:
+def _commands(items: Iterable[Item], condition: str = "") -> Iterator[tuple[Command, str]]:
+    """The commands, each with the blocks around it."""
     for item in items:
         match item:
             case CommandBlock(head, body, others):
-                yield head
+                yield head, condition
+                inside = _commands(body, condition + _condition(head))
                 is_function = head.name == "function"
-                yield from (c for c in _commands(body) if not is_function or c.name != "return")
-                for branch, inside in others:
-                    yield branch
-                    yield from _commands(inside)
+                yield from (c for c in inside if not is_function or c[0].name != "return")
+                for branch, other in others:
+                    yield branch, condition
+                    beside = f"{_condition(head)}, {branch.name}" if branch.name == "else" else ""
+                    yield from _commands(other, condition + (beside or _condition(branch)))
             case Command():
-                yield item
+                yield item, condition
+
+
+def _condition(head: Command) -> str:
+    """What a block says of the commands in it; nothing where it always holds."""
+    words = " ".join(argument.text for argument in head.arguments)
+    is_true = head.name == "if" and words.upper() in ("TRUE", "ON", "YES", "1")
+    return "" if is_true else f" only under {head.name}({squeezed(words)})"
 
 
 def _named(command: Command) -> tuple[str, str] | None:
