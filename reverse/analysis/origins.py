@@ -104,6 +104,8 @@ class Origins:
                 return PLAIN
             case e.Binary(Operator.ADD | Operator.MULTIPLY, left, right):
                 return self.of(left, function) | self.of(right, function)
+            case e.Binary(Operator.FLOOR_MODULO, left, right):
+                return self._remainder(left, right, function)
             case e.Binary():
                 return PLAIN
             case e.Conditional(_, left, right) | e.And(left, right) | e.Or(left, right):
@@ -118,6 +120,15 @@ class Origins:
                 return self._member(of, name, function)
         key = key_of(value, function)
         return ANYTHING if key is None else self._stored(key)
+
+    def _remainder(
+        self, left: e.Expression, right: e.Expression, function: str
+    ) -> frozenset[Origin]:
+        """The remainder of a number; of a text, which `%` formats, it is a text."""
+        held = self.of(left, function)
+        if held & ANYTHING and self.of(right, function) != PLAIN:
+            return ANYTHING
+        return (held & {LibraryOrigin("str", True)}) or PLAIN
 
     def _member(self, of: e.Expression, name: str, function: str) -> frozenset[Origin]:
         held = self.of(of, function)

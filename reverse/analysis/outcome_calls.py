@@ -24,7 +24,7 @@ from rebsync.reverse.analysis.problems import Problem, ProblemNotes
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
-from rebsync.reverse.libraries.outcome_rules import PLAIN_CLASSES
+from rebsync.reverse.libraries.outcome_rules import ENUMERATIONS, PLAIN_CLASSES
 from rebsync.reverse.libraries.outcomes import CallOutcome
 
 _WAITING_ALONE = frozenset({"get", "join"})
@@ -160,9 +160,14 @@ class OutcomeCalls:
             self.notes.problem(node, f'"{name}" is the model\'s')
         for method in self._answers(name, ImplicitCall.CONSTRUCT):
             self._enters(node, method)
-        for base in self.origins.graph.bases(name):
+        bases = self.origins.graph.bases(name)
+        for base in bases:
             if base not in self.origins.graph.program.classes:
                 self._acts(node, base)
+        if not ENUMERATIONS.isdisjoint(bases):
+            for method in sorted(self.origins.methods(name, "_missing_")):
+                self._enters(node, method)
+            self.notes.fails(node, "lacks the member")
 
     def _acts(self, node: s.Statement | e.Expression, name: str) -> None:
         """What a class of a library does when an object of it is made."""

@@ -57,6 +57,7 @@ FAILURES: Mapping[str, tuple[str, str]] = {
     "divides by zero": ("", "builtins.ZeroDivisionError"),
     "lacks the element": ("std::out_of_range", "builtins.IndexError"),
     "lacks the key": ("std::out_of_range", "builtins.KeyError"),
+    "lacks the member": ("", "builtins.ValueError"),
     "has another number of elements": ("", "builtins.ValueError"),
     "is empty": ("std::bad_optional_access", "builtins.AttributeError"),
     "does not hold": ("", "builtins.AssertionError"),
@@ -98,6 +99,10 @@ PLAIN_CLASSES = frozenset(
         *("std::array", "std::bitset", "std::atomic", "std::unique_ptr", "std::shared_ptr"),
         *("list", "dict", "set", "str", "tuple", "deque", "file", "logger"),
     }
+)
+# Classes whose own classes give, for a value, the member that has it.
+ENUMERATIONS = frozenset(
+    {"enum.Enum", "enum.IntEnum", "enum.StrEnum", "enum.Flag", "enum.IntFlag", "enum.ReprEnum"}
 )
 # Names of classes that do the same as another.
 CLASSES: Mapping[str, str] = {
