@@ -64,6 +64,13 @@ class IsBelow:
 
 
 @dataclass(frozen=True, slots=True)
+class IsPositive:
+    """A value is a number that is not negative."""
+
+    value: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
 class Implies:
     """If a value counts as true (or as false), something else is so as well."""
 
@@ -72,7 +79,7 @@ class Implies:
     fact: HasSize | HasKey
 
 
-Fact: TypeAlias = HasSize | HasKey | Holds | IsSize | IsSame | IsBelow | Implies
+Fact: TypeAlias = HasSize | HasKey | Holds | IsSize | IsSame | IsBelow | IsPositive | Implies
 Facts: TypeAlias = frozenset[Fact]
 NO_FACTS: Facts = frozenset()
 
@@ -119,7 +126,7 @@ def _expressions(fact: Fact) -> tuple[e.Expression, ...]:
             return (container,)
         case HasKey(container, key):
             return container, key
-        case Holds(value) | IsBelow(value):
+        case Holds(value) | IsBelow(value) | IsPositive(value):
             return (value,)
         case IsSize(value, container):
             return value, container
@@ -166,6 +173,7 @@ _MIRRORED = {
     Operator.LESS_EQUAL: Operator.GREATER_EQUAL,
     Operator.GREATER_EQUAL: Operator.LESS_EQUAL,
 }
+_AT_LEAST = (Operator.GREATER, Operator.GREATER_EQUAL, Operator.EQUAL)
 
 
 def tested(facts: Facts, test: e.Expression, is_true: bool) -> Facts:
@@ -228,6 +236,8 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
     }
     if excludes.get(operator, False):
         facts = _held(facts, left, True)
+    if operator in _AT_LEAST and number >= 0:
+        facts |= {IsPositive(left), IsPositive(_bare(left))}
     least = {Operator.GREATER: number + 1, Operator.GREATER_EQUAL: number, Operator.EQUAL: number}
     if operator in least:
         for fact in list(facts):

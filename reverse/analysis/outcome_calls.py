@@ -10,6 +10,7 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
 )
 from rebsync.reverse.analysis.locations import Member
+from rebsync.reverse.analysis.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
     ClassOrigin,
@@ -24,8 +25,9 @@ from rebsync.reverse.analysis.problems import Problem, ProblemNotes
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
-from rebsync.reverse.libraries.outcome_rules import ENUMERATIONS, PLAIN_CLASSES
+from rebsync.reverse.libraries.outcome_rules import ENUMERATIONS, PLAIN_CLASSES, Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
+from rebsync.unions import assert_never
 
 _WAITING_ALONE = frozenset({"get", "join"})
 _UNKNOWN = "what is called is not known"
@@ -263,23 +265,62 @@ class OutcomeCalls:
         self, node: s.Call, outcome: CallOutcome, receiver: e.Expression | None, facts: Facts
     ) -> frozenset[str]:
         """The exceptions that a call of a library may raise, by what it gets."""
-        first = node.arguments[0].value if node.arguments else None
-        has_default = len(node.arguments) > 1
-        raised = outcome.raises
-        if outcome.or_default and has_default:
-            raised = frozenset()
-        if outcome.of_negative and first is not None and self.expressions.is_positive(first):
-            raised = frozenset()
-        if self._is_plain_number(first, outcome):
-            raised = frozenset()
-        of = first if receiver is None else receiver
-        is_many = receiver is None and has_default
+        plain = [a.value for a in node.arguments if a.name is None]
+        raised = outcome.raises if self._may_raise(node, outcome.when, facts) else frozenset()
+        of = receiver
+        if of is None and node.arguments:
+            of = node.arguments[0].value
+        is_field = isinstance(of, e.Attribute | e.Index)
+        # Of a variable of which nothing is known, a text is made a number.
+        is_number = of is not None and (is_field or self._is_number(of))
+        if raised and outcome.when is Raises.INFINITE and is_number:
+            raised |= {"builtins.OverflowError"}
+        has_default = any(a.name == "default" for a in node.arguments)
+        is_many = receiver is None and (len(plain) > 1 or has_default)
         if is_many or (of is not None and self.expressions.size(of, facts)):
             return raised
         return raised | outcome.empty
 
-    def _is_plain_number(self, first: e.Expression | None, outcome: CallOutcome) -> bool:
-        """Whether a number is made of what is one."""
-        if outcome.gives != "number":
-            return False
-        return first is None or self.origins.of(first, self.function) == {PlainOrigin()}
+    def _may_raise(self, node: s.Call, when: Raises, facts: Facts) -> bool:
+        """Whether a call gets arguments for which its rule says that it raises."""
+        values = [a.value for a in node.arguments]
+        if any(a.stars for a in node.arguments):
+            return True
+        match when:
+            case Raises.ANY:
+                return True
+            case Raises.NO_DEFAULT:
+                return len(values) < 2
+            case Raises.NEGATIVE:
+                return not all(self.expressions.is_positive(v, facts) for v in values[:1])
+            case Raises.ZERO_STEP:
+                return not all(self.expressions.is_nonzero(v, facts) for v in values[2:])
+            case Raises.TEXT:
+                return not all(map(self._is_number, values[:1]))
+            case Raises.INFINITE:
+                is_finite = Magnitudes(self.origins, self.function).is_finite
+                return not all(self._is_number(v) and is_finite(v) for v in values[:1])
+            case Raises.COMPUTED:
+                return not all(map(self.expressions.is_written, values))
+            case Raises.NO_START:
+                return len(values) < 3 and not any(
+                    self.expressions.size(v, facts) for v in values[1:]
+                )
+            case Raises.UNORDERED:
+                return not self._are_ordered(values, facts)
+            case _:
+                assert_never(when)
+
+    def _is_number(self, value: e.Expression) -> bool:
+        """Whether a value is a number by how it is computed."""
+        return self.origins.of(value, self.function) == {PlainOrigin()}
+
+    def _are_ordered(self, values: list[e.Expression], facts: Facts) -> bool:
+        """Whether of two numbers the second is not the smaller one."""
+        match values:
+            case [e.Literal(int() as low), e.Literal(int() as high)]:
+                return low <= high
+            case [e.Literal(int() as low), high]:
+                return low <= 0 and self.expressions.is_positive(high, facts)
+            case _:
+                return False

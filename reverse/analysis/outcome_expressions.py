@@ -7,6 +7,7 @@ from rebsync.reverse.analysis.facts import (
     HasKey,
     Holds,
     IsBelow,
+    IsPositive,
     IsSize,
     names_of,
     size_of,
@@ -27,6 +28,7 @@ _DIVIDING = frozenset(
         *(Operator.TRUNCATING_DIVIDE, Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER),
     }
 )
+_UNSIGNED = tuple(t.Integer(bits, False) for bits in (8, 16, 32, 64))
 _MODULO = (Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER)
 
 
@@ -186,19 +188,48 @@ class OutcomeExpressions:
             return False
         return kind.of_object and not self.notes.table.is_standard(kind.name)
 
-    def is_positive(self, value: e.Expression) -> bool:
-        """Whether a number cannot be negative, by how it is computed."""
+    def is_positive(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a number cannot be negative, by how it is computed or what was tested."""
+        if any(isinstance(f, IsPositive | IsSize | IsBelow) and f.value == value for f in facts):
+            return True
         match value:
             case e.Literal(int() | float() as number):
                 return number >= 0
             case e.Binary(Operator.POWER, _, e.Literal(int() as power)):
                 return power % 2 == 0
             case e.Binary(Operator.MULTIPLY, left, right) if left == right:
-                return True
+                return self._is_unbounded(value)
+            case e.Binary(Operator.FLOOR_MODULO, _, right):
+                return self.is_positive(right, facts) and not self.is_text(value.left)
+            case e.Binary(Operator.BIT_AND, left, right):
+                return any(self.is_positive(part, facts) for part in (left, right))
             case e.Binary(Operator.ADD | Operator.MULTIPLY, left, right):
-                return self.is_positive(left) and self.is_positive(right)
+                are = all(self.is_positive(part, facts) for part in (left, right))
+                return are and self._is_unbounded(value)
+            case e.Binary(Operator.SHIFT_RIGHT | Operator.FLOOR_DIVIDE, left, right):
+                return all(self.is_positive(part, facts) for part in (left, right))
+            case e.Conditional(test, then, otherwise):
+                first = self.is_positive(then, tested(facts, test, True))
+                return first and self.is_positive(otherwise, tested(facts, test, False))
+            case e.Convert(_, operand, type_):
+                is_kept = self._is_kept(operand, type_)
+                return is_kept and self.is_positive(operand, facts)
             case _:
-                return False
+                return getattr(value, "type", None) in _UNSIGNED
+
+    def _is_unbounded(self, value: e.Binary) -> bool:
+        """Whether a number does not wrap: it has as many bits as it needs, or is no whole one."""
+        return not isinstance(value.type, t.Integer) or value.type.bits is None
+
+    def is_written(self, value: e.Expression) -> bool:
+        """Whether a number is one that the source has."""
+        match value:
+            case e.Literal(int() | float()):
+                return True
+            case e.Unary(Operator.NEGATE | Operator.PLUS, operand):
+                return self.is_written(operand)
+            case _:
+                return self._is_constant(value)
 
     def stored_at(self, target: e.Index, facts: Facts) -> None:
         """Notes what storing an element may do: a mapping takes any key."""

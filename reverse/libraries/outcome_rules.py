@@ -34,6 +34,20 @@ class Tells(Enum):
     SAME = "the same elements"
 
 
+class Raises(Enum):
+    """For which arguments a call raises what its rule says."""
+
+    ANY = "any"
+    NEGATIVE = "a first one that may be negative"
+    NO_DEFAULT = "no second one, which would be given instead"
+    ZERO_STEP = "a third one that may be zero"
+    INFINITE = "a first one that may be no number, or greater than all"
+    TEXT = "a first one that may be no number"
+    COMPUTED = "one that is not written as a number"
+    NO_START = "no third one, and a second one that may have no elements"
+    UNORDERED = "two of which the second may be the smaller one"
+
+
 @dataclass(frozen=True, slots=True)
 class OutcomeRule:
     """What some functions do besides giving a value; see `CallOutcome`."""
@@ -48,8 +62,7 @@ class OutcomeRule:
     returns: bool = False
     tells: Tells = Tells.NOTHING
     keeps: bool = False
-    of_negative: bool = False
-    or_default: bool = False
+    when: Raises = Raises.ANY
 
 
 # What operations raise that are no calls, in C++ and in Python; in C++ dividing ends the program.
@@ -197,20 +210,45 @@ RULES = (
     OutcomeRule(python="builtins.max", empty="builtins.ValueError", tells=Tells.MOST),
     OutcomeRule(python="builtins.min", empty="builtins.ValueError"),
     OutcomeRule(
-        python="builtins.round math.floor math.ceil math.trunc builtins.hash", gives="number"
+        python="builtins.round math.floor math.ceil math.trunc",
+        raises="builtins.OverflowError builtins.ValueError",
+        gives="number",
+        when=Raises.INFINITE,
     ),
-    OutcomeRule(python="builtins.int builtins.float", raises="builtins.ValueError", gives="number"),
+    OutcomeRule(python="builtins.hash", gives="number"),
+    OutcomeRule(
+        python="builtins.int",
+        raises="builtins.ValueError",
+        gives="number",
+        when=Raises.INFINITE,
+    ),
+    OutcomeRule(
+        python="builtins.float", raises="builtins.ValueError", gives="number", when=Raises.TEXT
+    ),
     OutcomeRule(python="builtins.complex builtins.bytes", raises="builtins.ValueError"),
     OutcomeRule(
         python="math.isfinite math.isinf math.isnan math.hypot math.atan2 math.atan", gives="number"
     ),
-    OutcomeRule(python="math.sin math.cos math.tan math.degrees math.radians math.copysign"),
+    OutcomeRule(
+        python="math.sin math.cos math.tan math.degrees math.radians math.copysign", gives="number"
+    ),
     OutcomeRule(python="math.tanh math.pi math.inf math.nan math.e math.tau math.isclose"),
-    OutcomeRule(python="math.fsum math.prod math.dist math.gcd math.erf"),
-    OutcomeRule(python="math.sqrt", raises="builtins.ValueError", of_negative=True),
-    OutcomeRule(python="math.log math.log10 math.log2", raises="builtins.ValueError"),
-    OutcomeRule(python="math.acos math.asin math.log1p math.fmod", raises="builtins.ValueError"),
-    OutcomeRule(python="math.exp math.pow math.sinh math.cosh", raises="builtins.OverflowError"),
+    OutcomeRule(python="math.fsum math.prod math.dist math.gcd math.erf", gives="number"),
+    OutcomeRule(
+        python="math.sqrt", raises="builtins.ValueError", gives="number", when=Raises.NEGATIVE
+    ),
+    OutcomeRule(
+        python="math.log math.log10 math.log2", raises="builtins.ValueError", gives="number"
+    ),
+    OutcomeRule(
+        python="math.acos math.asin math.log1p math.fmod",
+        raises="builtins.ValueError",
+        gives="number",
+    ),
+    OutcomeRule(
+        python="math.exp math.pow math.sinh math.cosh",
+        raises="builtins.OverflowError builtins.ValueError",
+    ),
     OutcomeRule(python="builtins.bool", gives="number"),
     OutcomeRule(python="builtins.repr builtins.format builtins.ascii"),
     OutcomeRule(python="builtins.str builtins.hex builtins.bin builtins.oct", gives="str"),
@@ -222,7 +260,16 @@ RULES = (
     OutcomeRule(python="statistics.median statistics.mean", empty="statistics.StatisticsError"),
     OutcomeRule(python="statistics.fmean statistics.mode", empty="statistics.StatisticsError"),
     OutcomeRule(python="statistics.stdev statistics.variance", raises="statistics.StatisticsError"),
-    OutcomeRule(python="random.random random.uniform random.gauss random.randint", gives="number"),
+    OutcomeRule(python="random.random random.uniform random.gauss", gives="number"),
+    OutcomeRule(
+        python="random.randint",
+        raises="builtins.ValueError",
+        gives="number",
+        when=Raises.UNORDERED,
+    ),
+    OutcomeRule(python="random.randrange", raises="builtins.ValueError", gives="number"),
+    OutcomeRule(python="random.sample", raises="builtins.ValueError", gives="list"),
+    OutcomeRule(python="random.choices", raises="builtins.IndexError", gives="list"),
     OutcomeRule(python="random.choice", empty="builtins.IndexError"),
     # Collections.
     OutcomeRule(python="builtins.len", gives="number", tells=Tells.SIZE),
@@ -230,7 +277,12 @@ RULES = (
     OutcomeRule(".size .length", tells=Tells.SIZE),
     OutcomeRule(".empty", tells=Tells.EMPTY),
     OutcomeRule(".count .contains", tells=Tells.HAS),
-    OutcomeRule(python="builtins.range", tells=Tells.RANGE),
+    OutcomeRule(
+        python="builtins.range",
+        raises="builtins.ValueError",
+        tells=Tells.RANGE,
+        when=Raises.ZERO_STEP,
+    ),
     OutcomeRule(python="builtins.enumerate builtins.zip", tells=Tells.PAIRS),
     OutcomeRule(python="builtins.reversed", tells=Tells.SAME),
     OutcomeRule(python="builtins.map builtins.filter"),
@@ -242,7 +294,7 @@ RULES = (
     OutcomeRule(python="collections.defaultdict", gives="defaultdict", keeps=True),
     OutcomeRule(python="collections.Counter", gives="defaultdict"),
     OutcomeRule(python="collections.OrderedDict", gives="dict"),
-    OutcomeRule(python="builtins.next", raises="builtins.StopIteration", or_default=True),
+    OutcomeRule(python="builtins.next", raises="builtins.StopIteration", when=Raises.NO_DEFAULT),
     OutcomeRule(python="itertools.islice itertools.chain itertools.pairwise itertools.product"),
     OutcomeRule(python="itertools.takewhile itertools.accumulate itertools.combinations"),
     OutcomeRule(python="itertools.groupby itertools.zip_longest"),
@@ -253,7 +305,8 @@ RULES = (
     OutcomeRule(python="builtins.classmethod builtins.property enum.unique", returns=True),
     OutcomeRule(python="abc.abstractmethod contextlib.contextmanager", returns=True),
     OutcomeRule(python="typing.final functools.total_ordering", returns=True),
-    OutcomeRule(python="functools.partial functools.reduce functools.cmp_to_key"),
+    OutcomeRule(python="functools.partial functools.cmp_to_key"),
+    OutcomeRule(python="functools.reduce", raises="builtins.TypeError", when=Raises.NO_START),
     OutcomeRule(python="operator.itemgetter", raises="builtins.LookupError"),
     OutcomeRule(python="operator.attrgetter operator.add operator.mul operator.sub"),
     OutcomeRule(python="dataclasses.replace dataclasses.asdict enum.auto"),
@@ -266,7 +319,17 @@ RULES = (
     OutcomeRule(python="sys.stdout.flush sys.stderr.flush sys.maxsize sys.platform sys.argv"),
     OutcomeRule(python="time.time time.monotonic time.perf_counter time.time_ns", gives="number"),
     OutcomeRule(python="time.strftime time.monotonic_ns time.localtime datetime.datetime.now"),
-    OutcomeRule(python="datetime.timedelta datetime.datetime datetime.datetime.utcnow"),
+    OutcomeRule(
+        python="datetime.timedelta",
+        raises="builtins.OverflowError builtins.ValueError",
+        when=Raises.COMPUTED,
+    ),
+    OutcomeRule(
+        python="datetime.datetime datetime.date datetime.time",
+        raises="builtins.ValueError builtins.OverflowError",
+        when=Raises.COMPUTED,
+    ),
+    OutcomeRule(python="datetime.datetime.utcnow"),
     OutcomeRule(python="logging.getLogger rclpy.logging.get_logger", gives="logger"),
     OutcomeRule(python="logging.debug logging.info logging.warning logging.error"),
     OutcomeRule(python="logging.critical logging.exception logging.log logging.warn"),
@@ -297,7 +360,9 @@ RULES = (
     OutcomeRule(".insert .emplace .try_emplace .insert_or_assign", size=Size.GROWS),
     OutcomeRule(python=".extend .setdefault .update .extendleft", size=Size.MORE),
     OutcomeRule(python=".pop .popleft .popitem", empty="builtins.IndexError", size=Size.LOSES),
-    OutcomeRule(python="dict.pop", raises="builtins.KeyError", size=Size.ANY, or_default=True),
+    OutcomeRule(
+        python="dict.pop", raises="builtins.KeyError", size=Size.ANY, when=Raises.NO_DEFAULT
+    ),
     OutcomeRule(python="set.pop", empty="builtins.KeyError", size=Size.LOSES),
     OutcomeRule(python=".remove .index", raises="builtins.ValueError", size=Size.ANY),
     OutcomeRule(python="set.remove", raises="builtins.KeyError", size=Size.ANY),

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import cpp, outcome_rules, python
 from rebsync.reverse.libraries.effects import of_function
-from rebsync.reverse.libraries.outcome_rules import Size, Tells
+from rebsync.reverse.libraries.outcome_rules import Raises, Size, Tells
 from rebsync.reverse.libraries.registry import derived
 from rebsync.reverse.libraries.routines import Effect, Language
 
@@ -32,8 +32,8 @@ class CallOutcome:
     `lacks` only where the object has none for it; `acts` says what else it does, and is empty where
     it does nothing. `size` is what it does to the number of elements of its object. `gives` is the
     class of what it gives; it may be the first argument (`returns`). One that `keeps` only looks at
-    classes that it gets, or calls them when it is asked for something; one `of_negative` raises
-    for negative numbers only, one `or_default` unless it gets another value to give.
+    classes that it gets, or calls them when it is asked for something. It raises `when` it gets
+    some arguments only; what it raises where there are no elements is apart from that.
     """
 
     raises: frozenset[str] = frozenset()
@@ -44,8 +44,7 @@ class CallOutcome:
     returns: bool = False
     tells: Tells = Tells.NOTHING
     keeps: bool = False
-    of_negative: bool = False
-    or_default: bool = False
+    when: Raises = Raises.ANY
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +138,6 @@ def _named(language: Language) -> Mapping[str, CallOutcome]:
                 rule.returns,
                 rule.tells,
                 rule.keeps,
-                rule.of_negative,
-                rule.or_default,
+                rule.when,
             )
     return found
