@@ -9,6 +9,7 @@ from rebsync.reverse.analysis.facts import (
     without,
     without_shared,
 )
+from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.locations import Member
 from rebsync.reverse.analysis.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import (
@@ -27,6 +28,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
 from rebsync.reverse.libraries.outcome_rules import ENUMERATIONS, PLAIN_CLASSES, Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
+from rebsync.reverse.libraries.routines import Language
 from rebsync.unions import assert_never
 
 _WAITING_ALONE = frozenset({"get", "join"})
@@ -258,6 +260,8 @@ class OutcomeCalls:
     ) -> None:
         if outcome.acts:
             self.notes.problem(node, f'"{name}": {outcome.acts}')
+        if name == "format" and receiver is not None and not self._has_pieces(node, receiver):
+            self.notes.fails(node, "lacks the argument")
         for raised in self._raised(node, outcome, receiver, facts):
             self.notes.problem(node, f'"{name}" may raise an exception', raised)
 
@@ -310,6 +314,16 @@ class OutcomeCalls:
                 return not self._are_ordered(values, facts)
             case _:
                 assert_never(when)
+
+    def _has_pieces(self, node: s.Call, text: e.Expression) -> bool:
+        """Whether a call that formats a text gets all arguments that the text names."""
+        if self.notes.table.language is not Language.PYTHON:
+            return True
+        texts = self.expressions.texts(text)
+        by_place = sum(a.name is None for a in node.arguments)
+        names = {a.name for a in node.arguments if a.name is not None}
+        stars = any(a.stars for a in node.arguments)
+        return bool(texts) and not stars and all(has_pieces(t, by_place, names) for t in texts)
 
     def _is_number(self, value: e.Expression) -> bool:
         """Whether a value is a number by how it is computed."""

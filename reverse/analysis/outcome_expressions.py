@@ -7,7 +7,6 @@ from rebsync.reverse.analysis.facts import (
     HasKey,
     Holds,
     IsBelow,
-    IsPositive,
     IsSize,
     names_of,
     size_of,
@@ -15,12 +14,14 @@ from rebsync.reverse.analysis.facts import (
 )
 from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin, Origin
 from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.signs import Signs
 from rebsync.reverse.analysis.stores import AnyValue, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.walk import parts
 from rebsync.reverse.libraries.outcome_rules import PLAIN_CLASSES
+from rebsync.reverse.libraries.routines import Language
 
 _DIVIDING = frozenset(
     {
@@ -28,7 +29,6 @@ _DIVIDING = frozenset(
         *(Operator.TRUNCATING_DIVIDE, Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER),
     }
 )
-_UNSIGNED = tuple(t.Integer(bits, False) for bits in (8, 16, 32, 64))
 _MODULO = (Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER)
 
 
@@ -39,6 +39,7 @@ class OutcomeExpressions:
         self.notes = notes
         self.function = notes.function.name
         self.origins = notes.origins
+        self._signs = Signs(notes)
 
     def check(self, value: e.Expression, facts: Facts) -> None:
         """Notes what evaluating an expression may do."""
@@ -74,8 +75,15 @@ class OutcomeExpressions:
         match value:
             case e.Binary(operator, left, right) if operator in _DIVIDING:
                 self._divides(value, left, right, facts)
+            case e.Binary() if self.notes.table.language is Language.PYTHON:
+                self._computes(value, facts)
+            case e.Index(_, e.Slice(_, _, step)) if step is not None:
+                if not self.is_nonzero(step, facts):
+                    self.notes.fails(value, "has a step of zero")
             case e.Index():
                 self._reads_at(value, facts)
+            case e.Format(pieces):
+                self._formats(value, pieces, facts)
             case e.Dereference(of):
                 if isinstance(getattr(of, "type", None), t.Optional) and Holds(of) not in facts:
                     self.notes.fails(value, "is empty")
@@ -107,9 +115,50 @@ class OutcomeExpressions:
         if not self.is_nonzero(right, facts):
             self.notes.fails(value, "divides by zero")
 
+    def _computes(self, value: e.Binary, facts: Facts) -> None:
+        """Shifts and powers: by a negative number, or greater than any float."""
+        match value:
+            case e.Binary(Operator.SHIFT_LEFT | Operator.SHIFT_RIGHT, _, right):
+                if not self.is_positive(right, facts):
+                    self.notes.fails(value, "shifts by less than zero")
+            case e.Binary(Operator.POWER, left, right):
+                if not self.is_positive(right, facts) and not self.is_nonzero(left, facts):
+                    self.notes.fails(value, "divides by zero")
+                if not self._is_bounded(right, facts):
+                    self.notes.fails(value, "is too great")
+            case _:
+                pass
+
+    def _is_bounded(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a number is below one that the source has, by how it is computed."""
+        if any(isinstance(f, IsBelow) and f.value == value for f in facts):
+            return True
+        match value:
+            case e.Binary(Operator.FLOOR_MODULO, _, right):
+                return self.is_written(right)
+            case e.Binary(Operator.BIT_AND, left, right):
+                return self.is_written(left) or self.is_written(right)
+            case _:
+                return self.is_written(value)
+
+    def _formats(self, value: e.Format, pieces: tuple[e.FormatPiece, ...], facts: Facts) -> None:
+        """A width or precision that is computed may be negative."""
+        styles = (piece.style for piece in pieces)
+        inner = (s for style in styles if isinstance(style, e.Format) for s in style.pieces)
+        for piece in inner:
+            if not self.is_positive(piece.value, facts):
+                self.notes.fails(value, "has a style that is none")
+
     def is_text(self, value: e.Expression) -> bool:
         """Whether a value is a text."""
         return self.origins.of(value, self.function) == {LibraryOrigin("str", True)}
+
+    def texts(self, value: e.Expression) -> list[str]:
+        """The texts that a value may be; none if that is not known."""
+        key = key_of(value, self.function)
+        stored = [v for _, v in self.origins.graph.stores.of(key)] if key is not None else [value]
+        texts = [v.value for v in stored if isinstance(v, e.Literal) and isinstance(v.value, str)]
+        return texts if len(texts) == len(stored) else []
 
     def is_nonzero(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a number is known not to be zero."""
@@ -128,6 +177,9 @@ class OutcomeExpressions:
             case e.Binary(Operator.MULTIPLY, left, right, type_):
                 is_exact = not isinstance(type_, t.Integer) or type_.bits is None
                 return is_exact and all(self.is_nonzero(p, facts) for p in (left, right))
+            case e.Binary(Operator.ADD, left, e.Literal(int() | float() as more), type_):
+                wraps = isinstance(type_, t.Integer) and type_.bits and not type_.signed
+                return more > 0 and not wraps and self.is_positive(left, facts)
             case _:
                 sizes = (f for f in facts if isinstance(f, IsSize) and f.value == value)
                 if any(self.size(f.container, facts) for f in sizes):
@@ -190,36 +242,7 @@ class OutcomeExpressions:
 
     def is_positive(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a number cannot be negative, by how it is computed or what was tested."""
-        if any(isinstance(f, IsPositive | IsSize | IsBelow) and f.value == value for f in facts):
-            return True
-        match value:
-            case e.Literal(int() | float() as number):
-                return number >= 0
-            case e.Binary(Operator.POWER, _, e.Literal(int() as power)):
-                return power % 2 == 0
-            case e.Binary(Operator.MULTIPLY, left, right) if left == right:
-                return self._is_unbounded(value)
-            case e.Binary(Operator.FLOOR_MODULO, _, right):
-                return self.is_positive(right, facts) and not self.is_text(value.left)
-            case e.Binary(Operator.BIT_AND, left, right):
-                return any(self.is_positive(part, facts) for part in (left, right))
-            case e.Binary(Operator.ADD | Operator.MULTIPLY, left, right):
-                are = all(self.is_positive(part, facts) for part in (left, right))
-                return are and self._is_unbounded(value)
-            case e.Binary(Operator.SHIFT_RIGHT | Operator.FLOOR_DIVIDE, left, right):
-                return all(self.is_positive(part, facts) for part in (left, right))
-            case e.Conditional(test, then, otherwise):
-                first = self.is_positive(then, tested(facts, test, True))
-                return first and self.is_positive(otherwise, tested(facts, test, False))
-            case e.Convert(_, operand, type_):
-                is_kept = self._is_kept(operand, type_)
-                return is_kept and self.is_positive(operand, facts)
-            case _:
-                return getattr(value, "type", None) in _UNSIGNED
-
-    def _is_unbounded(self, value: e.Binary) -> bool:
-        """Whether a number does not wrap: it has as many bits as it needs, or is no whole one."""
-        return not isinstance(value.type, t.Integer) or value.type.bits is None
+        return self._signs.is_positive(value, facts)
 
     def is_written(self, value: e.Expression) -> bool:
         """Whether a number is one that the source has."""

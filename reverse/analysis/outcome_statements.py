@@ -115,7 +115,8 @@ class OutcomeWalk:
             case s.Unpack(targets, value):
                 self.value(value, facts)
                 of = self.notes.counts.size(value, self.name)
-                if max(size_of(facts, value), of) < len(targets) and node.rest is None:
+                least = len(targets) - (node.rest is not None)
+                if max(size_of(facts, value), of) < least:
                     self.notes.fails(node, "has another number of elements")
                 for target in targets:
                     facts = without(facts, target)

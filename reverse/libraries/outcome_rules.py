@@ -72,6 +72,11 @@ FAILURES: Mapping[str, tuple[str, str]] = {
     "lacks the key": ("std::out_of_range", "builtins.KeyError"),
     "lacks the member": ("", "builtins.ValueError"),
     "has another number of elements": ("", "builtins.ValueError"),
+    "has a step of zero": ("", "builtins.ValueError"),
+    "shifts by less than zero": ("", "builtins.ValueError"),
+    "is too great": ("", "builtins.OverflowError"),
+    "has a style that is none": ("", "builtins.ValueError"),
+    "lacks the argument": ("", "builtins.IndexError"),
     "is empty": ("std::bad_optional_access", "builtins.AttributeError"),
     "does not hold": ("", "builtins.AssertionError"),
 }
