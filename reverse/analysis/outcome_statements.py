@@ -20,6 +20,7 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
     without_sizes,
 )
+from rebsync.reverse.analysis.iterated_containers import IteratedContainers
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin
 from rebsync.reverse.analysis.outcome_calls import OutcomeCalls
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
@@ -283,6 +284,8 @@ class OutcomeWalk:
             node.iterable
         ):
             self.notes.problem(node, ENDLESS)
+        if IteratedContainers(self.notes).is_changed(node):
+            self.notes.fails(node, "changes while it is iterated")
         inside = without(self._changed(facts, node.body), node.target)
         size = self.notes.counts.elements(node.iterable, self.name)
         if self.notes.is_parameter(node.iterable):
