@@ -43,6 +43,8 @@ class Signs:
                     isinstance(type_, t.Integer) and (type_.bits or 64) >= 32
                 )
                 return is_wide and self.is_positive(operand, facts)
+            case e.AddressOf(target):
+                return self.is_positive(target, facts)
             case e.Binary():
                 return self._is_computed(value, facts)
             case e.Local() if self._is_counter(value):
