@@ -95,6 +95,8 @@ class OutcomeAnalysis:
                 notes.take(self.of(name))
                 if name in self._endless:
                     notes.take({Problem(name, self.program.function(name).place, ENDLESS)})
+        if function.noexcept:
+            return frozenset(replace(problem, raises="") for problem in notes.found)
         return frozenset(notes.found)
 
     @cached_property

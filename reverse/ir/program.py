@@ -56,7 +56,7 @@ class Function:
 
     The `receiver` is the parameter (the first) that is the object a method is called on, and
     `owner` the class that declares it. `captured` are the locals that closures within share, or
-    references lead to.
+    references lead to. An exception that would leave one that is `noexcept` ends the program.
     """
 
     name: str
@@ -68,6 +68,7 @@ class Function:
     owner: str | None = None
     captured: frozenset[str] = frozenset()
     place: Span = place_field()
+    noexcept: bool = False
 
 
 @dataclass(frozen=True, slots=True)

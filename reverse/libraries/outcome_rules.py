@@ -376,9 +376,7 @@ RULES = (
     OutcomeRule(python=".discard .clear", size=Size.ANY),
     OutcomeRule(".pop_front .pop_back .pop", size=Size.LOSES),
     OutcomeRule(".clear .assign .reset", size=Size.ANY),
-    OutcomeRule(
-        ".resize", raises="std::length_error", size=Size.ANY, when=Raises.NEGATIVE
-    ),
+    OutcomeRule(".resize", raises="std::length_error", size=Size.ANY, when=Raises.NEGATIVE),
     OutcomeRule(".reserve", raises="std::length_error", when=Raises.NEGATIVE),
     OutcomeRule("new[]", raises="std::bad_array_new_length", when=Raises.NEGATIVE),
     OutcomeRule(".test", raises="std::out_of_range"),
@@ -429,7 +427,9 @@ RULES = (
         "wait waitpid wait3 wait4 msgrcv mq_receive semop lockf flock tcdrain", acts=_WAITS
     ),
     OutcomeRule("connect send sendto sendmsg getaddrinfo gethostbyname", acts=_WAITS),
-    OutcomeRule("read readv pread preadv fread recvmmsg mq_send mq_timedreceive msgsnd", acts=_WAITS),
+    OutcomeRule(
+        "read readv pread preadv fread recvmmsg mq_send mq_timedreceive msgsnd", acts=_WAITS
+    ),
     OutcomeRule("mq_timedsend semtimedop waitid sigsuspend sigtimedwait getdelim", acts=_WAITS),
     OutcomeRule("pthread_rwlock_wrlock pthread_spin_lock pthread_barrier_wait", acts=_WAITS),
     OutcomeRule("pthread_cond_timedwait pthread_mutex_timedlock pthread_timedjoin_np", acts=_WAITS),

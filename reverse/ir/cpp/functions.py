@@ -96,8 +96,24 @@ def lower_function(world: World, symbol: FunctionSymbol) -> tuple[Function, list
         symbol.owner if owner is not None else None,
         frozenset(context.shared),
         place,
+        is_noexcept(code.node, implied=kind is FunctionKind.DESTRUCTOR),
     )
     return found, context.closures
+
+
+def is_noexcept(node: Node, implied: bool = False) -> bool:
+    """Whether what throws in a function ends the program ([except.spec])."""
+    declarator = node.child_by_field_name("declarator")
+    while declarator is not None and not declarator.type.endswith("function_declarator"):
+        declarator = declarator.child_by_field_name("declarator") or next(
+            (c for c in named(declarator) if c.type.endswith("declarator")), None
+        )
+    for part in named(declarator) if declarator is not None else ():
+        if part.type == "noexcept":
+            return not any(inner.type == "false" for inner in named(part))
+        if part.type == "throw_specifier":
+            return not named(part)
+    return implied
 
 
 def _kind(symbol: FunctionSymbol, owner: ClassSymbol | None) -> FunctionKind:

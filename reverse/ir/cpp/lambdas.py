@@ -20,7 +20,7 @@ from rebsync.reverse.ir.cpp.context import (
     lower_value,
     lowers_expression,
 )
-from rebsync.reverse.ir.cpp.functions import body_of, bound_parameters
+from rebsync.reverse.ir.cpp.functions import body_of, bound_parameters, is_noexcept
 from rebsync.reverse.ir.cpp.objects import as_value
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.ir.program import Function, Parameter
@@ -143,6 +143,7 @@ def lambda_expression(context: Context, node: Node) -> Value:
         result.form,
         captured=frozenset(inner.shared),
         place=place,
+        noexcept=is_noexcept(node),
     )
     context.closures += [*inner.closures, function]
     return Value(e.Closure(inner.name, tuple(capturing.taken.values()), (), form, place), form)
