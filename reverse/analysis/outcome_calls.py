@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 from rebsync.reverse.analysis.facts import (
@@ -31,6 +32,7 @@ from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.reverse.libraries.routines import Language
 from rebsync.unions import assert_never
 
+_PARAMETERS = re.compile(r"<[^<>]*>")
 _WAITING_ALONE = frozenset({"get", "join"})
 _UNKNOWN = "what is called is not known"
 
@@ -61,6 +63,8 @@ class OutcomeCalls:
             case s.LibraryCallee(name, receiver):
                 if receiver is not None:
                     self.expressions.check(receiver, facts)
+                else:
+                    self._of_template(node, name)
                 self._library(node, name, self.notes.table.function(name), receiver, facts)
             case s.ValueCallee(value):
                 self.expressions.check(value, facts)
@@ -111,6 +115,17 @@ class OutcomeCalls:
             self.notes.problem(node, f'"{name.rpartition("/")[2]}" is the model\'s')
         else:
             self.notes.take(self.of(name))
+
+    def _of_template(self, node: s.Call, name: str) -> None:
+        """A function of a parameter of a template, or of a class that one gives: of any class."""
+        before = ""
+        while before != name:
+            before, name = name, _PARAMETERS.sub("", name)
+        scope, _, last = name.rpartition("::")
+        if scope and not self.notes.table.is_standard(name):
+            for method in sorted(self.origins.methods_of_any(last)):
+                if not self.notes.is_model(method):
+                    self._enters(node, method)
 
     def _arguments(self, node: s.Call, facts: Facts) -> None:
         keeps = self._keeps_types(node)
