@@ -23,6 +23,7 @@ from rebsync.reverse.analysis.local_effects import local_effects
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcome_statements import ENDLESS, OutcomeWalk
 from rebsync.reverse.analysis.problems import Problem, ProblemNotes
+from rebsync.reverse.analysis.silent_calls import SilentCalls
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
@@ -71,6 +72,10 @@ class OutcomeAnalysis:
         return frozenset(o.name for o in held if isinstance(o, FunctionOrigin))
 
     @cached_property
+    def _silent(self) -> SilentCalls:
+        return SilentCalls(self.origins)
+
+    @cached_property
     def _operators(self) -> frozenset[str]:
         """What libraries may call of the objects that they get: to compare them, and the like."""
         classes = self.program.classes.values()
@@ -85,9 +90,10 @@ class OutcomeAnalysis:
         notes = ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)
         walk_ = OutcomeWalk(notes, self.of)
         walk_.defaults(self._defaults.get(function.name, ()))
+        walk_.defaults(self._silent.factories(function, self._active))
         walk_.body(function.body, NO_FACTS)
         local = local_effects(self.graph, function)
-        implicit = local.implicit
+        implicit = local.implicit | (self._silent.called(function).difference(self._active))
         if any(targets.libraries for _, targets in local.calls):
             implicit |= self._operators
         for name in sorted(implicit):
