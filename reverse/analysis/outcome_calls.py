@@ -273,10 +273,10 @@ class OutcomeCalls:
         receiver: e.Expression | None,
         facts: Facts,
     ) -> None:
-        if outcome.acts:
-            self.notes.problem(node, f'"{name}": {outcome.acts}')
         if name == "format" and receiver is not None and not self._has_pieces(node, receiver):
             self.notes.fails(node, "lacks the argument")
+        if outcome.acts:
+            self.notes.problem(node, f'"{name}": {outcome.acts}')
         for raised in self._raised(node, outcome, receiver, facts):
             self.notes.problem(node, f'"{name}" may raise an exception', raised)
 
