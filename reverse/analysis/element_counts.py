@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origin, Origins
@@ -78,13 +78,34 @@ class ElementCounts:
         match value:
             case CallResult(s.Call(_, s.LibraryCallee(name), arguments)) if arguments:
                 copies = self.table.function(name).tells is Tells.SAME
-                return self._size(arguments[0].value, function, assumed) if copies else 0
+                size = self._size(arguments[0].value, function, assumed) if copies else 0
+                return min(size, self._bound_of(arguments, function))
             case CallResult(call):
                 return min((self._size(v, f, assumed) for f, v in self._results(call)), default=0)
             case AnyValue() | ClassValue() | ObjectValue():
                 return 0
             case _:
                 return self._size(value, function, assumed)
+
+    def bound(self, value: e.Expression, function: str) -> int:
+        """How many elements a container may always have."""
+        key = key_of(value, function)
+        calls = [
+            (around, stored.call)
+            for around, stored in (self.graph.stores.of(key) if key is not None else ())
+            if isinstance(stored, CallResult)
+        ]
+        return min((self._bound_of(c.arguments, around) for around, c in calls), default=_LIMIT)
+
+    def _bound_of(self, arguments: Sequence[s.CallArgument], function: str) -> int:
+        """The bound that a container gets where it is made; none is known to be greater than 0."""
+        value = next((a.value for a in arguments if a.name == "maxlen"), e.Literal(None))
+        key = key_of(value, function)
+        stored = [v for _, v in self.graph.stores.of(key)] if key is not None else [value]
+        bounds = [v.value for v in stored if isinstance(v, e.Literal)]
+        if not bounds or len(bounds) < len(stored):
+            return 0
+        return min(b if isinstance(b, int) else _LIMIT for b in bounds)
 
     def _results(self, call: s.Call) -> Iterator[tuple[str, e.Expression]]:
         """What the functions of the program give that a call may reach."""

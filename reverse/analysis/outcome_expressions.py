@@ -15,8 +15,9 @@ from rebsync.reverse.analysis.facts import (
 from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin, Origin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.signs import Signs
-from rebsync.reverse.analysis.stores import AnyValue, key_of
+from rebsync.reverse.analysis.stores import AnyValue, CallResult, key_of
 from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.walk import parts
@@ -29,6 +30,7 @@ _DIVIDING = frozenset(
         *(Operator.TRUNCATING_DIVIDE, Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER),
     }
 )
+_LEAST = frozenset({"INT32_MIN", "INT64_MIN", "INT_MIN", "LONG_MIN", "LLONG_MIN"})
 _MODULO = (Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER)
 
 
@@ -114,6 +116,32 @@ class OutcomeExpressions:
             return
         if not self.is_nonzero(right, facts):
             self.notes.fails(value, "divides by zero")
+        is_cpp = self.notes.table.language is Language.CPP
+        if is_cpp and self._is_least(left) and not self.is_positive(right, facts):
+            self.notes.fails(value, "divides the least number by -1")
+
+    def _is_least(self, value: e.Expression) -> bool:
+        """Whether a number may be one that is written as the least of its type."""
+        match self.bare(value):
+            case e.LibraryReference(name):
+                return name.rpartition("::")[2] in _LEAST
+            case e.Literal(int() as number):
+                return number in (-(1 << 31), -(1 << 63))
+            case e.Unary(Operator.NEGATE, e.Literal(int() as number)):
+                return number in (1 << 31, 1 << 63)
+            case bare:
+                key = key_of(bare, self.function)
+        stored = self.origins.graph.stores.of(key) if key is not None else []
+        return any(self._is_least_stored(v) for _, v in stored)
+
+    def _is_least_stored(self, value: object) -> bool:
+        match value:
+            case CallResult(s.Call(_, s.LibraryCallee(name))):
+                return name.endswith(("::min", "::lowest")) and "numeric_limits" in name
+            case e.LibraryReference(name) | e.Convert(_, e.LibraryReference(name)):
+                return name.rpartition("::")[2] in _LEAST
+            case _:
+                return False
 
     def _computes(self, value: e.Binary, facts: Facts) -> None:
         """Shifts and powers: by a negative number, or greater than any float."""

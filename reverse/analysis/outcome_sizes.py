@@ -51,7 +51,8 @@ class OutcomeSizes:
             return facts
         match outcome.size:
             case Size.GROWS:
-                return facts | {HasSize(receiver, 1)}
+                stays_empty = not self.notes.counts.bound(receiver, self.function)
+                return facts if stays_empty else facts | {HasSize(receiver, 1)}
             case Size.LOSES:
                 return without_sizes(facts) | sized(receiver, size_of(facts, receiver) - 1)
             case Size.ANY:

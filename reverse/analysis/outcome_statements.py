@@ -20,7 +20,6 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
     without_sizes,
 )
-from rebsync.reverse.analysis.iterated_containers import IteratedContainers
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin
 from rebsync.reverse.analysis.outcome_calls import OutcomeCalls
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
@@ -284,8 +283,7 @@ class OutcomeWalk:
             node.iterable
         ):
             self.notes.problem(node, ENDLESS)
-        if IteratedContainers(self.notes).is_changed(node):
-            self.notes.fails(node, "changes while it is iterated")
+        self._calls.iterates(node)
         inside = without(self._changed(facts, node.body), node.target)
         size = self.notes.counts.elements(node.iterable, self.name)
         if self.notes.is_parameter(node.iterable):

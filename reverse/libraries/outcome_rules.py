@@ -68,6 +68,7 @@ class OutcomeRule:
 # What operations raise that are no calls, in C++ and in Python; in C++ dividing ends the program.
 FAILURES: Mapping[str, tuple[str, str]] = {
     "divides by zero": ("", "builtins.ZeroDivisionError"),
+    "divides the least number by -1": ("", "builtins.OverflowError"),
     "lacks the element": ("std::out_of_range", "builtins.IndexError"),
     "lacks the key": ("std::out_of_range", "builtins.KeyError"),
     "lacks the member": ("", "builtins.ValueError"),
