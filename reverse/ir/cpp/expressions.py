@@ -33,6 +33,7 @@ from rebsync.reverse.ir.cpp.sequencing import in_any_order, in_order
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol
 from rebsync.reverse.ir.cpp.types import SIZE, STRING
 from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 
@@ -250,6 +251,10 @@ def discarded(context: Context, node: Node) -> None:
 
 
 def _may_run(expression: e.Expression) -> bool:
+    if any(
+        isinstance(n, e.Binary) or (isinstance(n, e.Index) and n.checked) for n in walk(expression)
+    ):
+        return True
     return isinstance(expression, e.Attribute | e.Index | e.Dereference) and expression.dynamic
 
 
