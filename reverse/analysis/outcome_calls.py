@@ -35,6 +35,7 @@ from rebsync.unions import assert_never
 
 _PARAMETERS = re.compile(r"<[^<>]*>")
 _WAITING_ALONE = frozenset({"get", "join"})
+_UNKNOWN_CLASS = "constructor of a type that is not known"  # what a template gives, perhaps
 _UNKNOWN = "what is called is not known"
 
 
@@ -246,6 +247,10 @@ class OutcomeCalls:
                 full = f"{of}.{name}"
                 self._library(node, full, self.notes.table.function(full), receiver, facts)
             case LibraryOrigin(of):
+                if of == _UNKNOWN_CLASS:
+                    for method in sorted(self.origins.methods_of_any(name)):
+                        if not self.notes.is_model(method):
+                            self._enters(node, method)
                 self._library(node, name, self.notes.table.method(of, name), receiver, facts)
                 if of not in PLAIN_CLASSES and name in _WAITING_ALONE and not node.arguments:
                     self.notes.problem(node, f'"{name}" may wait')

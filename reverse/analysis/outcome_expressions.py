@@ -138,8 +138,10 @@ class OutcomeExpressions:
         match value:
             case CallResult(s.Call(_, s.LibraryCallee(name))):
                 return name.endswith(("::min", "::lowest")) and "numeric_limits" in name
-            case e.LibraryReference(name) | e.Convert(_, e.LibraryReference(name)):
-                return name.rpartition("::")[2] in _LEAST
+            case e.Convert(_, operand):
+                return self._is_least_stored(operand)
+            case e.Literal() | e.Unary() | e.LibraryReference() | e.Temporary():
+                return self._is_least(value)
             case _:
                 return False
 

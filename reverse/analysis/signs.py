@@ -5,7 +5,7 @@ from __future__ import annotations
 from rebsync.reverse.analysis.facts import Facts, IsBelow, IsPositive, IsSize, tested
 from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.stores import CallResult, TemporaryVariable
+from rebsync.reverse.analysis.stores import AnyValue, CallResult, TemporaryVariable, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -13,6 +13,7 @@ from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.walk import walk
 
 _UNSIGNED = tuple(t.Integer(bits, False) for bits in (8, 16, 32, 64))
+_SIZING = ("::resize", "::reserve")
 _KEEPING = frozenset(
     {
         *(Operator.ADD, Operator.MULTIPLY, Operator.SHIFT_RIGHT),
@@ -48,6 +49,8 @@ class Signs:
             case e.Binary():
                 return self._is_computed(value, facts)
             case e.Local() if self._is_counter(value):
+                return True
+            case e.Local() | e.Global() | e.Captured() | e.Attribute() if self._is_written(value):
                 return True
             case e.Temporary(number) if self._is_range_or_size(number, facts):
                 return True
@@ -105,6 +108,27 @@ class Signs:
         numbers = [v.value for v in written if isinstance(v.value, int)]
         return len(numbers) == len(values) - 1 and all(n >= 0 for n in numbers)
 
+    def _is_written(self, value: e.Expression) -> bool:
+        """Whether all that is ever stored under a name is written as zero or more.
+
+        What sets a size takes a reference to a number, and leaves it as it is.
+        """
+        key = key_of(value, self._notes.function.name)
+        stored = [v for _, v in self._notes.origins.graph.stores.of(key)] if key else []
+        calls = [n for n in walk(self._notes.function) if isinstance(n, s.Call)]
+        sizes = [c for c in calls if isinstance(c.callee, s.LibraryCallee)]
+        lent = sum(
+            isinstance(a.value, e.AddressOf) and a.value.target == value
+            for c in sizes
+            if c.callee.name.endswith(_SIZING)  # type: ignore[union-attr]
+            for a in c.arguments
+        )
+        numbers = [v.value for v in stored if isinstance(v, e.Literal)]
+        are_positive = all(isinstance(n, int | float) and n >= 0 for n in numbers)
+        others = [v for v in stored if not isinstance(v, e.Literal)]
+        is_lent = len(others) <= lent and all(isinstance(v, AnyValue) for v in others)
+        return bool(numbers) and are_positive and is_lent
+
     def _is_counter(self, variable: e.Local) -> bool:
         """Whether all that a variable of Python gets in its function is zero or more."""
         function = self._notes.function
@@ -127,6 +151,8 @@ class Signs:
                 return self.is_positive(value, no_facts)
             case s.CompoundAssign(_, operator, value) if operator in _KEEPING:
                 return self.is_positive(value, no_facts)
+            case s.Call():
+                return self._is_from_zero(node, no_facts)
             case s.ForEach(_, e.Temporary() as iterable):
                 return self.is_positive(iterable, no_facts)
             case _:
