@@ -245,7 +245,8 @@ class OutcomeExpressions:
     def _reads_at(self, value: e.Index, facts: Facts) -> None:
         if not value.checked or isinstance(value.index, e.Slice):
             return
-        holders, indices = names_of(facts, value.object), names_of(facts, value.index)
+        holders = names_of(facts, value.object)
+        indices = names_of(facts, value.index) | {_as_key(value)}
         if any(HasKey(holder, index) in facts for holder in holders for index in indices):
             return
         kinds = self.origins.of(value.object, self.function)
@@ -339,6 +340,18 @@ class OutcomeExpressions:
         while isinstance(value, e.Convert):
             value = value.operand
         return value
+
+
+def _as_key(value: e.Index) -> e.Expression:
+    """The key of a mapping before it becomes one of the keys' type, as it does in each call."""
+    type_, index = getattr(value.object, "type", None), value.index
+    if isinstance(type_, t.Container) and type_.kind is t.ContainerKind.MAPPING:
+        key = type_.elements[0] if type_.elements else None
+        while isinstance(key, t.Integer) and isinstance(index, e.Convert):
+            if index.type not in (key, t.UNBOUNDED):
+                break
+            index = index.operand
+    return index
 
 
 def _is_typed_mapping(value: e.Expression) -> bool:
