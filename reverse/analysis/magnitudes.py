@@ -25,51 +25,55 @@ class Magnitudes:
     def __init__(self, origins: Origins, function: str) -> None:
         self._origins = origins
         self._function = function
+        self._known: dict[Key, float] = {}  # those on the way are ordinary ones
 
     def is_finite(self, value: e.Expression) -> bool:
         """Whether a number is an ordinary one, by how it and all that it is made of is computed."""
-        return math.isfinite(self._of(value, self._function, frozenset()))
+        return math.isfinite(self._of(value, self._function))
 
-    def _of(self, value: e.Expression, function: str, seen: frozenset[Key]) -> float:
-        """A bound of a number; infinite where there is none. `seen` are the names on the way."""
+    def _of(self, value: e.Expression, function: str) -> float:
+        """A bound of a number; infinite where there is none."""
         match value:
             case e.Literal(int() | float() as number):
                 return abs(float(number)) if abs(number) < _ORDINARY**8 else math.inf
             case e.LibraryReference(name):
                 return math.inf if name in _INFINITE else _ORDINARY
             case e.Unary(_, operand) | e.Convert(_, operand):
-                return self._of(operand, function, seen)
+                return self._of(operand, function)
             case e.Conditional(_, one, other) | e.And(one, other) | e.Or(one, other):
-                return max(self._of(one, function, seen), self._of(other, function, seen))
+                return max(self._of(one, function), self._of(other, function))
             case e.Binary(operator, left, right):
-                bounds = self._of(left, function, seen), self._of(right, function, seen)
+                bounds = self._of(left, function), self._of(right, function)
                 return _combined(operator, *bounds, right)
         key = key_of(value, function)
-        if key is None or key in seen:
+        if key is None:
             return _ORDINARY
-        stored = self._origins.graph.stores.of(key)
-        return max((self._of_stored(each, seen | {key}) for each in stored), default=_ORDINARY)
+        if key not in self._known:
+            self._known[key] = _ORDINARY
+            stored = self._origins.graph.stores.of(key)
+            self._known[key] = max(map(self._of_stored, stored), default=_ORDINARY)
+        return self._known[key]
 
-    def _of_stored(self, stored: Stored, seen: frozenset[Key]) -> float:
+    def _of_stored(self, stored: Stored) -> float:
         function, value = stored
         match value:
             case CallResult(call):
-                return self._of_call(call, function, seen)
+                return self._of_call(call, function)
             case _ if isinstance(value, e.Binary | e.Literal | e.Unary | e.Conditional | e.Convert):
-                return self._of(value, function, seen)
+                return self._of(value, function)
             case e.Temporary() | e.Local() | e.Global() | e.Captured() | e.LibraryReference():
-                return self._of(value, function, seen)
+                return self._of(value, function)
             case _:
                 return _ORDINARY
 
-    def _of_call(self, call: s.Call, function: str, seen: frozenset[Key]) -> float:
+    def _of_call(self, call: s.Call, function: str) -> float:
         """A bound of what a call gives: it is ordinary if all that it gets is."""
         if not isinstance(call.callee, s.LibraryCallee):
             return _ORDINARY
         values = [a.value for a in call.arguments]
         if call.callee.name == "builtins.float" and any(map(_is_text, values)):
             return math.inf
-        bounds = (self._of(value, function, seen) for value in values)
+        bounds = (self._of(value, function) for value in values)
         return _ORDINARY if all(map(math.isfinite, bounds)) else math.inf
 
 

@@ -15,7 +15,7 @@ from rebsync.reverse.analysis.facts import (
 from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin, Origin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.signs import Signs
-from rebsync.reverse.analysis.stores import AnyValue, CallResult, key_of
+from rebsync.reverse.analysis.stores import AnyValue, CallResult, TemporaryVariable, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -135,13 +135,17 @@ class OutcomeExpressions:
         return any(self._is_least_stored(v) for _, v in stored)
 
     def _is_least_stored(self, value: object) -> bool:
+        while isinstance(value, e.Convert):
+            value = value.operand
         match value:
             case CallResult(s.Call(_, s.LibraryCallee(name))):
                 return name.endswith(("::min", "::lowest")) and "numeric_limits" in name
-            case e.Convert(_, operand):
-                return self._is_least_stored(operand)
-            case e.Literal() | e.Unary() | e.LibraryReference() | e.Temporary():
+            case e.Literal() | e.Unary() | e.LibraryReference():
                 return self._is_least(value)
+            case e.Temporary(number):
+                key = TemporaryVariable(self.function, number)
+                stored = [v for _, v in self.origins.graph.stores.of(key)]
+                return any(self._is_least_stored(v) for v in stored if isinstance(v, CallResult))
             case _:
                 return False
 

@@ -13,6 +13,7 @@ from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.walk import walk
 
 _UNSIGNED = tuple(t.Integer(bits, False) for bits in (8, 16, 32, 64))
+_DEPTH = 4  # of variables that are computed from others
 _SIZING = ("::resize", "::reserve")
 _KEEPING = frozenset(
     {
@@ -137,6 +138,8 @@ class Signs:
             return False
         if variable in self._active:
             return True
+        if len(self._active) >= _DEPTH:
+            return False
         self._active.add(variable)
         try:
             nodes = [n for n in walk(function) if getattr(n, "target", None) == variable]
