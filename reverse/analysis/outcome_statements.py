@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from rebsync.reverse.analysis.bounded_loops import ends
+from rebsync.reverse.analysis.bounded_loops import LoopEnds
 from rebsync.reverse.analysis.facts import (
     NO_FACTS,
     Facts,
@@ -20,6 +20,7 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
     without_sizes,
 )
+from rebsync.reverse.analysis.finite_numbers import FiniteNumbers
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin
 from rebsync.reverse.analysis.outcome_calls import OutcomeCalls
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
@@ -43,6 +44,8 @@ class OutcomeWalk:
         self._expressions = OutcomeExpressions(notes)
         self._sizes = OutcomeSizes(notes, self._expressions)
         self._calls = OutcomeCalls(notes, self._expressions, self._sizes, of)
+        numbers = FiniteNumbers(self.origins.graph, notes.table)
+        self._ends = LoopEnds(numbers, self.name, self._sizes.is_bound)
         self._handled: list[set[Problem]] = []
 
     def value(self, value: e.Expression | None, facts: Facts) -> None:
@@ -252,7 +255,7 @@ class OutcomeWalk:
 
     def _loop(self, node: s.Loop, facts: Facts) -> Facts:
         inner = (*node.prelude, *node.body, *node.step)
-        is_bounded = ends(node, self._sizes.is_bound) or self._sizes.is_emptied(node)
+        is_bounded = self._ends.ends(node) or self._sizes.is_emptied(node)
         grows = self._sizes.changes(inner, None, GROWING)
         if not is_bounded or grows or self._is_shared(node):
             self.notes.problem(node, ENDLESS)
