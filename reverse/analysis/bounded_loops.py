@@ -28,15 +28,21 @@ _MIRRORED = {
 class LoopEnds:
     """The loops of one function.
 
-    `is_size` says of a call whether it gives the size, or the end, of a container.
+    `is_size` says of a call whether it gives the size, or the end, of a container; `is_written` of
+    a bound whether a loop stores in what it is made of.
     """
 
     def __init__(
-        self, numbers: FiniteNumbers, function: str, is_size: Callable[[s.Call], bool]
+        self,
+        numbers: FiniteNumbers,
+        function: str,
+        is_size: Callable[[s.Call], bool],
+        is_written: Callable[[s.Loop, e.Expression], bool],
     ) -> None:
         self.numbers = numbers
         self.function = function
         self.is_size = is_size
+        self.is_written = is_written
 
     def ends(self, loop: s.Loop) -> bool:
         """Whether a loop ends, if its body does and puts nothing into its bound."""
@@ -71,7 +77,9 @@ class LoopEnds:
         self, loop: s.Loop, counter: e.Expression, operator: Operator, bound: e.Expression
     ) -> bool:
         """Whether a variable gets nearer to a bound in each round."""
-        if not isinstance(counter, e.Local) or _is_written(loop, bound, counter):
+        if not isinstance(counter, e.Local) or counter in walk(bound):
+            return False
+        if self.is_written(loop, bound):
             return False
         if operator is Operator.UNEQUAL:
             return isinstance(_bare(bound), e.Temporary) and _is_iterator(loop, counter)
@@ -142,31 +150,6 @@ def _is_iterator(loop: s.Loop, counter: e.Local) -> bool:
     match loop.step[-1]:
         case s.Call(_, s.LibraryCallee(name), (s.CallArgument(value),)):
             return name.endswith("operator++") and value in uses
-        case _:
-            return False
-
-
-def _is_written(loop: s.Loop, bound: e.Expression, counter: e.Local) -> bool:
-    """Whether the body may store in what a bound is made of; what is shared, if it calls."""
-    shared = (e.Global, e.Captured, e.Attribute, e.Index, e.Dereference)
-    for node in walk(bound):
-        if node == counter:
-            return True
-        if isinstance(node, e.Temporary):
-            continue  # the size of a container, or set before the loop
-        if any(_stores_in(n, node) for n in walk(loop)):
-            return True
-        if isinstance(node, shared) and any(map(_runs_others, walk(loop))):
-            return True
-    return False
-
-
-def _runs_others(node: Node) -> bool:
-    match node:
-        case s.Call(_, s.LibraryCallee()) | s.Call(_, s.MethodCallee(_, _, None)):
-            return False
-        case s.Call() | s.Construct() | s.Destroy() | s.Unsupported():
-            return True
         case _:
             return False
 

@@ -6,12 +6,10 @@ By all that is ever stored under a name, and by the types that C++ declares.
 from __future__ import annotations
 
 import math
-from functools import cached_property
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.stores import (
-    ANY_VALUE,
     AnyValue,
     CallResult,
     ClassValue,
@@ -24,7 +22,6 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Operator
-from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcome_rules import Tells
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 
@@ -106,11 +103,8 @@ class FiniteNumbers:
             return None
         if key in within:
             return _ANY_WHOLE  # Only what is stored besides counts.
-        stored = self.graph.stores.of(key)
-        changed = self._changed.get(key, [])
-        known = [each for each in stored if each[1] != ANY_VALUE] + changed
-        if not known or len(stored) > len(known):
-            return None
+        changed = self.graph.stores.changed.get(key, [])
+        known = self.graph.stores.initial(key) + changed
         found = [self._of_stored(each, within | {key}) for each in known]
         whole = _either(*found)
         # What is computed from itself has no limits that its first values say.
@@ -156,19 +150,6 @@ class FiniteNumbers:
             is_whole = all(k is not None and k.is_whole for k in known)
             return _ANY_WHOLE if is_whole and (known[1:] or name == "builtins.abs") else None
         return None if call.target is None else _of_type(call.target.type)
-
-    @cached_property
-    def _changed(self) -> dict[Key, list[Stored]]:
-        """What is stored by `+=` and the like, whose values are any in what is stored."""
-        found: dict[Key, list[Stored]] = {}
-        for name in self.graph.program.functions:
-            for node in walk(self.graph.program.function(name)):
-                if isinstance(node, s.CompoundAssign):
-                    key = key_of(node.target, name)
-                    value = e.Binary(node.operator, node.target, node.value, node.target.type)
-                    if key is not None:
-                        found.setdefault(key, []).append((name, value))
-        return found
 
 
 def _of_type(type_: t.Type, operator: Operator | None = None) -> Limits | None:

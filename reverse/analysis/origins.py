@@ -211,6 +211,14 @@ class Origins:
         found = (self.of(v, name) if v is not None else PLAIN for v in values)
         return frozenset[Origin]().union(*found) or PLAIN
 
+    def is_own(self, value: e.Expression, function: str) -> bool:
+        """Whether a value may be an object of a class of the program, as far as that is known."""
+        type_ = getattr(value, "type", t.UNKNOWN)
+        type_ = type_.to if isinstance(type_, t.Reference) else type_
+        if isinstance(type_, t.Record):
+            return type_.name in self.graph.program.classes
+        return any(isinstance(o, ClassOrigin) for o in self.of(value, function))
+
     # --- classes ---------------------------------------------------------------------------------
 
     def methods(self, of: str, name: str) -> frozenset[str]:

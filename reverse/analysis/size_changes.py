@@ -1,0 +1,287 @@
+"""Whether what runs in a loop may change the number of elements of the containers that it is over.
+
+A container that has no other name is changed only by that name. Any other may be one that the loop
+is over.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rebsync.reverse.analysis.origins import FunctionOrigin, LibraryOrigin, PlainOrigin
+from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.stores import CallResult, TemporaryVariable, key_of
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.walk import Node, walk
+from rebsync.reverse.libraries.outcome_rules import Size, Tells
+from rebsync.reverse.libraries.routines import Language
+
+GROWING = frozenset({Size.GROWS, Size.MORE})
+CHANGING = GROWING | {Size.LOSES, Size.ANY}
+# Methods that give what is there at the time when it is asked for.
+_VIEWS = frozenset({"items", "keys", "values", "elements", "__iter__"})
+_ORDERED = frozenset(LibraryOrigin(n, True) for n in ("list", "tuple", "str", "deque", "set"))
+_NUMBERS = frozenset({PlainOrigin(), LibraryOrigin("str", True)})
+_NAMED = e.Local | e.Temporary | e.Captured | e.Global | e.Attribute | e.Index | e.Dereference
+_VALUES = t.Integer | t.Float | t.Truth | t.Enumeration
+
+
+class SizeChanges:
+    """The loops of one function."""
+
+    def __init__(self, notes: ProblemNotes, sizes: OutcomeSizes) -> None:
+        self.notes = notes
+        self.sizes = sizes
+        self.origins = notes.origins
+        self.program = notes.origins.graph.program
+        self.function = notes.function.name
+
+    def in_loop(self, loop: s.Loop) -> bool:
+        """Whether the containers whose sizes or ends a loop tests may get more elements."""
+        over = frozenset(self._tested(loop))
+        if not over:
+            return False
+        inner = (*loop.prelude, *loop.body, *loop.step)
+        return self._changes(inner, over, GROWING) or self._stores(inner, over)
+
+    def in_bound(self, loop: s.Loop, bound: e.Expression) -> bool:
+        """Whether a loop may store in what a bound is made of."""
+        return self._stores((*loop.prelude, *loop.body, *loop.step), frozenset({bound}))
+
+    def in_for_each(self, loop: s.ForEach) -> bool:
+        """Whether the containers that a loop takes elements from may have more, or fewer."""
+        over = frozenset(self._views(loop.iterable))
+        keys = frozenset(_keys(loop))
+        return bool(over) and self._changes(loop.body, over, CHANGING, keys)
+
+    # --- what a loop is over ---------------------------------------------------------------------
+
+    def _tested(self, loop: s.Loop) -> Iterator[e.Expression]:
+        tests = {*walk(loop.test)}
+        for node in loop.prelude:
+            if isinstance(node, s.Call) and node.target in tests and self.sizes.is_bound(node):
+                yield self.sizes.container(node)
+        bare = self.sizes.expressions.bare(loop.test)
+        if isinstance(bare, e.Local | e.Global | e.Captured | e.Attribute):
+            yield bare  # while values:
+        for part in tests:
+            if isinstance(part, e.Index):  # while i < values[0]
+                yield part.object
+
+    def _views(self, iterable: e.Expression) -> Iterator[e.Expression]:
+        """The containers whose elements an iterable gives, as they are in each round."""
+        if isinstance(iterable, e.Index) and isinstance(iterable.index, e.Slice):
+            return
+        if isinstance(iterable, e.Dereference) and isinstance(iterable.reference, e.Temporary):
+            iterable = iterable.reference
+        if not isinstance(iterable, e.Temporary):
+            yield iterable
+            return
+        stores = self.origins.graph.stores
+        for _, value in stores.of(TemporaryVariable(self.function, iterable.number)):
+            match value:
+                case CallResult(call):
+                    yield from self._views_of(call, iterable)
+                case e.Build() | e.BuildMapping():
+                    pass
+                case e.AddressOf(target) if not isinstance(target, e.Temporary):
+                    yield target
+                case _:
+                    yield iterable
+
+    def _views_of(self, call: s.Call, iterable: e.Expression) -> Iterator[e.Expression]:
+        arguments = [a.value for a in call.arguments]
+        match call.callee:
+            case s.LibraryCallee(name, None):
+                outcome = self.notes.table.function(name)
+                is_new = outcome.gives or outcome.tells is Tells.RANGE
+                for value in () if is_new else arguments:
+                    yield from self._views(value)
+            case s.LibraryCallee(name, receiver) if receiver is not None:
+                if name.rpartition("::")[2] in _VIEWS:
+                    yield from self._views(receiver)
+            case s.MethodCallee(receiver, name, None) if not self.origins.methods_of_any(name):
+                if name in _VIEWS:
+                    yield from self._views(receiver)
+            case _:
+                yield iterable
+
+    # --- what changes sizes ----------------------------------------------------------------------
+
+    def _changes(
+        self,
+        body: s.Body,
+        over: frozenset[e.Expression],
+        sizes: frozenset[Size],
+        keys: frozenset[tuple[e.Expression, e.Expression]] = frozenset(),
+    ) -> bool:
+        """Whether a body, or what it calls of the program, changes sizes of containers so."""
+        for function, inner in self._runs(body):
+            for node in walk(inner):
+                if isinstance(node, s.Unsupported):
+                    return True
+                changed = self._changed(node, function, sizes, keys)
+                if changed is None:
+                    continue
+                is_own = function == self.function
+                if is_own and changed in over:
+                    return True
+                if is_own and self._is_apart(changed, over):
+                    continue
+                is_other = all(self._are_other(changed, function, each) for each in over)
+                if not is_other and not self._is_private(changed, function):
+                    return True
+        return False
+
+    def _is_apart(self, changed: e.Expression, over: frozenset[e.Expression]) -> bool:
+        """Whether a variable of a function in C++ is none of what a loop is over."""
+        if self.notes.table.language is not Language.CPP or not isinstance(changed, e.Local):
+            return False
+        named = [n for each in over for n in walk(each)]
+        is_reached = any(isinstance(n, e.Dereference | e.Temporary) for n in named)
+        return not is_reached and changed not in named and not isinstance(changed.type, t.Reference)
+
+    def _are_other(self, changed: e.Expression, function: str, over: e.Expression) -> bool:
+        """Whether two containers are of classes of the library that are not the same."""
+        kinds = self.origins.of(changed, function), self.origins.of(over, self.function)
+        is_known = all(isinstance(o, LibraryOrigin) and o.of_object for k in kinds for o in k)
+        return is_known and kinds[0].isdisjoint(kinds[1])
+
+    def _changed(
+        self,
+        node: Node,
+        function: str,
+        sizes: frozenset[Size],
+        keys: frozenset[tuple[e.Expression, e.Expression]],
+    ) -> e.Expression | None:
+        """The container whose size a node may change."""
+        match node:
+            case s.Call():
+                outcome, receiver = self.sizes.of_receiver(node)
+                if outcome is None or outcome.size not in sizes:
+                    return None
+                return receiver
+            case s.Delete(e.Index(of)) if Size.ANY in sizes:
+                return of
+            case s.Assign(e.Index(of, e.Slice())) | s.CompoundAssign(e.Index(of, e.Slice())):
+                return of
+            case s.Assign(e.Index(of, index)) | s.CompoundAssign(e.Index(of, index)):
+                is_new = (of, index) not in keys or function != self.function
+                return of if is_new and self._takes_keys(of, function) else None
+            case s.CompoundAssign(target) if not self._is_number(target, function):
+                return target
+            case _:
+                return None
+
+    def _takes_keys(self, container: e.Expression, function: str) -> bool:
+        """Whether storing at an index may add an element: in mappings, and what is not known."""
+        match getattr(container, "type", t.UNKNOWN):
+            case t.Container(kind):
+                return kind is t.ContainerKind.MAPPING
+            case t.Array() | t.Text() | t.Reference():
+                return False
+            case _:
+                return not self.origins.of(container, function) <= _ORDERED
+
+    def _is_number(self, target: e.Expression, function: str) -> bool:
+        """Whether `+=` leaves containers as they are: all that is stored before are numbers."""
+        if isinstance(getattr(target, "type", None), _VALUES):
+            return True
+        key = key_of(target, function)
+        stored = self.origins.graph.stores.initial(key) if key is not None else []
+        kinds = (self.origins.of_stored(each) for each in stored)
+        return bool(stored) and all(kind <= _NUMBERS for kind in kinds)
+
+    def _stores(self, body: s.Body, read: frozenset[e.Expression]) -> bool:
+        """Whether a body, or what it calls, stores in what some values are read from."""
+        named = [n for each in read for n in walk(each) if isinstance(n, _NAMED)]
+        keys = {key_of(n, self.function) for n in named if not isinstance(n, e.Temporary)}
+        referred = [n for n in named if isinstance(n, e.Dereference)]
+        has_parts = bool(referred) or any(isinstance(n, e.Index) for n in named)
+        is_private = all(self._is_unshared(n) for n in named)
+        for function, inner in self._runs(body):
+            for each in (target for node in walk(inner) for target in _targets(node)):
+                match each:
+                    case e.Index(of) if function == self.function and of in read:
+                        continue  # an element of what is read
+                    case e.Index() if has_parts:
+                        return True
+                    case e.Dereference() if has_parts or not is_private:
+                        if has_parts or not isinstance(each.type, _VALUES):
+                            return True
+                        if any(each.type == getattr(n, "type", None) for n in named):
+                            return True
+                    case e.Local() if referred and self._may_be(each, referred, function):
+                        return True
+                if key_of(each, function) in keys - {None}:
+                    return True
+        return False
+
+    def _is_unshared(self, value: e.Expression) -> bool:
+        """Whether no reference leads to a variable."""
+        is_local = isinstance(value, e.Local) and value.name not in self.notes.function.captured
+        return is_local or isinstance(value, e.Temporary)
+
+    def _may_be(self, stored: e.Local, referred: list[e.Dereference], function: str) -> bool:
+        """Whether a reference that is read may lead to a variable, which is no older than it."""
+        if function != self.function or self._is_unshared(stored):
+            return False
+        return not all(self.notes.is_parameter(r.reference) for r in referred)
+
+    def _runs(self, body: s.Body) -> Iterator[tuple[str, s.Body]]:
+        """A body, and those of all functions of the program that it may run."""
+        waiting, seen = [(self.function, body)], set[str]()
+        while waiting:
+            function, inner = waiting.pop()
+            yield function, inner
+            for node in walk(inner):
+                reached = self.reached(node, function)
+                waiting += ((n, self.program.function(n).body) for n in reached - seen)
+                seen |= reached
+
+    def reached(self, node: Node, function: str) -> frozenset[str]:
+        """The functions of the program that a node may run; of unknown ones none is meant."""
+        match node:
+            case s.Construct(_, _, _, str() as name):
+                return frozenset({name})
+            case s.Call(_, s.FunctionCallee(name)):
+                called = frozenset({name})
+            case s.Call(_, s.MethodCallee(_, name)):
+                called = self.origins.methods_of_any(name)
+            case s.Call(_, s.ValueCallee(value)):
+                called = self._functions(value, function)
+            case s.Call():
+                called = frozenset()
+            case _:
+                return frozenset()
+        passed = (self._functions(a.value, function) for a in node.arguments)
+        return called.union(*passed)
+
+    def _functions(self, value: e.Expression, function: str) -> frozenset[str]:
+        held = self.origins.of(value, function)
+        return frozenset(o.name for o in held if isinstance(o, FunctionOrigin))
+
+    def _is_private(self, container: e.Expression, function: str) -> bool:
+        """Whether a container is one that a function made itself, and that has no other name."""
+        captured = self.program.function(function).captured
+        if not isinstance(container, e.Local) or container.name in captured:
+            return False
+        return not self.notes.counts.has_other_names(container, function)
+
+
+def _targets(node: Node) -> Iterator[e.Lvalue]:
+    """What a statement stores in."""
+    if isinstance(node, s.Unpack):
+        yield from node.targets
+    elif (
+        not isinstance(node, e.AddressOf) and (target := getattr(node, "target", None)) is not None
+    ):
+        yield target
+
+
+def _keys(loop: s.ForEach) -> Iterator[tuple[e.Expression, e.Expression]]:
+    """The keys that are known to be in what a loop goes through."""
+    yield loop.iterable, loop.target
