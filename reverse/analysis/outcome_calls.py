@@ -233,7 +233,7 @@ class OutcomeCalls:
     def _stored_in(self, node: s.Call, name: str, facts: Facts) -> None:
         """What is stored in attributes of a name, and called in place of a method."""
         for function, value in self.origins.graph.stores.of(Member(name)):
-            if isinstance(value, e.Closure):
+            if isinstance(value, e.Closure) and value.function in self.origins.methods_of_any(name):
                 continue
             for origin in self.origins.of_stored((function, value)):
                 if isinstance(origin, FunctionOrigin | LibraryOrigin | AnyOrigin):
