@@ -211,13 +211,25 @@ class Origins:
         found = (self.of(v, name) if v is not None else PLAIN for v in values)
         return frozenset[Origin]().union(*found) or PLAIN
 
-    def is_own(self, value: e.Expression, function: str) -> bool:
-        """Whether a value may be an object of a class of the program, as far as that is known."""
+    def own_classes(self, value: e.Expression, function: str) -> frozenset[str]:
+        """The classes of the program that a value may be an object of, as far as is known."""
         type_ = getattr(value, "type", t.UNKNOWN)
         type_ = type_.to if isinstance(type_, t.Reference) else type_
         if isinstance(type_, t.Record):
-            return type_.name in self.graph.program.classes
-        return any(isinstance(o, ClassOrigin) for o in self.of(value, function))
+            return frozenset({type_.name} & set(self.graph.program.classes))
+        held = self.of(value, function)
+        return frozenset(o.name for o in held if isinstance(o, ClassOrigin) and o.of_object)
+
+    def may_have_method(self, value: e.Expression, name: str) -> bool:
+        """Whether a class of the program has a method, and of a value no type is known in C++."""
+        type_ = getattr(value, "type", t.UNKNOWN)
+        is_variable = isinstance(value, e.Local | e.Temporary)
+        return is_variable and type_ == t.UNKNOWN and bool(self.methods_of_any(name))
+
+    def has_method(self, of: str, name: str) -> bool:
+        """Whether a class has a method, or one of the program's that it extends."""
+        classes = (self.graph.program.classes.get(c) for c in (of, *self.graph.bases(of)))
+        return any(n == name for c in classes if c is not None for n, _ in c.methods)
 
     # --- classes ---------------------------------------------------------------------------------
 

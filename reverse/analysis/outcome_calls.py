@@ -251,8 +251,19 @@ class OutcomeCalls:
     ) -> None:
         if outcome.acts:
             self.notes.problem(node, f'"{name}": {outcome.acts}')
+        if any(map(self._is_own_iterator, node.arguments)):
+            self.notes.problem(node, f'"{name}" may never come to the end')
         for raised in self._raised(node, outcome, receiver, facts):
             self.notes.problem(node, f'"{name}" may raise an exception', raised)
+
+    def _is_own_iterator(self, argument: s.CallArgument) -> bool:
+        """Whether an argument is an iterator of the program's, or has some, in C++."""
+        classes = self.origins.own_classes(argument.value, self.function)
+        return any(
+            self.origins.may_have_method(argument.value, name)
+            or any(self.origins.has_method(c, name) for c in classes)
+            for name in ("operator++", "begin")
+        )
 
     def _raised(
         self, node: s.Call, outcome: CallOutcome, receiver: e.Expression | None, facts: Facts

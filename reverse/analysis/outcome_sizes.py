@@ -115,7 +115,7 @@ class OutcomeSizes:
         """Whether a call gives the size or the end of a container."""
         outcome, _ = self.of_receiver(node)
         name = node.callee.name if isinstance(node.callee, s.LibraryCallee) else ""
-        is_end = name.rpartition("::")[2] in _ENDS and not self.origins.is_own(
+        is_end = name.rpartition("::")[2] in _ENDS and not self.origins.own_classes(
             self.container(node), self.function
         )
         return is_end or (outcome is not None and outcome.tells is Tells.SIZE)

@@ -282,7 +282,7 @@ class OutcomeWalk:
 
     def _for_each(self, node: s.ForEach, facts: Facts) -> Facts:
         self.value(node.iterable, facts)
-        if self._changes.in_for_each(node):
+        if self._changes.in_for_each(node) or self._changes.is_own(node):
             self.notes.problem(node, ENDLESS)
         inside = without(self._changed(facts, node.body), node.target)
         size = self.notes.counts.elements(node.iterable, self.name)

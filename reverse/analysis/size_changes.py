@@ -57,6 +57,16 @@ class SizeChanges:
         keys = frozenset(_keys(loop))
         return bool(over) and self._changes(loop.body, over, CHANGING, keys)
 
+    def is_own(self, loop: s.ForEach) -> bool:
+        """Whether a loop in C++ may go by an iterator that the program has itself."""
+        if self.notes.table.language is not Language.CPP:
+            return False
+        graph, classes = self.origins.graph, self.program.classes
+        return any(
+            self.origins.has_method(name, "begin") or {*graph.bases(name)} <= {*classes}
+            for name in self.origins.own_classes(loop.iterable, self.function)
+        ) or self.origins.may_have_method(loop.iterable, "begin")
+
     # --- what a loop is over ---------------------------------------------------------------------
 
     def _tested(self, loop: s.Loop) -> Iterator[e.Expression]:
