@@ -5,7 +5,7 @@ By what is stored under each name anywhere in the program (flow-insensitive), as
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
 from rebsync.records import dataclass
@@ -24,7 +24,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Operator
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 
 _LIMIT = 8  # sizes from here on are one
@@ -242,3 +242,38 @@ class Origins:
         """The methods of a name that any class has."""
         classes = self.graph.program.classes.values()
         return frozenset(f for c in classes for n, f in c.methods if n == name)
+
+    # --- calls -----------------------------------------------------------------------------------
+
+    def runs(self, body: s.Body, function: str) -> Iterator[tuple[str, s.Body]]:
+        """A body, and those of all functions of the program that it may run."""
+        waiting, seen = [(function, body)], set[str]()
+        while waiting:
+            function, inner = waiting.pop()
+            yield function, inner
+            for node in walk(inner):
+                reached = self.reached(node, function)
+                waiting += ((n, self.graph.program.function(n).body) for n in reached - seen)
+                seen |= reached
+
+    def reached(self, node: Node, function: str) -> frozenset[str]:
+        """The functions of the program that a node may run; of unknown ones none is meant."""
+        match node:
+            case s.Construct(_, _, _, str() as name):
+                return frozenset({name})
+            case s.Call(_, s.FunctionCallee(name)):
+                called = frozenset({name})
+            case s.Call(_, s.MethodCallee(_, name)):
+                called = self.methods_of_any(name)
+            case s.Call(_, s.ValueCallee(value)):
+                called = self._functions(value, function)
+            case s.Call():
+                called = frozenset()
+            case _:
+                return frozenset()
+        passed = (self._functions(a.value, function) for a in node.arguments)
+        return called.union(*passed)
+
+    def _functions(self, value: e.Expression, function: str) -> frozenset[str]:
+        held = self.of(value, function)
+        return frozenset(o.name for o in held if isinstance(o, FunctionOrigin))

@@ -19,6 +19,7 @@ from rebsync.reverse.analysis.element_counts import ElementCounts
 from rebsync.reverse.analysis.facts import (
     NO_FACTS,
 )
+from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.local_effects import local_effects
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcome_statements import ENDLESS, OutcomeWalk
@@ -50,6 +51,7 @@ class OutcomeAnalysis:
         own = [name for name in program.functions if not is_model(name)]
         self.origins = Origins(self.graph, table, own)
         self.counts = ElementCounts(self.origins)
+        self.locks = HeldLocks(self.origins)
         self.elements: dict[str, int] = {}  # of what functions get, by their names
         self._found: dict[str, frozenset[Problem]] = {}
         self._active: list[str] = []
@@ -86,6 +88,7 @@ class OutcomeAnalysis:
         walk_ = OutcomeWalk(notes, self.of)
         walk_.defaults(self._defaults.get(function.name, ()))
         walk_.body(function.body, NO_FACTS)
+        self.locks.check(function, notes)
         local = local_effects(self.graph, function)
         implicit = local.implicit
         if any(targets.libraries for _, targets in local.calls):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from rebsync.reverse.analysis.origins import FunctionOrigin, LibraryOrigin, PlainOrigin
+from rebsync.reverse.analysis.origins import LibraryOrigin, PlainOrigin
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, TemporaryVariable, key_of
@@ -129,7 +129,7 @@ class SizeChanges:
         keys: frozenset[tuple[e.Expression, e.Expression]] = frozenset(),
     ) -> bool:
         """Whether a body, or what it calls of the program, changes sizes of containers so."""
-        for function, inner in self._runs(body):
+        for function, inner in self.origins.runs(body, self.function):
             for node in walk(inner):
                 if isinstance(node, s.Unsupported):
                     return True
@@ -212,7 +212,7 @@ class SizeChanges:
         referred = [n for n in named if isinstance(n, e.Dereference)]
         has_parts = bool(referred) or any(isinstance(n, e.Index) for n in named)
         is_private = all(self._is_unshared(n) for n in named)
-        for function, inner in self._runs(body):
+        for function, inner in self.origins.runs(body, self.function):
             for each in (target for node in walk(inner) for target in _targets(node)):
                 match each:
                     case e.Index(of) if function == self.function and of in read:
@@ -240,39 +240,6 @@ class SizeChanges:
         if function != self.function or self._is_unshared(stored):
             return False
         return not all(self.notes.is_parameter(r.reference) for r in referred)
-
-    def _runs(self, body: s.Body) -> Iterator[tuple[str, s.Body]]:
-        """A body, and those of all functions of the program that it may run."""
-        waiting, seen = [(self.function, body)], set[str]()
-        while waiting:
-            function, inner = waiting.pop()
-            yield function, inner
-            for node in walk(inner):
-                reached = self.reached(node, function)
-                waiting += ((n, self.program.function(n).body) for n in reached - seen)
-                seen |= reached
-
-    def reached(self, node: Node, function: str) -> frozenset[str]:
-        """The functions of the program that a node may run; of unknown ones none is meant."""
-        match node:
-            case s.Construct(_, _, _, str() as name):
-                return frozenset({name})
-            case s.Call(_, s.FunctionCallee(name)):
-                called = frozenset({name})
-            case s.Call(_, s.MethodCallee(_, name)):
-                called = self.origins.methods_of_any(name)
-            case s.Call(_, s.ValueCallee(value)):
-                called = self._functions(value, function)
-            case s.Call():
-                called = frozenset()
-            case _:
-                return frozenset()
-        passed = (self._functions(a.value, function) for a in node.arguments)
-        return called.union(*passed)
-
-    def _functions(self, value: e.Expression, function: str) -> frozenset[str]:
-        held = self.origins.of(value, function)
-        return frozenset(o.name for o in held if isinstance(o, FunctionOrigin))
 
     def _is_private(self, container: e.Expression, function: str) -> bool:
         """Whether a container is one that a function made itself, and that has no other name."""
