@@ -38,11 +38,15 @@ class HeldLocks:
 
     def check(self, function: Function, notes: ProblemNotes) -> None:
         """Notes where a function may lock what it has locked."""
+        for used in walk(function.body):
+            if isinstance(used, e.LibraryReference) and _is_guard(used.name):
+                notes.problem(used, _LONGER)
         for node, inside in _with_rest(function.body):
             mutexes = self._locked(node, function.name)
             if not mutexes:
                 continue
-            if isinstance(node, s.Call) and not isinstance(node.target, e.Local):
+            is_left = any(isinstance(n, s.Yield) for n in walk(inside))
+            if is_left or (isinstance(node, s.Call) and not isinstance(node.target, e.Local)):
                 notes.problem(node, _LONGER)
             for name, body in self.origins.runs(inside, function.name):
                 later = (self._locked(inner, name) for inner in walk(body))

@@ -6,10 +6,13 @@ By what is stored under each name anywhere in the program (flow-insensitive), as
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import cached_property
 from typing import TypeAlias
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
+from rebsync.reverse.analysis.local_effects import local_effects
 from rebsync.reverse.analysis.locations import Member
 from rebsync.reverse.analysis.stores import (
     AnyValue,
@@ -23,7 +26,7 @@ from rebsync.reverse.analysis.stores import (
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.operators import ImplicitCall, Operator
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 
@@ -243,6 +246,13 @@ class Origins:
         classes = self.graph.program.classes.values()
         return frozenset(f for c in classes for n, f in c.methods if n == name)
 
+    @cached_property
+    def operators(self) -> frozenset[str]:
+        """What libraries may call of the objects that they get: to compare them, and the like."""
+        classes = self.graph.program.classes.values()
+        asked = {o for c in classes for o, _ in c.operators}
+        return self.graph.implicit(asked - {ImplicitCall.CONSTRUCT, ImplicitCall.CALL})
+
     # --- calls -----------------------------------------------------------------------------------
 
     def runs(self, body: s.Body, function: str) -> Iterator[tuple[str, s.Body]]:
@@ -251,6 +261,13 @@ class Origins:
         while waiting:
             function, inner = waiting.pop()
             yield function, inner
+            around = replace(self.graph.program.function(function), body=inner)
+            local = local_effects(self.graph, around)
+            has_library = any(targets.libraries for _, targets in local.calls)
+            implicit = local.implicit | (self.operators if has_library else frozenset())
+            implicit -= seen
+            waiting += ((n, self.graph.program.function(n).body) for n in implicit)
+            seen |= implicit
             for node in walk(inner):
                 reached = self.reached(node, function)
                 waiting += ((n, self.graph.program.function(n).body) for n in reached - seen)

@@ -25,6 +25,7 @@ from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcome_rules import Size, Tells
 from rebsync.reverse.libraries.outcomes import CallOutcome
 
+_ASKED = ("__len__", "size", "begin", "end")
 _ENDS = frozenset({"end", "cend", "rend", "crend"})
 
 
@@ -115,10 +116,12 @@ class OutcomeSizes:
         """Whether a call gives the size or the end of a container."""
         outcome, _ = self.of_receiver(node)
         name = node.callee.name if isinstance(node.callee, s.LibraryCallee) else ""
-        is_end = name.rpartition("::")[2] in _ENDS and not self.origins.own_classes(
-            self.container(node), self.function
-        )
-        return is_end or (outcome is not None and outcome.tells is Tells.SIZE)
+        is_end = name.rpartition("::")[2] in _ENDS
+        if not is_end and (outcome is None or outcome.tells is not Tells.SIZE):
+            return False
+        classes = self.origins.own_classes(self.container(node), self.function)
+        has_own = (self.origins.has_method(c, m) for c in classes for m in _ASKED)
+        return not any(has_own)
 
     def container(self, node: s.Call) -> e.Expression:
         """The container of which a call gives the size or the end."""

@@ -72,13 +72,6 @@ class OutcomeAnalysis:
         held = self.origins.of(value, "")
         return frozenset(o.name for o in held if isinstance(o, FunctionOrigin))
 
-    @cached_property
-    def _operators(self) -> frozenset[str]:
-        """What libraries may call of the objects that they get: to compare them, and the like."""
-        classes = self.program.classes.values()
-        asked = {o for c in classes for o, _ in c.operators}
-        return self.graph.implicit(asked - {ImplicitCall.CONSTRUCT, ImplicitCall.CALL})
-
     def of_statements(self, function: Function, span: Span) -> frozenset[Problem]:
         """What the statements of a function at a place may do besides to compute."""
         return self._of_body(replace(function, body=tuple(_within(function.body, span))))
@@ -92,7 +85,7 @@ class OutcomeAnalysis:
         local = local_effects(self.graph, function)
         implicit = local.implicit
         if any(targets.libraries for _, targets in local.calls):
-            implicit |= self._operators
+            implicit |= self.origins.operators
         for name in sorted(implicit):
             if not self.is_model(name) and name != function.name:
                 notes.take(self.of(name))

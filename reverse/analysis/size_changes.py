@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from rebsync.reverse.analysis.origins import LibraryOrigin, PlainOrigin
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.stores import CallResult, TemporaryVariable, key_of
+from rebsync.reverse.analysis.stores import CallResult, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -25,6 +25,40 @@ CHANGING = GROWING | {Size.LOSES, Size.ANY}
 _VIEWS = frozenset({"items", "keys", "values", "elements", "__iter__"})
 _ORDERED = frozenset(LibraryOrigin(n, True) for n in ("list", "tuple", "str", "deque", "set"))
 _NUMBERS = frozenset({PlainOrigin(), LibraryOrigin("str", True)})
+# What changes sizes of its object, or of what it gets, and has no size in the table of outcomes.
+_CHANGING_OBJECT = frozenset(
+    {
+        *("append", "swap", "splice", "merge", "replace", "resize", "assign", "emplace_hint"),
+        *("__setitem__", "__iadd__", "__imul__", "__ior__", "symmetric_difference_update"),
+        *("insert_after", "emplace_after", "push_range", "append_range", "insert_range"),
+    }
+)
+_CHANGING_ARGUMENTS = frozenset(
+    {
+        *("heappush", "heappop", "insort", "insort_left", "insort_right", "swap", "exchange"),
+        *("back_inserter", "front_inserter", "inserter", "getline", "erase", "erase_if", "setitem"),
+        *("iadd", "iconcat"),
+    }
+)
+# Methods that leave their object as it is, and those that only take elements out of it.
+_READING = _VIEWS | frozenset(
+    {
+        *("size", "length", "empty", "begin", "end", "cbegin", "cend", "rbegin", "rend", "crend"),
+        *("front", "back", "at", "find", "rfind", "count", "contains", "substr", "c_str", "data"),
+        *("capacity", "reserve", "max_size", "compare", "top", "lower_bound", "upper_bound"),
+        *("get", "index", "copy", "sort", "reverse", "rotate", "startswith", "endswith", "split"),
+        *("strip", "upper", "lower", "join", "format", "encode", "isdigit", "starts_with"),
+        *("ends_with", "fill", "operator[]", "find_first_of", "crbegin", "equal_range"),
+    }
+)
+_LESSENING = frozenset(
+    {
+        *("pop", "popleft", "popitem", "remove", "discard", "clear", "erase", "pop_back"),
+        *("pop_front", "shrink_to_fit"),
+    }
+)
+_DEFAULTING = LibraryOrigin("defaultdict", True)
+_NOTHING = frozenset[e.Expression]()
 _NAMED = e.Local | e.Temporary | e.Captured | e.Global | e.Attribute | e.Index | e.Dereference
 _VALUES = t.Integer | t.Float | t.Truth | t.Enumeration
 
@@ -81,7 +115,9 @@ class SizeChanges:
             if isinstance(part, e.Index):  # while i < values[0]
                 yield part.object
 
-    def _views(self, iterable: e.Expression) -> Iterator[e.Expression]:
+    def _views(
+        self, iterable: e.Expression, seen: frozenset[e.Expression] = _NOTHING
+    ) -> Iterator[e.Expression]:
         """The containers whose elements an iterable gives, as they are in each round."""
         if isinstance(iterable, e.Index) and isinstance(iterable.index, e.Slice):
             return
@@ -89,12 +125,12 @@ class SizeChanges:
             iterable = iterable.reference
         if not isinstance(iterable, e.Temporary):
             yield iterable
-            return
-        stores = self.origins.graph.stores
-        for _, value in stores.of(TemporaryVariable(self.function, iterable.number)):
+        key = key_of(iterable, self.function)
+        stored = self.origins.graph.stores.of(key) if key is not None else []
+        for function, value in () if iterable in seen else stored:
             match value:
-                case CallResult(call):
-                    yield from self._views_of(call, iterable)
+                case CallResult(call) if function == self.function:
+                    yield from self._views_of(call, iterable, seen | {iterable})
                 case e.Build() | e.BuildMapping():
                     pass
                 case e.AddressOf(target) if not isinstance(target, e.Temporary):
@@ -102,22 +138,27 @@ class SizeChanges:
                 case _:
                     yield iterable
 
-    def _views_of(self, call: s.Call, iterable: e.Expression) -> Iterator[e.Expression]:
-        arguments = [a.value for a in call.arguments]
+    def _views_of(
+        self, call: s.Call, iterable: e.Expression, seen: frozenset[e.Expression]
+    ) -> Iterator[e.Expression]:
         match call.callee:
             case s.LibraryCallee(name, None):
                 outcome = self.notes.table.function(name)
                 is_new = outcome.gives or outcome.tells is Tells.RANGE
-                for value in () if is_new else arguments:
-                    yield from self._views(value)
+                for argument in () if is_new else call.arguments:
+                    yield from self._views(argument.value, seen)
             case s.LibraryCallee(name, receiver) if receiver is not None:
                 if name.rpartition("::")[2] in _VIEWS:
-                    yield from self._views(receiver)
-            case s.MethodCallee(receiver, name, None) if not self.origins.methods_of_any(name):
+                    yield from self._views(receiver, seen)
+            case s.MethodCallee(receiver, name):
                 if name in _VIEWS:
-                    yield from self._views(receiver)
+                    yield from self._views(receiver, seen)
+                if self.origins.methods_of_any(name):
+                    yield iterable
             case _:
                 yield iterable
+                for argument in call.arguments:
+                    yield from self._views(argument.value, seen)
 
     # --- what changes sizes ----------------------------------------------------------------------
 
@@ -130,20 +171,19 @@ class SizeChanges:
     ) -> bool:
         """Whether a body, or what it calls of the program, changes sizes of containers so."""
         for function, inner in self.origins.runs(body, self.function):
+            is_own = function == self.function
+            read, known = (over, keys) if is_own else (_NOTHING, frozenset())
             for node in walk(inner):
                 if isinstance(node, s.Unsupported):
                     return True
-                changed = self._changed(node, function, sizes, keys)
-                if changed is None:
-                    continue
-                is_own = function == self.function
-                if is_own and changed in over:
-                    return True
-                if is_own and self._is_apart(changed, over):
-                    continue
-                is_other = all(self._are_other(changed, function, each) for each in over)
-                if not is_other and not self._is_private(changed, function):
-                    return True
+                for changed in self._changed(node, function, sizes, read, known):
+                    if changed in read:
+                        return True
+                    if is_own and self._is_apart(changed, over):
+                        continue
+                    is_other = all(self._are_other(changed, function, each) for each in over)
+                    if not is_other and not self._is_private(changed, function):
+                        return True
         return False
 
     def _is_apart(self, changed: e.Expression, over: frozenset[e.Expression]) -> bool:
@@ -165,26 +205,53 @@ class SizeChanges:
         node: Node,
         function: str,
         sizes: frozenset[Size],
+        over: frozenset[e.Expression],
         keys: frozenset[tuple[e.Expression, e.Expression]],
-    ) -> e.Expression | None:
-        """The container whose size a node may change."""
+    ) -> Iterator[e.Expression]:
+        """The containers whose sizes a node may change."""
         match node:
             case s.Call():
-                outcome, receiver = self.sizes.of_receiver(node)
-                if outcome is None or outcome.size not in sizes:
-                    return None
-                return receiver
+                yield from self._changed_by(node, function, sizes, over)
             case s.Delete(e.Index(of)) if Size.ANY in sizes:
-                return of
+                yield of
             case s.Assign(e.Index(of, e.Slice())) | s.CompoundAssign(e.Index(of, e.Slice())):
-                return of
+                yield of
             case s.Assign(e.Index(of, index)) | s.CompoundAssign(e.Index(of, index)):
-                is_new = (of, index) not in keys or function != self.function
-                return of if is_new and self._takes_keys(of, function) else None
+                if (of, index) not in keys and self._takes_keys(of, function):
+                    yield of
             case s.CompoundAssign(target) if not self._is_number(target, function):
-                return target
+                yield target
+            case e.Index(of, index) if (of, index) not in keys:
+                if _DEFAULTING in self.origins.of(of, function):
+                    yield of
             case _:
-                return None
+                pass
+
+    def _changed_by(
+        self, node: s.Call, function: str, sizes: frozenset[Size], over: frozenset[e.Expression]
+    ) -> Iterator[e.Expression]:
+        """The containers that a call of a library may change the sizes of."""
+        receiver: e.Expression | None = None
+        size = Size.SAME
+        match node.callee:
+            case s.LibraryCallee(name, receiver):
+                names, size = {name}, self.notes.table.function(name).size
+            case s.MethodCallee(receiver, name):
+                names, size = {name}, self.notes.table.method(None, name).size
+            case s.ValueCallee(value):
+                held = self.origins.of(value, function)
+                names = {o.name for o in held if isinstance(o, LibraryOrigin)}
+            case _:
+                return
+        plain = {name.replace("::", ".").rpartition(".")[2] for name in names}
+        if receiver is not None:
+            is_read = plain <= (_READING if Size.ANY in sizes else _READING | _LESSENING)
+            if size in sizes or plain & _CHANGING_OBJECT or (receiver in over and not is_read):
+                yield receiver
+        if plain & _CHANGING_ARGUMENTS:
+            for argument in node.arguments:
+                value = argument.value
+                yield value.target if isinstance(value, e.AddressOf) else value
 
     def _takes_keys(self, container: e.Expression, function: str) -> bool:
         """Whether storing at an index may add an element: in mappings, and what is not known."""
