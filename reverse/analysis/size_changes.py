@@ -7,6 +7,7 @@ is over.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from rebsync.reverse.analysis.origins import LibraryOrigin, PlainOrigin
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
@@ -88,7 +89,7 @@ class SizeChanges:
     def in_for_each(self, loop: s.ForEach) -> bool:
         """Whether the containers that a loop takes elements from may have more, or fewer."""
         over = frozenset(self._views(loop.iterable))
-        keys = frozenset(_keys(loop))
+        keys = frozenset(self._keys(loop))
         return bool(over) and self._changes(loop.body, over, CHANGING, keys)
 
     def is_own(self, loop: s.ForEach) -> bool:
@@ -121,8 +122,11 @@ class SizeChanges:
         """The containers whose elements an iterable gives, as they are in each round."""
         if isinstance(iterable, e.Index) and isinstance(iterable.index, e.Slice):
             return
+        referred = iterable
         if isinstance(iterable, e.Dereference) and isinstance(iterable.reference, e.Temporary):
             iterable = iterable.reference
+        if isinstance(iterable, e.Build | e.BuildMapping | e.Literal):
+            return
         if not isinstance(iterable, e.Temporary):
             yield iterable
         key = key_of(iterable, self.function)
@@ -135,6 +139,8 @@ class SizeChanges:
                     pass
                 case e.AddressOf(target) if not isinstance(target, e.Temporary):
                     yield target
+                case e.Local(_, t.Reference()) if isinstance(referred, e.Dereference):
+                    yield replace(referred, reference=value)
                 case _:
                     yield iterable
 
@@ -160,6 +166,21 @@ class SizeChanges:
                 for argument in call.arguments:
                     yield from self._views(argument.value, seen)
 
+    def _keys(self, loop: s.ForEach) -> Iterator[tuple[e.Expression, e.Expression]]:
+        """The keys that are known to be in what a loop goes through."""
+        yield loop.iterable, loop.target
+        key = key_of(loop.iterable, self.function)
+        stored = self.origins.graph.stores.of(key) if key is not None else []
+        match [value for _, value in stored], loop.body[:2]:
+            case [CallResult(s.Call(_, s.MethodCallee(of, "items")))], (
+                s.Unpack((first, *_), value),
+                s.Assign(e.Local() as name, given),
+            ) if isinstance(loop.iterable, e.Temporary) and value == loop.target and given == first:
+                if sum(name in _targets(node) for node in walk(loop.body)) == 1:
+                    yield of, name
+            case _:
+                pass
+
     # --- what changes sizes ----------------------------------------------------------------------
 
     def _changes(
@@ -179,20 +200,32 @@ class SizeChanges:
                 for changed in self._changed(node, function, sizes, read, known):
                     if changed in read:
                         return True
-                    if is_own and self._is_apart(changed, over):
+                    if self._is_apart(changed, function, over):
                         continue
                     is_other = all(self._are_other(changed, function, each) for each in over)
                     if not is_other and not self._is_private(changed, function):
                         return True
         return False
 
-    def _is_apart(self, changed: e.Expression, over: frozenset[e.Expression]) -> bool:
-        """Whether a variable of a function in C++ is none of what a loop is over."""
-        if self.notes.table.language is not Language.CPP or not isinstance(changed, e.Local):
+    def _is_apart(
+        self, changed: e.Expression, function: str, over: frozenset[e.Expression]
+    ) -> bool:
+        """Whether an object in C++ is none of those that a loop is over: they have other names."""
+        if self.notes.table.language is not Language.CPP or not _is_object(changed):
             return False
-        named = [n for each in over for n in walk(each)]
-        is_reached = any(isinstance(n, e.Dereference | e.Temporary) for n in named)
-        return not is_reached and changed not in named and not isinstance(changed.type, t.Reference)
+        key = key_of(changed, function)
+        return all(
+            self._is_older(each)
+            if isinstance(each, e.Dereference) and isinstance(changed, e.Local)
+            else _is_object(each) and key_of(each, self.function) not in (None, key)
+            for each in over
+        )
+
+    def _is_older(self, value: e.Dereference) -> bool:
+        """Whether what a reference leads to was there before the function began."""
+        type_ = getattr(value.reference, "type", None)
+        is_fixed = isinstance(type_, t.Reference) and not type_.may_be_null
+        return is_fixed and self.notes.is_parameter(value.reference)
 
     def _are_other(self, changed: e.Expression, function: str, over: e.Expression) -> bool:
         """Whether two containers are of classes of the library that are not the same."""
@@ -326,6 +359,7 @@ def _targets(node: Node) -> Iterator[e.Lvalue]:
         yield target
 
 
-def _keys(loop: s.ForEach) -> Iterator[tuple[e.Expression, e.Expression]]:
-    """The keys that are known to be in what a loop goes through."""
-    yield loop.iterable, loop.target
+def _is_object(value: e.Expression) -> bool:
+    """Whether a variable or member is a container itself, and no reference to one."""
+    is_named = isinstance(value, e.Local | e.Captured | e.Global | e.Attribute)
+    return is_named and isinstance(getattr(value, "type", None), t.Container | t.Text)
