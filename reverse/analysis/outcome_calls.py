@@ -26,6 +26,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
 from rebsync.reverse.libraries.outcome_rules import PLAIN_CLASSES
 from rebsync.reverse.libraries.outcomes import CallOutcome
+from rebsync.reverse.libraries.routines import Language
 
 _WAITING_ALONE = frozenset({"get", "join"})
 _UNKNOWN = "what is called is not known"
@@ -258,6 +259,8 @@ class OutcomeCalls:
 
     def _is_own_iterator(self, argument: s.CallArgument) -> bool:
         """Whether an argument is an iterator of the program's, or has some, in C++."""
+        if self.notes.table.language is not Language.CPP:
+            return False
         classes = self.origins.own_classes(argument.value, self.function)
         return any(
             self.origins.may_have_method(argument.value, name)
