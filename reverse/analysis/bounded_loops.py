@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from rebsync.reverse.analysis.finite_numbers import FiniteNumbers, type_range
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.walk import Node, walk
+from rebsync.reverse.libraries.routines import Language
 
 _UP = (Operator.LESS, Operator.LESS_EQUAL)
 _DOWN = (Operator.GREATER, Operator.GREATER_EQUAL)
@@ -23,75 +25,99 @@ _MIRRORED = {
 }
 
 
-def ends(loop: s.Loop, is_size: Callable[[s.Call], bool]) -> bool:
-    """Whether a loop ends, if its body does and puts nothing into its bound.
+class LoopEnds:
+    """The loops of one function.
 
-    `is_size` says of a call whether it gives the size, or the end, of a container.
+    `is_size` says of a call whether it gives the size, or the end, of a container; `is_written` of
+    a bound whether a loop stores in what it is made of.
     """
-    for node in walk(loop):
-        target = getattr(node, "target", None)
-        if not isinstance(target, e.Temporary) or target not in walk(loop.test):
-            continue
-        if not isinstance(node, s.Call) or not is_size(node):
-            return False
-    tests = [loop.test]
-    while tests:
-        test = tests.pop()
-        test = _bare(test)
-        if isinstance(test, e.And):
-            tests += [test.left, test.right]
-        elif isinstance(test, e.Binary) and _counts(loop, test):
+
+    def __init__(
+        self,
+        numbers: FiniteNumbers,
+        function: str,
+        is_size: Callable[[s.Call], bool],
+        is_written: Callable[[s.Loop, e.Expression], bool],
+    ) -> None:
+        self.numbers = numbers
+        self.function = function
+        self.is_size = is_size
+        self.is_written = is_written
+
+    def ends(self, loop: s.Loop) -> bool:
+        """Whether a loop ends, if its body does and puts nothing into its bound."""
+        for node in walk(loop):
+            target = getattr(node, "target", None)
+            if not isinstance(target, e.Temporary) or target not in walk(loop.test):
+                continue
+            if not isinstance(node, s.Call) or not self.is_size(node):
+                return False
+        tests = [loop.test]
+        while tests:
+            test = _bare(tests.pop())
+            if isinstance(test, e.And):
+                tests += [test.left, test.right]
+            elif isinstance(test, e.Binary) and self._counts(loop, test):
+                return True
+        return False
+
+    def _counts(self, loop: s.Loop, test: e.Binary) -> bool:
+        left, right = _bare(test.left), _bare(test.right)
+        match left:
+            case e.Binary(Operator.ADD, inner, e.Literal(int() as more)) if more >= 0:  # i + 1 < n
+                left = _bare(inner)
+            case _:
+                pass
+        if self._is_counter(loop, left, test.operator, test.right):
             return True
-    return False
+        mirrored = _MIRRORED.get(test.operator)
+        return mirrored is not None and self._is_counter(loop, right, mirrored, test.left)
+
+    def _is_counter(
+        self, loop: s.Loop, counter: e.Expression, operator: Operator, bound: e.Expression
+    ) -> bool:
+        """Whether a variable gets nearer to a bound in each round."""
+        if not isinstance(counter, e.Local) or counter in walk(bound):
+            return False
+        if self.is_written(loop, bound):
+            return False
+        if operator is Operator.UNEQUAL:
+            return isinstance(_bare(bound), e.Temporary) and _is_iterator(loop, counter)
+        step = _step(loop, counter)
+        width, limits = self._width(counter), self.numbers.limits(bound, self.function)
+        if step is None or width is None or limits is None:
+            return False
+        if operator in _UP and step > 0:
+            return _is_reached(width, operator is Operator.LESS, limits.greatest, step)
+        if operator in _DOWN and step < 0:
+            least = None if limits.least is None else -limits.least
+            return _is_reached(width, operator is Operator.GREATER, least, -step, is_down=True)
+        return False
+
+    def _width(self, counter: e.Local) -> t.Integer | None:
+        """The type of a whole number; a float may stay as it is when one is added."""
+        if isinstance(counter.type, t.Integer):
+            return counter.type
+        if self.numbers.table.language is Language.CPP:
+            return None
+        limits = self.numbers.limits(counter, self.function)
+        return t.UNBOUNDED if limits is not None and limits.is_whole else None
 
 
-def _counts(loop: s.Loop, test: e.Binary) -> bool:
-    left, right = _bare(test.left), _bare(test.right)
-    match left:
-        case e.Binary(Operator.ADD, inner, e.Literal()):  # i + 1 < n
-            left = _bare(inner)
-        case _:
-            pass
-    if _is_counter(loop, left, test.operator, test.right):
-        return True
-    mirrored = _MIRRORED.get(test.operator)
-    return mirrored is not None and _is_counter(loop, right, mirrored, test.left)
-
-
-def _is_counter(
-    loop: s.Loop, counter: e.Expression, operator: Operator, bound: e.Expression
+def _is_reached(
+    width: t.Integer, is_strict: bool, bound: int | None, step: int, *, is_down: bool = False
 ) -> bool:
-    """Whether a variable gets nearer to a bound in each round."""
-    if not isinstance(counter, e.Local) or _is_written(loop, bound, counter):
-        return False
-    if operator is Operator.UNEQUAL:
-        return isinstance(_bare(bound), e.Temporary) and _is_iterator(loop, counter)
-    step = _step(loop, counter)
-    if step is None:
-        return False
-    width = counter.type if isinstance(counter.type, t.Integer) else t.UNBOUNDED
-    limit = _bare(bound)
-    if operator in _UP and step > 0:
-        return _is_reached(width, operator, limit, step)
-    if operator in _DOWN and step < 0:
-        return width.signed or (operator is Operator.GREATER and step == -1)
-    return False
-
-
-def _is_reached(width: t.Integer, operator: Operator, bound: e.Expression, step: int) -> bool:
     """Whether a counter of a width gets to a bound before it wraps."""
     if width.bits is None:
         return True
-    highest = (1 << (width.bits - width.signed)) - 1
-    if isinstance(bound, e.Literal) and isinstance(bound.value, int):
-        return bound.value + step <= highest
-    narrow = getattr(bound, "type", None)
-    is_narrow = isinstance(narrow, t.Integer) and narrow.bits is not None
-    if not is_narrow or operator is Operator.LESS_EQUAL or step != 1:
-        return width.bits >= 32 and operator is Operator.LESS
-    assert isinstance(narrow, t.Integer) and narrow.bits is not None
-    # A size is no greater than the memory; a counter of 32 bits gets there.
-    return width.bits >= min(narrow.bits, 32)
+    if bound is None:
+        return False
+    lowest, highest = type_range(width)
+    last = -lowest if is_down else highest
+    if bound + step - is_strict <= last:
+        return True
+    # What a number of `int` or more does beyond its last one, C++ leaves undefined.
+    return is_strict and width.signed and width.bits >= 32 and bound <= last
 
 
 def _step(loop: s.Loop, counter: e.Local) -> int | None:
@@ -124,31 +150,6 @@ def _is_iterator(loop: s.Loop, counter: e.Local) -> bool:
     match loop.step[-1]:
         case s.Call(_, s.LibraryCallee(name), (s.CallArgument(value),)):
             return name.endswith("operator++") and value in uses
-        case _:
-            return False
-
-
-def _is_written(loop: s.Loop, bound: e.Expression, counter: e.Local) -> bool:
-    """Whether the body may store in what a bound is made of; what is shared, if it calls."""
-    shared = (e.Global, e.Captured, e.Attribute, e.Index, e.Dereference)
-    for node in walk(bound):
-        if node == counter:
-            return True
-        if isinstance(node, e.Temporary):
-            continue  # the size of a container, or set before the loop
-        if any(_stores_in(n, node) for n in walk(loop)):
-            return True
-        if isinstance(node, shared) and any(map(_runs_others, walk(loop))):
-            return True
-    return False
-
-
-def _runs_others(node: Node) -> bool:
-    match node:
-        case s.Call(_, s.LibraryCallee()) | s.Call(_, s.MethodCallee(_, _, None)):
-            return False
-        case s.Call() | s.Construct() | s.Destroy() | s.Unsupported():
-            return True
         case _:
             return False
 

@@ -193,10 +193,30 @@ class ElementCounts:
         key = key_of(container, function)
         assert key is not None
         stores = self.graph.stores
-        if not stores.of(key) or any(_is_other(v) for _, v in stores.of(key)):
+        if not stores.of(key) or any(_is_other(v) for _, v in stores.initial(key)):
             return True
         kept = (v for found in stores.values.values() for _, v in found)
-        return any(v == container for v in kept)
+        return any(container in _parts(v) for v in kept) or self._is_passed(container, function)
+
+    def _is_passed(self, container: e.Local, function: str) -> bool:
+        """Whether a call gets a container by which it may become known elsewhere."""
+        for node in walk(self.graph.program.function(function)):
+            match node:
+                case s.Call(_, s.LibraryCallee(), arguments):
+                    passed = arguments[1:]  # what is put into the first one
+                case s.Call(_, s.MethodCallee(_, name, None), arguments):
+                    is_own = bool(self.origins.methods_of_any(name))
+                    grows = self.table.method(None, name).size in (Size.GROWS, Size.MORE)
+                    passed = arguments if is_own or grows else ()
+                case s.Call(_, _, arguments) | s.Construct(_, _, arguments):
+                    passed = arguments
+                case s.Yield(_, value):
+                    passed = (s.CallArgument(value),)
+                case _:
+                    continue
+            if any(container in _parts(a.value) for a in passed):
+                return True
+        return False
 
     @cached_property
     def _losing(self) -> frozenset[Key] | None:
@@ -231,9 +251,29 @@ def _has(value: object, key: e.Literal) -> bool:
     return any(not isinstance(p, e.Spread) and p[0] == key for p in value.entries)
 
 
+def _parts(value: object) -> Iterator[object]:
+    """A value, and what a container that it makes has in it."""
+    yield value
+    match value:
+        case e.Build(_, elements):
+            for element in elements:
+                yield from _parts(element)
+        case e.BuildMapping(_, entries):
+            for entry in entries:
+                yield from () if isinstance(entry, e.Spread) else _parts(entry[1])
+        case e.BuildRecord(_, fields):
+            for _, each in fields:
+                yield from _parts(each)
+        case e.Conditional(_, one, other) | e.And(one, other) | e.Or(one, other):
+            yield from _parts(one)
+            yield from _parts(other)
+        case _:
+            pass
+
+
 def _is_other(value: object) -> bool:
     """Whether a stored value may be one that another name stands for."""
-    fresh = e.Build | e.BuildMapping | e.Literal | e.Binary | CallResult
+    fresh = e.Build | e.BuildMapping | e.Literal | e.Binary | e.Copy | CallResult
     return not isinstance(value, fresh)
 
 

@@ -5,11 +5,14 @@ By what is stored under each name anywhere in the program (flow-insensitive), as
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import cached_property
 from typing import TypeAlias
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
+from rebsync.reverse.analysis.local_effects import local_effects
 from rebsync.reverse.analysis.locations import Member
 from rebsync.reverse.analysis.stores import (
     AnyValue,
@@ -23,8 +26,8 @@ from rebsync.reverse.analysis.stores import (
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.operators import Operator
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.operators import ImplicitCall, Operator
+from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 
 _LIMIT = 8  # sizes from here on are one
@@ -222,6 +225,26 @@ class Origins:
         found = (self.of(v, name) if v is not None else PLAIN for v in values)
         return frozenset[Origin]().union(*found) or PLAIN
 
+    def own_classes(self, value: e.Expression, function: str) -> frozenset[str]:
+        """The classes of the program that a value may be an object of, as far as is known."""
+        type_ = getattr(value, "type", t.UNKNOWN)
+        type_ = type_.to if isinstance(type_, t.Reference) else type_
+        if isinstance(type_, t.Record):
+            return frozenset({type_.name} & set(self.graph.program.classes))
+        held = self.of(value, function)
+        return frozenset(o.name for o in held if isinstance(o, ClassOrigin) and o.of_object)
+
+    def may_have_method(self, value: e.Expression, name: str) -> bool:
+        """Whether a class of the program has a method, and of a value no type is known in C++."""
+        type_ = getattr(value, "type", t.UNKNOWN)
+        is_variable = isinstance(value, e.Local | e.Temporary)
+        return is_variable and type_ == t.UNKNOWN and bool(self.methods_of_any(name))
+
+    def has_method(self, of: str, name: str) -> bool:
+        """Whether a class has a method, or one of the program's that it extends."""
+        classes = (self.graph.program.classes.get(c) for c in (of, *self.graph.bases(of)))
+        return any(n == name for c in classes if c is not None for n, _ in c.methods)
+
     # --- classes ---------------------------------------------------------------------------------
 
     def methods(self, of: str, name: str) -> frozenset[str]:
@@ -233,3 +256,52 @@ class Origins:
         """The methods of a name that any class has."""
         classes = self.graph.program.classes.values()
         return frozenset(f for c in classes for n, f in c.methods if n == name)
+
+    @cached_property
+    def operators(self) -> frozenset[str]:
+        """What libraries may call of the objects that they get: to compare them, and the like."""
+        classes = self.graph.program.classes.values()
+        asked = {o for c in classes for o, _ in c.operators}
+        return self.graph.implicit(asked - {ImplicitCall.CONSTRUCT, ImplicitCall.CALL})
+
+    # --- calls -----------------------------------------------------------------------------------
+
+    def runs(self, body: s.Body, function: str) -> Iterator[tuple[str, s.Body]]:
+        """A body, and those of all functions of the program that it may run."""
+        waiting, seen = [(function, body)], set[str]()
+        while waiting:
+            function, inner = waiting.pop()
+            yield function, inner
+            around = replace(self.graph.program.function(function), body=inner)
+            local = local_effects(self.graph, around)
+            has_library = any(targets.libraries for _, targets in local.calls)
+            implicit = local.implicit | (self.operators if has_library else frozenset())
+            implicit -= seen
+            waiting += ((n, self.graph.program.function(n).body) for n in implicit)
+            seen |= implicit
+            for node in walk(inner):
+                reached = self.reached(node, function)
+                waiting += ((n, self.graph.program.function(n).body) for n in reached - seen)
+                seen |= reached
+
+    def reached(self, node: Node, function: str) -> frozenset[str]:
+        """The functions of the program that a node may run; of unknown ones none is meant."""
+        match node:
+            case s.Construct(_, _, _, str() as name):
+                return frozenset({name})
+            case s.Call(_, s.FunctionCallee(name)):
+                called = frozenset({name})
+            case s.Call(_, s.MethodCallee(_, name)):
+                called = self.methods_of_any(name)
+            case s.Call(_, s.ValueCallee(value)):
+                called = self._functions(value, function)
+            case s.Call():
+                called = frozenset()
+            case _:
+                return frozenset()
+        passed = (self._functions(a.value, function) for a in node.arguments)
+        return called.union(*passed)
+
+    def _functions(self, value: e.Expression, function: str) -> frozenset[str]:
+        held = self.of(value, function)
+        return frozenset(o.name for o in held if isinstance(o, FunctionOrigin))

@@ -268,7 +268,7 @@ class OutcomeCalls:
     def _stored_in(self, node: s.Call, name: str, facts: Facts) -> None:
         """What is stored in attributes of a name, and called in place of a method."""
         for function, value in self.origins.graph.stores.of(Member(name)):
-            if isinstance(value, e.Closure):
+            if isinstance(value, e.Closure) and value.function in self.origins.methods_of_any(name):
                 continue
             for origin in self.origins.of_stored((function, value)):
                 if isinstance(origin, FunctionOrigin | LibraryOrigin | AnyOrigin):
@@ -288,8 +288,21 @@ class OutcomeCalls:
             self.notes.fails(node, "lacks the argument")
         if outcome.acts:
             self.notes.problem(node, f'"{name}": {outcome.acts}')
+        if any(map(self._is_own_iterator, node.arguments)):
+            self.notes.problem(node, f'"{name}" may never come to the end')
         for raised in self._raised(node, outcome, receiver, facts):
             self.notes.problem(node, f'"{name}" may raise an exception', raised)
+
+    def _is_own_iterator(self, argument: s.CallArgument) -> bool:
+        """Whether an argument is an iterator of the program's, or has some, in C++."""
+        if self.notes.table.language is not Language.CPP:
+            return False
+        classes = self.origins.own_classes(argument.value, self.function)
+        return any(
+            self.origins.may_have_method(argument.value, name)
+            or any(self.origins.has_method(c, name) for c in classes)
+            for name in ("operator++", "begin")
+        )
 
     def _raised(
         self, node: s.Call, outcome: CallOutcome, receiver: e.Expression | None, facts: Facts

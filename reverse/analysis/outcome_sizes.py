@@ -15,10 +15,9 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
     without_sizes,
 )
-from rebsync.reverse.analysis.origins import FunctionOrigin, LibraryOrigin
+from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.stores import TemporaryVariable
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import Operator
@@ -26,10 +25,8 @@ from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcome_rules import Size, Tells
 from rebsync.reverse.libraries.outcomes import CallOutcome
 
-_WAITING_ALONE = frozenset({"get", "join"})
-GROWING = frozenset({Size.GROWS, Size.MORE})
-CHANGING = GROWING | {Size.LOSES, Size.ANY}
-_UNKNOWN = "what is called is not known"
+_ASKED = ("__len__", "size", "begin", "end")
+_ENDS = frozenset({"end", "cend", "rend", "crend"})
 
 
 class OutcomeSizes:
@@ -43,7 +40,7 @@ class OutcomeSizes:
 
     def kept(self, node: s.Call, facts: Facts) -> Facts:
         """What is still known after a call."""
-        outcome, receiver = self._of_receiver(node)
+        outcome, receiver = self.of_receiver(node)
         if outcome is None:
             facts = without_shared(facts)
             return facts if self.notes.counts.keeps_elements else without_sizes(facts)
@@ -60,7 +57,7 @@ class OutcomeSizes:
             case _:
                 return facts
 
-    def _of_receiver(self, node: s.Call) -> tuple[CallOutcome | None, e.Expression | None]:
+    def of_receiver(self, node: s.Call) -> tuple[CallOutcome | None, e.Expression | None]:
         """What a method of a library does, with its object; None for functions of the program."""
         match node.callee:
             case s.LibraryCallee(name, receiver):
@@ -75,7 +72,7 @@ class OutcomeSizes:
 
     def told(self, node: s.Call, facts: Facts) -> Facts:
         """What the result of a call says of what the call got."""
-        outcome, receiver = self._of_receiver(node)
+        outcome, receiver = self.of_receiver(node)
         of = receiver
         if of is None and node.arguments:
             of = node.arguments[0].value
@@ -118,9 +115,19 @@ class OutcomeSizes:
 
     def is_bound(self, node: s.Call) -> bool:
         """Whether a call gives the size or the end of a container."""
-        outcome, _ = self._of_receiver(node)
-        is_end = isinstance(node.callee, s.LibraryCallee) and node.callee.name.endswith("end")
-        return is_end or (outcome is not None and outcome.tells is Tells.SIZE)
+        outcome, _ = self.of_receiver(node)
+        name = node.callee.name if isinstance(node.callee, s.LibraryCallee) else ""
+        is_end = name.rpartition("::")[2] in _ENDS
+        if not is_end and (outcome is None or outcome.tells is not Tells.SIZE):
+            return False
+        classes = self.origins.own_classes(self.container(node), self.function)
+        has_own = (self.origins.has_method(c, m) for c in classes for m in _ASKED)
+        return not any(has_own)
+
+    def container(self, node: s.Call) -> e.Expression:
+        """The container of which a call gives the size or the end."""
+        _, receiver = self.of_receiver(node)
+        return node.arguments[0].value if receiver is None else receiver
 
     def is_emptied(self, loop: s.Loop) -> bool:
         """Whether each round takes an element out of the container whose size is tested."""
@@ -134,61 +141,10 @@ class OutcomeSizes:
         tested = {test}
         for node in loop.prelude:
             if isinstance(node, s.Call) and node.target == test and self.is_bound(node):
-                _, receiver = self._of_receiver(node)
-                tested.add(receiver or node.arguments[0].value)
+                tested.add(self.container(node))
         # With a default, `pop` of a key may take nothing.
         calls = [n for n in loop.body if isinstance(n, s.Call) and len(n.arguments) < 2]
-        taken = [self._of_receiver(n) for n in calls]
+        taken = [self.of_receiver(n) for n in calls]
         loses = (of for outcome, of in taken if outcome is not None and outcome.size is Size.LOSES)
         skips = any(isinstance(n, s.Continue) for n in walk(loop.body))
         return not skips and any(of in tested for of in loses)
-
-    def is_fresh(self, value: e.Expression) -> bool:
-        """Whether a container has no other name: it was made for the loop."""
-        if isinstance(value, e.Temporary):
-            key = TemporaryVariable(self.function, value.number)
-            stored = self.origins.graph.stores.of(key)
-            return all(not isinstance(v, e.AddressOf) for _, v in stored)
-        return isinstance(value, e.Index) and isinstance(value.index, e.Slice)
-
-    def changes(self, body: s.Body, iterable: e.Expression | None, sizes: frozenset[Size]) -> bool:
-        """Whether a body, or what it calls of the program, changes sizes of containers so."""
-        waiting, seen = [(self.function, body)], set[str]()
-        while waiting:
-            function, inner = waiting.pop()
-            for node in walk(inner):
-                if isinstance(node, s.Unsupported):
-                    return True
-                if not isinstance(node, s.Call):
-                    continue
-                outcome, receiver = self._of_receiver(node)
-                if outcome is not None and outcome.size in sizes:
-                    is_own = function == self.function and receiver != iterable
-                    if not (is_own and self._is_private(receiver)):
-                        return True
-                reached = self._reached(node, function)
-                waiting += ((n, self._body(n)) for n in reached - seen)
-                seen |= reached
-        return False
-
-    def _reached(self, node: s.Call, function: str) -> frozenset[str]:
-        """The functions of the program that a call may run; of unknown ones none is meant."""
-        match node.callee:
-            case s.FunctionCallee(name):
-                return frozenset({name})
-            case s.MethodCallee(_, name):
-                return self.origins.methods_of_any(name)
-            case s.ValueCallee(value):
-                held = self.origins.of(value, function)
-                return frozenset(o.name for o in held if isinstance(o, FunctionOrigin))
-            case _:
-                return frozenset()
-
-    def _body(self, name: str) -> s.Body:
-        return self.origins.graph.program.function(name).body
-
-    def _is_private(self, container: e.Expression | None) -> bool:
-        """Whether a container is one that the function made itself, and that has no other name."""
-        if not isinstance(container, e.Local) or container.name in self.notes.function.captured:
-            return False
-        return not self.notes.counts.has_other_names(container, self.function)

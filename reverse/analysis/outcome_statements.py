@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from rebsync.reverse.analysis.bounded_loops import ends
+from rebsync.reverse.analysis.bounded_loops import LoopEnds
 from rebsync.reverse.analysis.facts import (
     NO_FACTS,
     Facts,
@@ -20,11 +20,13 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
     without_sizes,
 )
+from rebsync.reverse.analysis.finite_numbers import FiniteNumbers
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin
 from rebsync.reverse.analysis.outcome_calls import OutcomeCalls
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
-from rebsync.reverse.analysis.outcome_sizes import CHANGING, GROWING, OutcomeSizes
+from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
 from rebsync.reverse.analysis.problems import Problem, ProblemNotes
+from rebsync.reverse.analysis.size_changes import SizeChanges
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import walk
@@ -43,6 +45,9 @@ class OutcomeWalk:
         self._expressions = OutcomeExpressions(notes)
         self._sizes = OutcomeSizes(notes, self._expressions)
         self._calls = OutcomeCalls(notes, self._expressions, self._sizes, of)
+        numbers = FiniteNumbers(self.origins.graph, notes.table)
+        self._changes = SizeChanges(notes, self._sizes)
+        self._ends = LoopEnds(numbers, self.name, self._sizes.is_bound, self._changes.in_bound)
         self._handled: list[set[Problem]] = []
 
     def value(self, value: e.Expression | None, facts: Facts) -> None:
@@ -253,9 +258,8 @@ class OutcomeWalk:
 
     def _loop(self, node: s.Loop, facts: Facts) -> Facts:
         inner = (*node.prelude, *node.body, *node.step)
-        is_bounded = ends(node, self._sizes.is_bound) or self._sizes.is_emptied(node)
-        grows = self._sizes.changes(inner, None, GROWING)
-        if not is_bounded or grows or self._is_shared(node):
+        is_bounded = self._ends.ends(node) or self._sizes.is_emptied(node)
+        if not is_bounded or self._changes.in_loop(node) or self._is_shared(node):
             self.notes.problem(node, ENDLESS)
         inside = self._changed(facts, inner)
         before = self.body(node.prelude, inside) or inside
@@ -279,9 +283,7 @@ class OutcomeWalk:
 
     def _for_each(self, node: s.ForEach, facts: Facts) -> Facts:
         self.value(node.iterable, facts)
-        if self._sizes.changes(node.body, node.iterable, CHANGING) and not self._sizes.is_fresh(
-            node.iterable
-        ):
+        if self._changes.in_for_each(node) or self._changes.is_own(node):
             self.notes.problem(node, ENDLESS)
         self._calls.iterates(node)
         inside = without(self._changed(facts, node.body), node.target)

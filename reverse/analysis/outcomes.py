@@ -19,6 +19,7 @@ from rebsync.reverse.analysis.element_counts import ElementCounts
 from rebsync.reverse.analysis.facts import (
     NO_FACTS,
 )
+from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.local_effects import local_effects
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcome_statements import ENDLESS, OutcomeWalk
@@ -51,6 +52,7 @@ class OutcomeAnalysis:
         own = [name for name in program.functions if not is_model(name)]
         self.origins = Origins(self.graph, table, own)
         self.counts = ElementCounts(self.origins)
+        self.locks = HeldLocks(self.origins)
         self.elements: dict[str, int] = {}  # of what functions get, by their names
         self._found: dict[str, frozenset[Problem]] = {}
         self._active: list[str] = []
@@ -75,13 +77,6 @@ class OutcomeAnalysis:
     def _silent(self) -> SilentCalls:
         return SilentCalls(self.origins)
 
-    @cached_property
-    def _operators(self) -> frozenset[str]:
-        """What libraries may call of the objects that they get: to compare them, and the like."""
-        classes = self.program.classes.values()
-        asked = {o for c in classes for o, _ in c.operators}
-        return self.graph.implicit(asked - {ImplicitCall.CONSTRUCT, ImplicitCall.CALL})
-
     def of_statements(self, function: Function, span: Span) -> frozenset[Problem]:
         """What the statements of a function at a place may do besides to compute."""
         return self._of_body(replace(function, body=tuple(_within(function.body, span))))
@@ -92,10 +87,11 @@ class OutcomeAnalysis:
         walk_.defaults(self._defaults.get(function.name, ()))
         walk_.defaults(self._silent.factories(function, self._active))
         walk_.body(function.body, NO_FACTS)
+        self.locks.check(function, notes)
         local = local_effects(self.graph, function)
         implicit = local.implicit | (self._silent.called(function).difference(self._active))
         if any(targets.libraries for _, targets in local.calls):
-            implicit |= self._operators
+            implicit |= self.origins.operators
         for name in sorted(implicit):
             if not self.is_model(name) and name != function.name:
                 notes.take(self.of(name))

@@ -57,12 +57,23 @@ ANY_VALUE = AnyValue()
 
 @dataclass(frozen=True, slots=True)
 class Stores:
-    """By each variable or attribute the values that are stored in it, with their functions."""
+    """By each variable or attribute the values that are stored in it, with their functions.
+
+    `changed` says what `+=` and the like compute, each of which is any value in `values`.
+    """
 
     values: dict[Key, list[Stored]] = field(default_factory=dict)
+    changed: dict[Key, list[Stored]] = field(default_factory=dict)
 
     def of(self, key: Key) -> list[Stored]:
         return self.values.get(key, [])
+
+    def initial(self, key: Key) -> list[Stored]:
+        """What is stored otherwise than by `+=` and the like."""
+        found = list(self.of(key))
+        for function, _ in self.changed.get(key, []):
+            found.remove((function, ANY_VALUE))
+        return found
 
 
 def stores_of(program: Program) -> Stores:
@@ -72,6 +83,12 @@ def stores_of(program: Program) -> Stores:
         function = program.function(name)
         for key, value in _stores(function):
             stores.values.setdefault(key, []).append((name, value))
+        for node in walk(function):
+            if isinstance(node, s.CompoundAssign):
+                changed = key_of(node.target, name)
+                value = e.Binary(node.operator, node.target, node.value, node.target.type)
+                if changed is not None:
+                    stores.changed.setdefault(changed, []).append((name, value))
     return stores
 
 

@@ -159,13 +159,13 @@ def _object(
 ) -> None:
     """`T x = value;`: the name is seen in its own initialiser, but has no value there."""
     mark = len(context.out)
+    context.bind(name, Value(local, type_, is_lvalue=True))
     if value is None:
         default_constructed(context, local, type_, place)
     elif isinstance(type_, t.Array) and value.type == "string_literal":
         raise Unlowered("an array of characters with a text")
     else:
         initialised(context, local, type_, value)
-    context.bind(name, Value(local, type_, is_lvalue=True))
     _begin(context, mark, local, type_, place)
 
 
@@ -332,6 +332,8 @@ def _static_local(
     static = e.Global(context.name, own.removeprefix("static "), declared.type, place)
     type_ = declared.type
     ready = e.Global(context.name, f"{static.name} is initialised", t.TRUTH, place)
+    if not is_auto:
+        context.bind(text_of(name), Value(static, type_, is_lvalue=True))
     with context.body() as body, context.full_expression():
         if value is None:
             default_constructed(context, static, declared.type, place)

@@ -1,0 +1,148 @@
+"""Locks that a thread may wait for while it holds them, for ever.
+
+What locks a mutex for a block (`std::lock_guard` and its kin, `with`) holds it to the end of the
+block; nothing in there, and nothing that it calls, may lock the same one, unless it is recursive.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+
+from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin, Origins
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.stores import CallResult, Key, key_of
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.program import Function
+from rebsync.reverse.ir.walk import STATEMENTS, Node, walk
+
+_GUARDS = frozenset({"lock_guard", "unique_lock", "scoped_lock", "shared_lock"})
+_LOCK = LibraryOrigin("threading.Lock", True)
+_REENTRANT = LibraryOrigin("threading.RLock")
+_AGAIN = "this waits for ever where the lock is held already"
+_LONGER = "this may hold a lock for longer than its block"
+
+# The mutexes that something locks; None is one of which nothing is known.
+Mutexes = frozenset[Key | None]
+_NONE: Mutexes = frozenset()
+
+
+class HeldLocks:
+    """The locks of one program."""
+
+    def __init__(self, origins: Origins) -> None:
+        self.origins = origins
+        self.stores = origins.graph.stores
+
+    def check(self, function: Function, notes: ProblemNotes) -> None:
+        """Notes where a function may lock what it has locked."""
+        for used in walk(function.body):
+            if isinstance(used, e.LibraryReference) and _is_guard(used.name):
+                notes.problem(used, _LONGER)
+        for node, inside in _with_rest(function.body):
+            mutexes = self._locked(node, function.name)
+            if not mutexes:
+                continue
+            is_left = any(isinstance(n, s.Yield) for n in walk(inside))
+            if is_left or (isinstance(node, s.Call) and not isinstance(node.target, e.Local)):
+                notes.problem(node, _LONGER)
+            for name, body in self.origins.runs(inside, function.name):
+                later = (self._locked(inner, name) for inner in walk(body))
+                if any(_meet(mutexes, others) for others in later):
+                    notes.problem(node, _AGAIN)
+
+    def _locked(self, node: Node, function: str) -> Mutexes:
+        """The mutexes that a statement locks, other than recursive ones."""
+        match node:
+            case s.Call(_, s.LibraryCallee(name), arguments) if _is_guard(name):
+                values = (a.value for a in arguments)
+                found = [self._mutexes(v, function, _NONE) for v in values if not _is_tag(v)]
+            case s.With(context):
+                held = self.origins.of(context, function)
+                is_lock = _LOCK in held or AnyOrigin() in held
+                found = [self._mutexes(context, function, _NONE)] if is_lock else []
+            case _:
+                return _NONE
+        return _NONE.union(*found)
+
+    def _mutexes(self, value: e.Expression, function: str, seen: Mutexes) -> Mutexes:
+        """The mutexes that a value may be, or lead to."""
+        while isinstance(value, e.AddressOf | e.Dereference | e.Convert | e.Copy | e.Move):
+            value = _inner(value)
+        key = key_of(value, function)
+        type_ = getattr(value, "type", t.UNKNOWN)
+        if isinstance(type_, t.Record):
+            return _NONE if "recursive" in type_.name else frozenset({key})
+        stored = self.stores.of(key) if key is not None and key not in seen else []
+        found = list[Mutexes]()
+        for of, each in stored:
+            match each:
+                case CallResult(s.Call(_, callee)):
+                    found.append(_NONE if self._is_reentrant(callee, of) else frozenset({key}))
+                case e.AddressOf(to) if to == value:
+                    continue
+                case e.AddressOf() | e.Local() | e.Global() | e.Captured() | e.Attribute():
+                    found.append(self._mutexes(each, of, seen | {key}))
+                case _:
+                    found.append(frozenset({None}))
+        return _NONE.union(*found) if stored else frozenset({None})
+
+    def _is_reentrant(self, callee: s.Callee, function: str) -> bool:
+        match callee:
+            case s.LibraryCallee(name):
+                return name == _REENTRANT.name
+            case s.ValueCallee(value):
+                return self.origins.of(value, function) == {_REENTRANT}
+            case _:
+                return False
+
+
+def _with_rest(body: s.Body) -> Iterator[tuple[s.Statement, s.Body]]:
+    """The statements of a body, each with those that run while it holds a lock."""
+    for number, node in enumerate(body):
+        yield node, node.body if isinstance(node, s.With) else body[number + 1 :]
+        for inner in _bodies(node):
+            yield from _with_rest(inner)
+
+
+def _bodies(node: object) -> Iterator[s.Body]:
+    """The bodies within a statement, those of cases and handlers included."""
+    for field in dataclasses.fields(node):  # type: ignore[arg-type]
+        value = getattr(node, field.name)
+        if not isinstance(value, tuple) or not value:
+            continue
+        if isinstance(value[0], s.Case | s.Handler):
+            for each in value:
+                yield from _bodies(each)
+        elif isinstance(value[0], tuple):
+            yield from value
+        elif isinstance(value[0], STATEMENTS):
+            yield value
+
+
+def _inner(
+    value: e.AddressOf | e.Dereference | e.Convert | e.Copy | e.Move,
+) -> e.Expression:
+    match value:
+        case e.AddressOf(inner) | e.Dereference(inner):
+            return inner
+        case e.Copy(inner) | e.Move(inner) | e.Convert(_, inner):
+            return inner
+
+
+def _is_guard(name: str) -> bool:
+    plain = name.partition("<")[0].rpartition("::")[2]
+    return plain in _GUARDS
+
+
+def _is_tag(value: e.Expression) -> bool:
+    """Whether an argument only says how to lock."""
+    return isinstance(value, e.LibraryReference | e.Literal)
+
+
+def _meet(mutexes: Mutexes, others: Mutexes) -> bool:
+    if not mutexes or not others:
+        return False
+    return None in mutexes or None in others or not mutexes.isdisjoint(others)

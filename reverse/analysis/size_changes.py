@@ -1,0 +1,365 @@
+"""Whether what runs in a loop may change the number of elements of the containers that it is over.
+
+A container that has no other name is changed only by that name. Any other may be one that the loop
+is over.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from rebsync.reverse.analysis.origins import LibraryOrigin, PlainOrigin
+from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.stores import CallResult, key_of
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.walk import Node, walk
+from rebsync.reverse.libraries.outcome_rules import Size, Tells
+from rebsync.reverse.libraries.routines import Language
+
+GROWING = frozenset({Size.GROWS, Size.MORE})
+CHANGING = GROWING | {Size.LOSES, Size.ANY}
+# Methods that give what is there at the time when it is asked for.
+_VIEWS = frozenset({"items", "keys", "values", "elements", "__iter__"})
+_ORDERED = frozenset(LibraryOrigin(n, True) for n in ("list", "tuple", "str", "deque", "set"))
+_NUMBERS = frozenset({PlainOrigin(), LibraryOrigin("str", True)})
+# What changes sizes of its object, or of what it gets, and has no size in the table of outcomes.
+_CHANGING_OBJECT = frozenset(
+    {
+        *("append", "swap", "splice", "merge", "replace", "resize", "assign", "emplace_hint"),
+        *("__setitem__", "__iadd__", "__imul__", "__ior__", "symmetric_difference_update"),
+        *("insert_after", "emplace_after", "push_range", "append_range", "insert_range"),
+    }
+)
+_CHANGING_ARGUMENTS = frozenset(
+    {
+        *("heappush", "heappop", "insort", "insort_left", "insort_right", "swap", "exchange"),
+        *("back_inserter", "front_inserter", "inserter", "getline", "erase", "erase_if", "setitem"),
+        *("iadd", "iconcat"),
+    }
+)
+# Methods that leave their object as it is, and those that only take elements out of it.
+_READING = _VIEWS | frozenset(
+    {
+        *("size", "length", "empty", "begin", "end", "cbegin", "cend", "rbegin", "rend", "crend"),
+        *("front", "back", "at", "find", "rfind", "count", "contains", "substr", "c_str", "data"),
+        *("capacity", "reserve", "max_size", "compare", "top", "lower_bound", "upper_bound"),
+        *("get", "index", "copy", "sort", "reverse", "rotate", "startswith", "endswith", "split"),
+        *("strip", "upper", "lower", "join", "format", "encode", "isdigit", "starts_with"),
+        *("ends_with", "fill", "operator[]", "find_first_of", "crbegin", "equal_range"),
+    }
+)
+_LESSENING = frozenset(
+    {
+        *("pop", "popleft", "popitem", "remove", "discard", "clear", "erase", "pop_back"),
+        *("pop_front", "shrink_to_fit"),
+    }
+)
+_DEFAULTING = LibraryOrigin("defaultdict", True)
+_NOTHING = frozenset[e.Expression]()
+_NAMED = e.Local | e.Temporary | e.Captured | e.Global | e.Attribute | e.Index | e.Dereference
+_VALUES = t.Integer | t.Float | t.Truth | t.Enumeration
+
+
+class SizeChanges:
+    """The loops of one function."""
+
+    def __init__(self, notes: ProblemNotes, sizes: OutcomeSizes) -> None:
+        self.notes = notes
+        self.sizes = sizes
+        self.origins = notes.origins
+        self.program = notes.origins.graph.program
+        self.function = notes.function.name
+
+    def in_loop(self, loop: s.Loop) -> bool:
+        """Whether the containers whose sizes or ends a loop tests may get more elements."""
+        over = frozenset(self._tested(loop))
+        if not over:
+            return False
+        inner = (*loop.prelude, *loop.body, *loop.step)
+        return self._changes(inner, over, GROWING) or self._stores(inner, over)
+
+    def in_bound(self, loop: s.Loop, bound: e.Expression) -> bool:
+        """Whether a loop may store in what a bound is made of."""
+        return self._stores((*loop.prelude, *loop.body, *loop.step), frozenset({bound}))
+
+    def in_for_each(self, loop: s.ForEach) -> bool:
+        """Whether the containers that a loop takes elements from may have more, or fewer."""
+        over = frozenset(self._views(loop.iterable))
+        keys = frozenset(self._keys(loop))
+        return bool(over) and self._changes(loop.body, over, CHANGING, keys)
+
+    def is_own(self, loop: s.ForEach) -> bool:
+        """Whether a loop in C++ may go by an iterator that the program has itself."""
+        if self.notes.table.language is not Language.CPP:
+            return False
+        graph, classes = self.origins.graph, self.program.classes
+        return any(
+            self.origins.has_method(name, "begin") or {*graph.bases(name)} <= {*classes}
+            for name in self.origins.own_classes(loop.iterable, self.function)
+        ) or self.origins.may_have_method(loop.iterable, "begin")
+
+    # --- what a loop is over ---------------------------------------------------------------------
+
+    def _tested(self, loop: s.Loop) -> Iterator[e.Expression]:
+        tests = {*walk(loop.test)}
+        for node in loop.prelude:
+            if isinstance(node, s.Call) and node.target in tests and self.sizes.is_bound(node):
+                yield self.sizes.container(node)
+        bare = self.sizes.expressions.bare(loop.test)
+        if isinstance(bare, e.Local | e.Global | e.Captured | e.Attribute):
+            yield bare  # while values:
+        for part in tests:
+            if isinstance(part, e.Index):  # while i < values[0]
+                yield part.object
+
+    def _views(
+        self, iterable: e.Expression, seen: frozenset[e.Expression] = _NOTHING
+    ) -> Iterator[e.Expression]:
+        """The containers whose elements an iterable gives, as they are in each round."""
+        if isinstance(iterable, e.Index) and isinstance(iterable.index, e.Slice):
+            return
+        referred = iterable
+        if isinstance(iterable, e.Dereference) and isinstance(iterable.reference, e.Temporary):
+            iterable = iterable.reference
+        if isinstance(iterable, e.Build | e.BuildMapping | e.Literal):
+            return
+        if not isinstance(iterable, e.Temporary):
+            yield iterable
+        key = key_of(iterable, self.function)
+        stored = self.origins.graph.stores.of(key) if key is not None else []
+        for function, value in () if iterable in seen else stored:
+            match value:
+                case CallResult(call) if function == self.function:
+                    yield from self._views_of(call, iterable, seen | {iterable})
+                case e.Build() | e.BuildMapping():
+                    pass
+                case e.AddressOf(target) if not isinstance(target, e.Temporary):
+                    yield target
+                case e.Local(_, t.Reference()) if isinstance(referred, e.Dereference):
+                    yield replace(referred, reference=value)
+                case _:
+                    yield iterable
+
+    def _views_of(
+        self, call: s.Call, iterable: e.Expression, seen: frozenset[e.Expression]
+    ) -> Iterator[e.Expression]:
+        match call.callee:
+            case s.LibraryCallee(name, None):
+                outcome = self.notes.table.function(name)
+                is_new = outcome.gives or outcome.tells is Tells.RANGE
+                for argument in () if is_new else call.arguments:
+                    yield from self._views(argument.value, seen)
+            case s.LibraryCallee(name, receiver) if receiver is not None:
+                if name.rpartition("::")[2] in _VIEWS:
+                    yield from self._views(receiver, seen)
+            case s.MethodCallee(receiver, name):
+                if name in _VIEWS:
+                    yield from self._views(receiver, seen)
+                if self.origins.methods_of_any(name):
+                    yield iterable
+            case _:
+                yield iterable
+                for argument in call.arguments:
+                    yield from self._views(argument.value, seen)
+
+    def _keys(self, loop: s.ForEach) -> Iterator[tuple[e.Expression, e.Expression]]:
+        """The keys that are known to be in what a loop goes through."""
+        yield loop.iterable, loop.target
+        key = key_of(loop.iterable, self.function)
+        stored = self.origins.graph.stores.of(key) if key is not None else []
+        match [value for _, value in stored], loop.body[:2]:
+            case [CallResult(s.Call(_, s.MethodCallee(of, "items")))], (
+                s.Unpack((first, *_), value),
+                s.Assign(e.Local() as name, given),
+            ) if isinstance(loop.iterable, e.Temporary) and value == loop.target and given == first:
+                if sum(name in _targets(node) for node in walk(loop.body)) == 1:
+                    yield of, name
+            case _:
+                pass
+
+    # --- what changes sizes ----------------------------------------------------------------------
+
+    def _changes(
+        self,
+        body: s.Body,
+        over: frozenset[e.Expression],
+        sizes: frozenset[Size],
+        keys: frozenset[tuple[e.Expression, e.Expression]] = frozenset(),
+    ) -> bool:
+        """Whether a body, or what it calls of the program, changes sizes of containers so."""
+        for function, inner in self.origins.runs(body, self.function):
+            is_own = function == self.function
+            read, known = (over, keys) if is_own else (_NOTHING, frozenset())
+            for node in walk(inner):
+                if isinstance(node, s.Unsupported):
+                    return True
+                for changed in self._changed(node, function, sizes, read, known):
+                    if changed in read:
+                        return True
+                    if self._is_apart(changed, function, over):
+                        continue
+                    is_other = all(self._are_other(changed, function, each) for each in over)
+                    if not is_other and not self._is_private(changed, function):
+                        return True
+        return False
+
+    def _is_apart(
+        self, changed: e.Expression, function: str, over: frozenset[e.Expression]
+    ) -> bool:
+        """Whether an object in C++ is none of those that a loop is over: they have other names."""
+        if self.notes.table.language is not Language.CPP or not _is_object(changed):
+            return False
+        key = key_of(changed, function)
+        return all(
+            self._is_older(each)
+            if isinstance(each, e.Dereference) and isinstance(changed, e.Local)
+            else _is_object(each) and key_of(each, self.function) not in (None, key)
+            for each in over
+        )
+
+    def _is_older(self, value: e.Dereference) -> bool:
+        """Whether what a reference leads to was there before the function began."""
+        type_ = getattr(value.reference, "type", None)
+        is_fixed = isinstance(type_, t.Reference) and not type_.may_be_null
+        return is_fixed and self.notes.is_parameter(value.reference)
+
+    def _are_other(self, changed: e.Expression, function: str, over: e.Expression) -> bool:
+        """Whether two containers are of classes of the library that are not the same."""
+        kinds = self.origins.of(changed, function), self.origins.of(over, self.function)
+        is_known = all(isinstance(o, LibraryOrigin) and o.of_object for k in kinds for o in k)
+        return is_known and kinds[0].isdisjoint(kinds[1])
+
+    def _changed(
+        self,
+        node: Node,
+        function: str,
+        sizes: frozenset[Size],
+        over: frozenset[e.Expression],
+        keys: frozenset[tuple[e.Expression, e.Expression]],
+    ) -> Iterator[e.Expression]:
+        """The containers whose sizes a node may change."""
+        match node:
+            case s.Call():
+                yield from self._changed_by(node, function, sizes, over)
+            case s.Delete(e.Index(of)) if Size.ANY in sizes:
+                yield of
+            case s.Assign(e.Index(of, e.Slice())) | s.CompoundAssign(e.Index(of, e.Slice())):
+                yield of
+            case s.Assign(e.Index(of, index)) | s.CompoundAssign(e.Index(of, index)):
+                if (of, index) not in keys and self._takes_keys(of, function):
+                    yield of
+            case s.CompoundAssign(target) if not self._is_number(target, function):
+                yield target
+            case e.Index(of, index) if (of, index) not in keys:
+                if _DEFAULTING in self.origins.of(of, function):
+                    yield of
+            case _:
+                pass
+
+    def _changed_by(
+        self, node: s.Call, function: str, sizes: frozenset[Size], over: frozenset[e.Expression]
+    ) -> Iterator[e.Expression]:
+        """The containers that a call of a library may change the sizes of."""
+        receiver: e.Expression | None = None
+        size = Size.SAME
+        match node.callee:
+            case s.LibraryCallee(name, receiver):
+                names, size = {name}, self.notes.table.function(name).size
+            case s.MethodCallee(receiver, name):
+                names, size = {name}, self.notes.table.method(None, name).size
+            case s.ValueCallee(value):
+                held = self.origins.of(value, function)
+                names = {o.name for o in held if isinstance(o, LibraryOrigin)}
+            case _:
+                return
+        plain = {name.replace("::", ".").rpartition(".")[2] for name in names}
+        if receiver is not None:
+            is_read = plain <= (_READING if Size.ANY in sizes else _READING | _LESSENING)
+            if size in sizes or plain & _CHANGING_OBJECT or (receiver in over and not is_read):
+                yield receiver
+        if plain & _CHANGING_ARGUMENTS:
+            for argument in node.arguments:
+                value = argument.value
+                yield value.target if isinstance(value, e.AddressOf) else value
+
+    def _takes_keys(self, container: e.Expression, function: str) -> bool:
+        """Whether storing at an index may add an element: in mappings, and what is not known."""
+        match getattr(container, "type", t.UNKNOWN):
+            case t.Container(kind):
+                return kind is t.ContainerKind.MAPPING
+            case t.Array() | t.Text() | t.Reference():
+                return False
+            case _:
+                return not self.origins.of(container, function) <= _ORDERED
+
+    def _is_number(self, target: e.Expression, function: str) -> bool:
+        """Whether `+=` leaves containers as they are: all that is stored before are numbers."""
+        if isinstance(getattr(target, "type", None), _VALUES):
+            return True
+        key = key_of(target, function)
+        stored = self.origins.graph.stores.initial(key) if key is not None else []
+        kinds = (self.origins.of_stored(each) for each in stored)
+        return bool(stored) and all(kind <= _NUMBERS for kind in kinds)
+
+    def _stores(self, body: s.Body, read: frozenset[e.Expression]) -> bool:
+        """Whether a body, or what it calls, stores in what some values are read from."""
+        named = [n for each in read for n in walk(each) if isinstance(n, _NAMED)]
+        keys = {key_of(n, self.function) for n in named if not isinstance(n, e.Temporary)}
+        referred = [n for n in named if isinstance(n, e.Dereference)]
+        has_parts = bool(referred) or any(isinstance(n, e.Index) for n in named)
+        is_private = all(self._is_unshared(n) for n in named)
+        for function, inner in self.origins.runs(body, self.function):
+            for each in (target for node in walk(inner) for target in _targets(node)):
+                match each:
+                    case e.Index(of) if function == self.function and of in read:
+                        continue  # an element of what is read
+                    case e.Index() if has_parts:
+                        return True
+                    case e.Dereference() if has_parts or not is_private:
+                        if has_parts or not isinstance(each.type, _VALUES):
+                            return True
+                        if any(each.type == getattr(n, "type", None) for n in named):
+                            return True
+                    case e.Local() if referred and self._may_be(each, referred, function):
+                        return True
+                if key_of(each, function) in keys - {None}:
+                    return True
+        return False
+
+    def _is_unshared(self, value: e.Expression) -> bool:
+        """Whether no reference leads to a variable."""
+        is_local = isinstance(value, e.Local) and value.name not in self.notes.function.captured
+        return is_local or isinstance(value, e.Temporary)
+
+    def _may_be(self, stored: e.Local, referred: list[e.Dereference], function: str) -> bool:
+        """Whether a reference that is read may lead to a variable, which is no older than it."""
+        if function != self.function or self._is_unshared(stored):
+            return False
+        return not all(self.notes.is_parameter(r.reference) for r in referred)
+
+    def _is_private(self, container: e.Expression, function: str) -> bool:
+        """Whether a container is one that a function made itself, and that has no other name."""
+        captured = self.program.function(function).captured
+        if not isinstance(container, e.Local) or container.name in captured:
+            return False
+        return not self.notes.counts.has_other_names(container, function)
+
+
+def _targets(node: Node) -> Iterator[e.Lvalue]:
+    """What a statement stores in."""
+    if isinstance(node, s.Unpack):
+        yield from node.targets
+    elif (
+        not isinstance(node, e.AddressOf) and (target := getattr(node, "target", None)) is not None
+    ):
+        yield target
+
+
+def _is_object(value: e.Expression) -> bool:
+    """Whether a variable or member is a container itself, and no reference to one."""
+    is_named = isinstance(value, e.Local | e.Captured | e.Global | e.Attribute)
+    return is_named and isinstance(getattr(value, "type", None), t.Container | t.Text)
