@@ -302,11 +302,14 @@ class Reading:
 
     def field_name(self, message: Message, path: str, node: Node, frame: Frame) -> str:
         """The variable that a field of a message in a variable is."""
-        key = field_key(message, path)
         wish = f"{message.name}_{path.replace('.', '_')}"
+        return self.part_name(message, field_key(message, path), wish, node, frame)
+
+    def part_name(self, message: Message, key: Key, wish: str, node: Node, frame: Frame) -> str:
+        """The variable that says something of a message in a variable."""
         if message.is_state:
             return self.state_name(key, wish)
-        owner, local = frame.owner_of(message.key), f"{message.key[2]}.{path}"
+        owner, local = frame.owner_of(message.key), key[2]
         if owner is None:
             raise Unread(frame.span(node), "a message of a function that is not under way")
         if local not in owner.names:
