@@ -41,19 +41,24 @@ def _changes(
     body = function.body
     if body is None:
         return False
-    new = {
-        text_of(part(node, "declarator"))
-        for node in inside(body, "init_declarator")
-        if any(word in text_of(part(node, "value")) for word in _NEW)
-    }
+    new = made_in(body)
     return any(
-        not _is_only_read(node, function, functions)
+        not is_only_read(node, function, functions)
         for node in inside(body, "field_expression", "pointer_expression")
-        if _leads_to(node, names) and text_of(part(node, "argument")) not in new
+        if leads_to(node, names) and text_of(part(node, "argument")) not in new
     )
 
 
-def _leads_to(node: Node, names: Collection[str]) -> bool:
+def made_in(body: Node) -> set[str]:
+    """The local pointers that lead to what a body makes for them."""
+    return {
+        text_of(part(node, "declarator")).strip("*& ")
+        for node in inside(body, "init_declarator")
+        if any(word in text_of(part(node, "value")) for word in _NEW)
+    }
+
+
+def leads_to(node: Node, names: Collection[str]) -> bool:
     """Whether it is what a pointer leads to, or a field of that: `*p`, `p->field`."""
     if node.type == "pointer_expression":
         is_this = part(node, "argument").type == "this"
@@ -61,7 +66,7 @@ def _leads_to(node: Node, names: Collection[str]) -> bool:
     return text_of(part(node, "operator")) == "->" and text_of(part(node, "field")) in names
 
 
-def _is_only_read(node: Node, function: CppFunction, functions: Sequence[CppFunction]) -> bool:
+def is_only_read(node: Node, function: CppFunction, functions: Sequence[CppFunction]) -> bool:
     """Whether what is around a part of a message is known to leave it as it is."""
     above = node.parent
     while above is not None and above.type in _LARGER and not _is_index(node, above):

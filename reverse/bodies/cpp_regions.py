@@ -98,7 +98,8 @@ class Regions:
             return None
         match above.type:
             case kind if kind in _DECLARES:
-                return set()
+                values = above.children_by_field_name("default_value")
+                return set() if all(v.id != at.id for v in values) else None
             case "assignment_expression":
                 return set() if _is_written(above, at) else None
             case "binary_expression":

@@ -38,6 +38,7 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
+from rebsync.reverse.nodes.node_defaults import DefaultValues, ordered_defaults
 from rebsync.reverse.nodes.node_held import Held, held
 from rebsync.reverse.nodes.node_kept import elements
 from rebsync.reverse.nodes.node_loops import NodeLoop, left
@@ -288,14 +289,15 @@ class Bodies:
     def constructor(self) -> m.Block:
         """What runs before the node serves messages."""
         found: list[m.Statement] = []
-        for cpp, stores in self.state.initial:
-            match stores:
-                case Stores(m.Name() as place, m.BoolLiteral() as value):
-                    found.append(m.ExpressionStatement(m.Assign("=", place, value)))
-                case Stores(_, Node() as value):
-                    found += self._known(cpp, value, stores)
+        defaults = ordered_defaults(self.state)
+        later = {id(each) for values in defaults.values() for each in values}
+        found += self._first([each for each in self.state.initial if id(each) not in later])
         given = {p.name: Variable(p.name, p.type) for p in self.setup.parameters}
         for step in self.opening.steps:
+            if isinstance(step, DefaultValues):
+                for name in step.members:
+                    found += self._first(defaults.get((step.owner, name), ()))
+                continue
             if not step.nodes:
                 continue
             scope = self.scope(
@@ -310,6 +312,15 @@ class Bodies:
             )
             found += reader.read(step.nodes)
         return without_values(m.Block(without_end(tuple(found))))
+
+    def _first(self, initial: Sequence[tuple[Cpp, Stores]]) -> Iterator[m.Statement]:
+        """What variables hold before code runs that gives them other values."""
+        for cpp, stores in initial:
+            match stores:
+                case Stores(m.Name() as place, m.BoolLiteral() as value):
+                    yield m.ExpressionStatement(m.Assign("=", place, value))
+                case Stores(_, Node() as value):
+                    yield from self._known(cpp, value, stores)
 
     def _arguments(self, step: StartStatements) -> dict[str, Meaning]:
         """What the parameters of a constructor are for the object that is made."""

@@ -23,6 +23,7 @@ from rebsync.reverse.syntax.cpp_tree import named, text_of
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
 _LOOP_WORDS = re.compile(rb"\b(?:while|for|do)\b")
 _EARLY = "messages are served here, before the program goes on: what they change is not read"
+_WITHIN = "messages are served in the middle of a round: the model serves them before or after it"
 _STATEMENTS = frozenset(
     {"expression_statement", "declaration", "if_statement", "compound_statement"}
 )
@@ -218,6 +219,30 @@ def served_early(
             for n in after
         ):
             yield Unread(function.cpp.span(call.node), _EARLY)
+
+
+def served_within(loop: NodeLoop) -> Iterator[Unread]:
+    """Where a round serves messages between other things that it does.
+
+    In the model messages are served between two rounds, or where a round sleeps.
+    """
+    body = loop.node.child_by_field_name("body")
+    statements = named(body) if body is not None and body.type == "compound_statement" else []
+    kept = {s.id for s in loop.first}, {s.id for s in loop.rest}
+    for number, statement in enumerate(statements):
+        if not spins(statement):
+            continue
+        sides = statements[:number], statements[number + 1 :]
+        acts = [[s for s in side if not _is_nothing(s)] for side in sides]
+        if any(all(any(s.id in part for s in side) for side in acts) for part in kept):
+            yield Unread(loop.function.cpp.span(statement), _WITHIN)
+
+
+def _is_nothing(statement: Node) -> bool:
+    """Whether it makes no difference if a statement runs before callbacks or after them."""
+    if statement.type == "declaration":
+        return not any("declarator" in d.type for d in statement.named_children)
+    return statement.type == "comment" or spins(statement) or _is_over(statement)
 
 
 def _around(node: Node, body: Node) -> list[Node]:

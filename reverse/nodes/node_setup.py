@@ -38,6 +38,7 @@ from rebsync.reverse.nodes.node_loops import (
     loop_around,
     loops_in,
     served_early,
+    served_within,
 )
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_parameters import ConstructorParameter, asked
@@ -303,6 +304,8 @@ class Setup:
         if loop.rate is not None and self.servers and _serves(loop.node):
             place = loop.rate.site.place
             self.findings.assumed(place.source, place.span, _ROUND, within=self.within)
+        for middle in served_within(loop) if self.servers else ():
+            self.findings.unreadable(function.cpp.source, middle, self.within)
         if parts:
             mentioned = {text_of(n) for p in parts for n in identifiers_in(p)}
             self.instead |= self.state.outlive(function, mentioned, False, loop.node)

@@ -13,6 +13,15 @@ from rebsync.reverse.bodies.cpp_roots import identifiers_in
 from rebsync.reverse.bodies.rewriting import renamed
 from rebsync.reverse.bodies.scope import Itself, Member, Outside, Stores
 from rebsync.reverse.graph import TimerFact
+from rebsync.reverse.nodes.node_defaults import (
+    Defaults,
+    DefaultValues,
+    all_of,
+    base_of,
+    in_order,
+    member_of,
+    ordered_defaults,
+)
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_reach import called_by
 from rebsync.reverse.nodes.node_state import State
@@ -44,7 +53,7 @@ class Opening:
     `objects` are the names that `entry` has for the object itself, and for others.
     """
 
-    steps: tuple[StartStatements, ...]
+    steps: tuple[StartStatements | DefaultValues, ...]
     entry: CppFunction | None = None
     objects: Mapping[str, Member] = field(default_factory=dict)
 
@@ -112,7 +121,8 @@ def opening(unit: Unit, state: State, start: Start | None, together: Sequence[St
         return Opening(
             (StartStatements(main, _statements(main), _arguments(main)),), main, _objects(together)
         )
-    steps: list[StartStatements] = []
+    steps: list[StartStatements | DefaultValues] = []
+    defaults = ordered_defaults(state)
     given: dict[str, list[tuple[Cpp, Node]]] = {}
     for owner in unit.lineage:  # each says what its bases get, which are made before it
         made = start.made if start is not None and owner is unit.lineage[0] else None
@@ -122,9 +132,12 @@ def opening(unit: Unit, state: State, start: Start | None, together: Sequence[St
             passed = _passed(constructor, start if made is not None else None)
             values = zip(constructor.parameters, given.get(owner.name, ()), strict=False)
             passed |= {p.name: value for p, value in values}
-            own = list(_constructed(constructor, state, passed))
-            given |= {n: v for step in own for n, v in _to_bases(step)}
+            own = list(_constructed(owner, constructor, state, defaults, passed))
+            found = [step for step in own if isinstance(step, StartStatements)]
+            given |= {n: v for step in found for n, v in _to_bases(step)}
             steps = [*own, *steps]
+        else:
+            steps = [*all_of(owner, defaults), *steps]
     steps += [StartStatements(f, _statements(f)) for f in unit.functions if f.name == _ENTRY]
     if start is None or start.entry is None or start.made is None:
         return Opening(tuple(steps))
@@ -177,7 +190,7 @@ def _to_bases(step: StartStatements) -> Iterator[tuple[str, list[tuple[Cpp, Node
         if entry.type == "field_initializer" and len(inner) > 1:
             cpp = step.function.cpp
             values = [step.arguments.get(text_of(v), (cpp, v)) for v in named(inner[-1])]
-            yield text_of(inner[0]).rpartition("::")[2], values
+            yield base_of(entry), values
 
 
 def _passed(function: CppFunction, start: Start | None) -> dict[str, tuple[Cpp, Node]]:
@@ -196,32 +209,73 @@ def _passed(function: CppFunction, start: Start | None) -> dict[str, tuple[Cpp, 
 
 
 def _constructed(
-    function: CppFunction, state: State, arguments: Mapping[str, tuple[Cpp, Node]]
-) -> Iterator[StartStatements]:
+    owner: CppClass,
+    function: CppFunction,
+    state: State,
+    defaults: Defaults,
+    arguments: Mapping[str, tuple[Cpp, Node]],
+) -> Iterator[StartStatements | DefaultValues]:
     """The initialisers of a constructor, then its body; first another that it hands on to."""
-    nodes = []
+    entries = named(function.initialisers) if function.initialisers is not None else []
+    own = next((e for e in entries if base_of(e) == function.owner), None)
+    if own is not None:
+        yield from _handed_on(owner, function, own, state, defaults, arguments)
+        entries = []
+    nodes: list[Node] = []
     instead: dict[int, tuple[Stores, ...]] = {}
-    for entry in named(function.initialisers) if function.initialisers is not None else []:
-        inner = named(entry)
-        name = text_of(inner[0]) if inner else ""
-        values = named(inner[-1]) if len(inner) > 1 else []
-        meaning = state.members.get(name)
+    for entry in entries if own is not None else in_order(owner, entries, defaults):
+        if isinstance(entry, DefaultValues):
+            yield StartStatements(function, tuple(nodes), instead, arguments)
+            yield entry
+            nodes, instead = [], {}
+            continue
+        values = _values_of(entry)
+        meaning = state.members.get(member_of(entry))
         nodes.append(entry)
-        instead[entry.id] = ()
-        if name == function.owner:
-            others = [f for f in state.unit.functions if f.name == f.owner == name]
-            for other in others:
-                if len(other.parameters) == len(values) and other.node.id != function.node.id:
-                    given = zip(other.parameters, values, strict=True)
-                    passed = {p.name: (function.cpp, value) for p, value in given}
-                    yield from _constructed(other, state, passed)
         stores = state.stored(meaning, values)
-        if stores:
-            instead[entry.id] = stores
-        elif not values:
+        instead[entry.id] = stores
+        if not stores and not values:
             instead[entry.id] = state.zeros(meaning)
     yield StartStatements(function, tuple(nodes), instead, arguments)
     yield StartStatements(function, _statements(function), {}, arguments)
+
+
+def _handed_on(
+    owner: CppClass,
+    function: CppFunction,
+    entry: Node,
+    state: State,
+    defaults: Defaults,
+    arguments: Mapping[str, tuple[Cpp, Node]],
+) -> Iterator[StartStatements | DefaultValues]:
+    """What another constructor does that this one hands on to; the node itself if it is not known.
+
+    That other is the only one that takes as many arguments.
+    """
+    values = _values_of(entry)
+    others = [f for f in state.unit.constructors(owner) if f.node.id != function.node.id]
+    exact = [f for f in others if len(f.parameters) == len(values)]
+    fitting = exact or [f for f in others if _takes(f, len(values))]
+    if len(fitting) != 1:
+        yield StartStatements(function, (entry,), {}, arguments)
+        return
+    (other,) = fitting
+    pairs = zip(other.parameters, values, strict=False)
+    given = {p.name: arguments.get(text_of(v), (function.cpp, v)) for p, v in pairs}
+    yield from _constructed(owner, other, state, defaults, {**_passed(other, None), **given})
+
+
+def _takes(function: CppFunction, count: int) -> bool:
+    """Whether a call may leave out all parameters behind the first ones."""
+    left = function.parameters[count:]
+    return count < len(function.parameters) and all(
+        p.node.child_by_field_name("default_value") is not None for p in left
+    )
+
+
+def _values_of(entry: Node) -> list[Node]:
+    inner = named(entry)
+    return named(inner[-1]) if len(inner) > 1 else []
 
 
 # --- starting late ------------------------------------------------------------------------------

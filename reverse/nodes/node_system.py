@@ -20,6 +20,7 @@ from rebsync.reverse.nodes.node_bodies import Bodies, Common
 from rebsync.reverse.nodes.node_bound import Helpers, note_bound, note_helpers
 from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
 from rebsync.reverse.nodes.node_components import executables
+from rebsync.reverse.nodes.node_handed import note_handed
 from rebsync.reverse.nodes.node_hidden import note_hidden
 from rebsync.reverse.nodes.node_joined import Joined, Part
 from rebsync.reverse.nodes.node_lifecycle import note_life_cycle
@@ -247,6 +248,7 @@ class _ClassReader:
         note_hidden(node.bodies)
         note_locks(node.bodies)
         note_unmodelled(node.bodies)
+        note_handed(node.bodies)
         note_spinning(node.bodies, alike[0].start if alike else None)
         note_signals(node.bodies, self.system.generated)
         note_helpers(node.bodies, self._helpers)

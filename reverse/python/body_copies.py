@@ -17,9 +17,10 @@ from rebsync import model as m
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import body_messages
-from rebsync.reverse.python.body_presence import presence_key
+from rebsync.reverse.python.body_presence import is_there, presence_key, presence_name
 from rebsync.reverse.python.body_reading import Reading, field_key
-from rebsync.reverse.python.body_scope import OTHER, TRUTH, Frame, Message, Var
+from rebsync.reverse.python.body_scope import OTHER, TRUTH, TYPES, Frame, Message, Var
+from rebsync.reverse.python.body_variables import store
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_index import CLASS, Scope, arguments_of
@@ -83,7 +84,7 @@ def kept(
     now, _ = reader.expressions.meaning(target)
     if isinstance(now, Message):
         yield from copied(reader, now, source, node)
-        yield from presence(reader, now, True)
+        yield from _passed_on(reader, now, source, node, target)
 
 
 def _is_deep(reader: BodyStatementReader, value: Node) -> bool:
@@ -121,14 +122,31 @@ def copied(
 
 
 def presence(
-    reader: BodyStatementReader, variable: Var | Message, is_there_: bool
+    reader: BodyStatementReader, variable: Var | Message, is_there_: m.Expression, node: Node
 ) -> Iterator[m.Statement]:
     """A variable holds a message or timer, or None."""
     key = presence_key(variable.key)
     learnt = reader.reading.learnt
     if learnt.kind(key) is not None and learnt.is_wanted(key):
-        name = m.Name(reader.reading.state_name(key, f"{variable.name}_is_there"))
-        yield m.ExpressionStatement(m.Assign("=", name, m.BoolLiteral(is_there_)))
+        name = presence_name(reader.expressions, variable, node)
+        whole = Var(variable.key, name, variable.is_state)
+        yield from store(reader, whole, TYPES[TRUTH], is_there_, key[2], node)
+
+
+def _passed_on(
+    reader: BodyStatementReader,
+    variable: Message,
+    source: BodyStatementReader,
+    node: Node,
+    target: Node,
+) -> Iterator[m.Statement]:
+    """A variable that gets what another holds has a message if that has one, as it is now."""
+    key = presence_key(variable.key)
+    learnt = reader.reading.learnt
+    found = is_there(source.expressions, node) if learnt.is_wanted(key) else None
+    if isinstance(found, m.Name):
+        learnt.join(key, TRUTH)
+    yield from presence(reader, variable, found or m.BoolLiteral(True), target)
 
 
 def made(reader: BodyStatementReader, target: Node) -> Iterator[m.Statement]:
@@ -136,19 +154,34 @@ def made(reader: BodyStatementReader, target: Node) -> Iterator[m.Statement]:
     if target.type in ("identifier", "attribute"):
         meaning, path = reader.expressions.meaning(target)
         if isinstance(meaning, Var) and not path and meaning.is_state:
-            yield from presence(reader, meaning, True)
+            yield from presence(reader, meaning, m.BoolLiteral(True), target)
 
 
-def none(reader: BodyStatementReader, variable: Var | Message) -> Iterator[m.Statement] | None:
+def none(
+    reader: BodyStatementReader, variable: Var | Message, target: Node
+) -> Iterator[m.Statement] | None:
     """A state variable gets None; None for one that holds values of the model."""
     learnt = reader.reading.learnt
     if not variable.is_state or (isinstance(variable, Var) and learnt.kind(variable.key)):
         return None
     learnt.join(presence_key(variable.key), TRUTH)
-    return presence(reader, variable, False)
+    return presence(reader, variable, m.BoolLiteral(False), target)
 
 
 # --- other names for an object ------------------------------------------------------------------
+
+
+def replaced(reader: BodyStatementReader, variable: Message, target: Node) -> None:
+    """A variable of messages is about to hold another object.
+
+    Unread: a parameter of a function that is under way stands for what it held before.
+    """
+    frame: Frame | None = reader.frame
+    while frame is not None:
+        if any(isinstance(b, Message) and b.key == variable.key for b in frame.bound.values()):
+            why = "a function that was given the message here before still runs"
+            raise Unread(reader.frame.span(target), why)
+        frame = frame.outer
 
 
 def _may_change(source: BodyStatementReader, node: Node, target: Node, type_: str) -> bool:

@@ -9,7 +9,7 @@ from tree_sitter import Node
 from rebsync.reverse.graph import Unresolved
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.tables.standard import WAITING_ALONE
-from rebsync.reverse.python.body_reading import Reading, nonlocals
+from rebsync.reverse.python.body_reading import Reading, has_nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_bindings import Binding
@@ -162,7 +162,7 @@ def is_quiet_body(reading: Reading, scope: Scope, depth: int) -> bool:
 
 
 def _is_quiet(reading: Reading, scope: Scope, depth: int) -> bool:
-    if depth > _DEEPEST or scope.outer or nonlocals(scope):
+    if depth > _DEEPEST or scope.outer or has_nonlocals(scope):
         return False
     return all(_is_quiet_node(reading, n, scope, depth) for n in nodes_in(scope.node))
 

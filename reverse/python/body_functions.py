@@ -12,7 +12,7 @@ from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.body_arguments import Argument, arguments
 from rebsync.reverse.python.body_effects import HARMLESS_DECORATORS, getter, is_harmless, is_still
-from rebsync.reverse.python.body_reading import nonlocals
+from rebsync.reverse.python.body_reading import has_nonlocals
 from rebsync.reverse.python.body_scope import (
     Frame,
     Meaning,
@@ -69,7 +69,7 @@ def _computed(
     reader: BodyExpressionReader, own: Scope, given_: Iterable[Argument], call: Node
 ) -> Value:
     text = text_of(own.node)
-    if own.node.id in reader.running or own.outer or nonlocals(own):
+    if own.node.id in reader.running or own.outer or has_nonlocals(own):
         raise _unread(reader, own, call)
     if text.startswith("async") or "yield" in text:
         raise _unread(reader, own, call)

@@ -8,9 +8,11 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, is_calm
+from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import body_texts
 from rebsync.reverse.python.body_scope import STRING, TRUTH, Key, Message, Value, Var
 from rebsync.reverse.python.body_timers import is_timer
+from rebsync.reverse.python.py_tree import text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
@@ -38,8 +40,18 @@ def is_there(reader: BodyExpressionReader, node: Node) -> m.Expression | None:
     is_server = isinstance(meaning, Message) and bool(meaning.server)
     if is_server or reader.reading.learnt.kind(key) is None:
         return m.BoolLiteral(True)
-    name = reader.reading.state_name(key, f"{meaning.name}_is_there")
-    return m.Name(name, reader.frame.span(node))
+    owner = reader.frame.owner_of(key) or reader.frame
+    if not meaning.is_state and key[2] not in owner.assigned:
+        raise Unread(reader.frame.span(node), f'"{text_of(node)}" may have no value yet')
+    return m.Name(presence_name(reader, meaning, node), reader.frame.span(node))
+
+
+def presence_name(reader: BodyExpressionReader, variable: Message | Var, node: Node) -> str:
+    """The variable of the model that says whether one holds a message or timer."""
+    key, wish = presence_key(variable.key), f"{variable.name}_is_there"
+    if isinstance(variable, Var):
+        return reader.reading.state_name(key, wish)
+    return reader.reading.part_name(variable, key, wish, node, reader.frame)
 
 
 def compared_with_none(

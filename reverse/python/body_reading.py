@@ -41,7 +41,7 @@ from rebsync.reverse.python.body_scope import (
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
 from rebsync.reverse.python.py_lookup import attribute, bound
-from rebsync.reverse.python.py_tree import field, nodes_in, text_of
+from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import EnumMember, External, Function, Made, Module, Ways
 from rebsync.reverse.python.py_worth import Instance as Object
@@ -54,7 +54,8 @@ class Reading:
     """What all bodies of a unit share in one round of reading.
 
     `taken` are the names of the code, which locals that the model gets do not have; `periods` those
-    of timers, in units, by the number of their fact; `nodes` are the classes of all units, and
+    of timers, in units, by the number of their fact; `nodes` are the classes of all units,
+    `entries` the functions that installed programs start, with their modules, and
     `bodies` the functions that were read, `timers` the calls, and `stored` the `n := value` that
     stand before their statement, by the ids of their nodes.
     """
@@ -71,6 +72,7 @@ class Reading:
     periods: Mapping[int, int | None] = with_default(default_factory=dict)
     second: Fraction = Fraction(1)
     nodes: frozenset[Scope] = frozenset()
+    entries: frozenset[tuple[str, str]] = frozenset()
     bodies: set[int] = with_default(default_factory=set)
     needs: dict[int, list[Need]] = with_default(default_factory=dict)
     state: dict[str, Key] = with_default(default_factory=dict)
@@ -302,11 +304,14 @@ class Reading:
 
     def field_name(self, message: Message, path: str, node: Node, frame: Frame) -> str:
         """The variable that a field of a message in a variable is."""
-        key = field_key(message, path)
         wish = f"{message.name}_{path.replace('.', '_')}"
+        return self.part_name(message, field_key(message, path), wish, node, frame)
+
+    def part_name(self, message: Message, key: Key, wish: str, node: Node, frame: Frame) -> str:
+        """The variable that says something of a message in a variable."""
         if message.is_state:
             return self.state_name(key, wish)
-        owner, local = frame.owner_of(message.key), f"{message.key[2]}.{path}"
+        owner, local = frame.owner_of(message.key), key[2]
         if owner is None:
             raise Unread(frame.span(node), "a message of a function that is not under way")
         if local not in owner.names:
@@ -322,10 +327,22 @@ class Reading:
 
 def nonlocals(scope: Scope) -> set[str]:
     """The names that a function declares to be of the one around it."""
-    if b"nonlocal" not in (scope.node.text or b""):
+    if not has_nonlocals(scope):
         return set()
-    inside = (n for n in nodes_in(scope.node) if n.type == "nonlocal_statement")
-    return {text_of(c) for n in inside for c in n.named_children}
+    found: set[str] = set()
+    waiting = list(scope.node.named_children)
+    while waiting:
+        node = waiting.pop()
+        if node.type == "nonlocal_statement":
+            found |= {text_of(c) for c in node.named_children}
+        elif node.type not in ("function_definition", "lambda", "class_definition"):
+            waiting += node.named_children  # those inside say it of names of this one
+    return found
+
+
+def has_nonlocals(scope: Scope) -> bool:
+    """Whether a function, or one in it, changes variables of a function around it."""
+    return b"nonlocal" in (scope.node.text or b"")
 
 
 def field_key(message: Message, path: str) -> Key:

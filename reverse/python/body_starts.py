@@ -8,6 +8,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.literals import exact_literal_of
+from rebsync.reverse.python.body_entries import entries
 from rebsync.reverse.python.body_methods import kept_names
 from rebsync.reverse.python.body_node_loops import EndlessLoop
 from rebsync.reverse.python.body_presence import presence_key
@@ -37,7 +38,10 @@ def constructor(reading: Reading, loops: list[EndlessLoop]) -> tuple[m.Statement
     """All that starts a node; the loops that keep it running are put into `loops`."""
     unit = reading.unit
     if not unit.lineage:
-        return _read(reading, unit.module, named(unit.module.node), loops)
+        found = _read(reading, unit.module, named(unit.module.node), loops)
+        for entry in entries(reading, unit.name):
+            found += _read(reading, entry, body_of(entry), loops)
+        return found
     made = list(_made(reading))
     if len(made) == 1:
         call, scope = made[0]

@@ -80,6 +80,8 @@ def _assigned(
     since = len(learnt.answers)
     meaning, path = reader.expressions.meaning(target)
     type_ = reader.reading.message_type(value, reader.frame)
+    if isinstance(meaning, Message) and not path:
+        body_copies.replaced(reader, meaning, target)
     if isinstance(meaning, Var | Message) and not path and not getattr(meaning, "server", ""):
         known = _kept(reader, meaning, target, value)
         if known is not None:
@@ -97,7 +99,7 @@ def _assigned(
             reader.frame.assigned.add(text_of(target))
             if isinstance(meaning, Message):
                 yield from body_messages.made(reader, meaning, value)
-                yield from body_copies.presence(reader, meaning, True)
+                yield from body_copies.presence(reader, meaning, m.BoolLiteral(True), target)
         case Var():
             yield from _variable(reader, meaning, target, value, node, since)
         case Message(server="") if path:
@@ -138,7 +140,7 @@ def _kept(
     """The statements where a variable gets a message that there is, or None; else None."""
     if value.type == "none":
         body_switches.lost(reader, target)
-        return body_copies.none(reader, variable)
+        return body_copies.none(reader, variable, target)
     node = body_copies.original(reader.expressions, value)
     returned = body_methods.returned(reader, node)
     if returned is not None:

@@ -212,6 +212,7 @@ class _ReadingRound:
             dict(self._periods(unit, alike, findings)),
             self.system.unit_of_time,
             frozenset(s for u in self.units for s in u.lineage),
+            self.system.started.entries,
             used_names={n for n, _ in known} | {s.name for s in own.values()},
         )
 

@@ -295,13 +295,13 @@ class _Running:
         for scope in code.scopes.values():
             by_name.setdefault(scope.name, []).append(scope)
         waiting = list(code.modules.values())
-        waiting += [s for s in code.scopes.values() if _is_entry(s, entries)]
+        waiting += [s for s in code.scopes.values() if is_entry(s, entries)]
         while waiting:
             scope = waiting.pop()
             if id(scope) in self._reached:
                 continue
             self._reached.add(id(scope))
-            for node in _own_nodes(scope):
+            for node in own_nodes(scope):
                 if node.type in ("lambda", "class_definition"):
                     waiting.append(code.scope_of(node, scope.py))
                 elif node.type == "identifier":
@@ -315,7 +315,7 @@ class _Running:
         return scope.kind == MODULE or id(scope) in self._reached
 
 
-def _is_entry(scope: Scope, entries: Collection[tuple[str, str]]) -> bool:
+def is_entry(scope: Scope, entries: Collection[tuple[str, str]]) -> bool:
     """Whether a program starts with a function; where none is known it may be each `main`."""
     if scope.parent is None or scope.parent.kind != MODULE:
         return False
@@ -324,7 +324,7 @@ def _is_entry(scope: Scope, entries: Collection[tuple[str, str]]) -> bool:
     return started or (not entries and scope.name == "main")
 
 
-def _own_nodes(scope: Scope) -> Iterator[Node]:
+def own_nodes(scope: Scope) -> Iterator[Node]:
     """The nodes of a scope but for those of the functions and classes in it."""
     waiting = list(scope.node.named_children)
     if scope.kind not in (MODULE, LAMBDA):
