@@ -28,7 +28,8 @@ from rebsync.reverse.analysis.problems import Problem, ProblemNotes
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
-from rebsync.reverse.libraries.outcome_rules import ENUMERATIONS, PLAIN_CLASSES, Raises
+from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS, PLAIN_CLASSES
+from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.reverse.libraries.routines import Language
 from rebsync.unions import assert_never

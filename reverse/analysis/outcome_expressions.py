@@ -21,7 +21,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.walk import parts
-from rebsync.reverse.libraries.outcome_rules import PLAIN_CLASSES
+from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
 from rebsync.reverse.libraries.routines import Language
 
 _DIVIDING = frozenset(

@@ -5,7 +5,6 @@ A name that begins with a dot is a method, of any object or of the class before 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from enum import Enum
 
 from rebsync.records import dataclass
@@ -65,104 +64,6 @@ class OutcomeRule:
     when: Raises = Raises.ANY
 
 
-# What operations raise that are no calls, in C++ and in Python; in C++ dividing ends the program.
-FAILURES: Mapping[str, tuple[str, str]] = {
-    "divides by zero": ("", "builtins.ZeroDivisionError"),
-    "divides the least number by -1": ("", "builtins.OverflowError"),
-    "lacks the element": ("std::out_of_range", "builtins.IndexError"),
-    "lacks the key": ("std::out_of_range", "builtins.KeyError"),
-    "lacks the member": ("", "builtins.ValueError"),
-    "has another number of elements": ("", "builtins.ValueError"),
-    "has a step of zero": ("", "builtins.ValueError"),
-    "shifts by less than zero": ("", "builtins.ValueError"),
-    "is too great": ("", "builtins.OverflowError"),
-    "has a style that is none": ("", "builtins.ValueError"),
-    "changes while it is iterated": ("", "builtins.RuntimeError"),
-    "lacks the argument": ("", "builtins.IndexError"),
-    "is empty": ("std::bad_optional_access", "builtins.AttributeError"),
-    "does not hold": ("", "builtins.AssertionError"),
-}
-# Each exception with the class that it extends.
-EXCEPTIONS: Mapping[str, str] = {
-    **dict.fromkeys(("std::out_of_range", "std::invalid_argument"), "std::logic_error"),
-    **dict.fromkeys(("std::length_error", "std::domain_error"), "std::logic_error"),
-    **dict.fromkeys(("std::range_error", "std::overflow_error"), "std::runtime_error"),
-    **dict.fromkeys(("std::underflow_error", "std::system_error"), "std::runtime_error"),
-    **dict.fromkeys(("std::regex_error",), "std::runtime_error"),
-    **dict.fromkeys(("std::logic_error", "std::runtime_error"), "std::exception"),
-    "std::bad_array_new_length": "std::bad_alloc",
-    **dict.fromkeys(("std::bad_alloc", "std::bad_cast"), "std::exception"),
-    **dict.fromkeys(("std::bad_optional_access", "std::bad_variant_access"), "std::exception"),
-    **dict.fromkeys(("std::bad_function_call", "std::bad_any_cast"), "std::exception"),
-    **dict.fromkeys(("builtins.IndexError", "builtins.KeyError"), "builtins.LookupError"),
-    **dict.fromkeys(("builtins.ZeroDivisionError",), "builtins.ArithmeticError"),
-    **dict.fromkeys(("builtins.OverflowError",), "builtins.ArithmeticError"),
-    **dict.fromkeys(("builtins.UnicodeDecodeError",), "builtins.ValueError"),
-    **dict.fromkeys(("json.JSONDecodeError", "statistics.StatisticsError"), "builtins.ValueError"),
-    **dict.fromkeys(("builtins.FileNotFoundError", "builtins.IOError"), "builtins.OSError"),
-    **dict.fromkeys(("builtins.TimeoutError", "builtins.PermissionError"), "builtins.OSError"),
-    **dict.fromkeys(("builtins.NotImplementedError",), "builtins.RuntimeError"),
-    **dict.fromkeys(("builtins.LookupError", "builtins.ArithmeticError"), "builtins.Exception"),
-    **dict.fromkeys(("builtins.ValueError", "builtins.OSError"), "builtins.Exception"),
-    **dict.fromkeys(("builtins.RuntimeError", "builtins.StopIteration"), "builtins.Exception"),
-    **dict.fromkeys(("builtins.AssertionError", "builtins.TypeError"), "builtins.Exception"),
-    **dict.fromkeys(("builtins.AttributeError", "struct.error"), "builtins.Exception"),
-    "builtins.Exception": "builtins.BaseException",
-    "builtins.SystemExit": "builtins.BaseException",
-    "builtins.KeyboardInterrupt": "builtins.BaseException",
-}
-# Classes of objects that have the methods without a class in the rules, and no others that count.
-PLAIN_CLASSES = frozenset(
-    {
-        *("std::vector", "std::map", "std::set", "std::string", "std::optional", "std::queue"),
-        *("std::ostream", "std::function", "std::pair", "std::tuple", "std::chrono::time_point"),
-        *("std::chrono::duration", "std::chrono::milliseconds", "std::chrono::seconds"),
-        *("std::array", "std::bitset", "std::atomic", "std::unique_ptr", "std::shared_ptr"),
-        *("list", "dict", "set", "str", "tuple", "deque", "file", "logger"),
-    }
-)
-# Classes whose own classes give, for a value, the member that has it.
-ENUMERATIONS = frozenset(
-    {"enum.Enum", "enum.IntEnum", "enum.StrEnum", "enum.Flag", "enum.IntFlag", "enum.ReprEnum"}
-)
-# Names of classes that do the same as another.
-CLASSES: Mapping[str, str] = {
-    **dict.fromkeys(("std::deque", "std::list", "std::span", "std::stack"), "std::vector"),
-    **dict.fromkeys(("std::priority_queue", "std::initializer_list"), "std::vector"),
-    **dict.fromkeys(("std::unordered_map", "std::multimap"), "std::map"),
-    **dict.fromkeys(("std::unordered_set", "std::multiset"), "std::set"),
-    **dict.fromkeys(("std::string_view", "std::basic_string"), "std::string"),
-    **dict.fromkeys(("std::stringstream", "std::ostringstream", "std::istringstream"), "file"),
-    **dict.fromkeys(("std::ofstream", "std::ifstream", "std::fstream"), "file"),
-    **dict.fromkeys(("std::recursive_mutex", "std::shared_mutex"), "std::mutex"),
-    **dict.fromkeys(("std::timed_mutex",), "std::mutex"),
-    **dict.fromkeys(("std::scoped_lock", "std::lock_guard"), "std::unique_lock"),
-    **dict.fromkeys(("std::condition_variable_any",), "std::condition_variable"),
-    **dict.fromkeys(("std::atomic_bool", "std::atomic_int", "std::atomic_flag"), "std::atomic"),
-    "std::weak_ptr": "std::shared_ptr",
-    "std::shared_future": "std::future",
-    "builtins.list": "list",
-    "builtins.dict": "dict",
-    "builtins.set": "set",
-    "builtins.frozenset": "set",
-    "builtins.str": "str",
-    "builtins.tuple": "tuple",
-    "builtins.open": "file",
-    "io.StringIO": "file",
-    "pathlib.Path": "path",
-    "collections.deque": "deque",
-    "collections.defaultdict": "dict",
-    "collections.OrderedDict": "dict",
-    "collections.Counter": "dict",
-    "logging.getLogger": "logger",
-    "logging.Logger": "logger",
-    "rclpy.logging.get_logger": "logger",
-    "threading.RLock": "threading.Lock",
-    "queue.SimpleQueue": "queue.Queue",
-    "queue.LifoQueue": "queue.Queue",
-    "queue.PriorityQueue": "queue.Queue",
-    "multiprocessing.Queue": "queue.Queue",
-}
 _WAITS = "waits"
 _ANYTHING = "may do anything"
 _ENDLESS = "may never end"

@@ -12,7 +12,7 @@ import sys
 from collections.abc import Iterable, Mapping
 
 from rebsync.records import dataclass
-from rebsync.reverse.libraries import cpp, outcome_rules, python
+from rebsync.reverse.libraries import cpp, outcome_classes, outcome_rules, python
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.outcome_rules import Raises, Size, Tells
 from rebsync.reverse.libraries.registry import derived
@@ -96,21 +96,21 @@ class LibraryOutcomes:
 
     def of_failure(self, failure: str) -> str:
         """The exception that an operation raises; empty where none can be caught."""
-        return outcome_rules.FAILURES[failure][self.language is Language.PYTHON]
+        return outcome_classes.FAILURES[failure][self.language is Language.PYTHON]
 
     def are_above(self, name: str) -> Iterable[str]:
         """An exception, and the classes that it extends."""
         yield name
-        while name in outcome_rules.EXCEPTIONS:
-            name = outcome_rules.EXCEPTIONS[name]
+        while name in outcome_classes.EXCEPTIONS:
+            name = outcome_classes.EXCEPTIONS[name]
             yield name
 
     def _of_class(self, of: str, name: str) -> CallOutcome | None:
         """A method of a class of the table; classes that do the same are one."""
         plain = of.partition("<")[0]
-        of = outcome_rules.CLASSES.get(plain, plain)
+        of = outcome_classes.CLASSES.get(plain, plain)
         found = self._named.get(f"{of}.{name}")
-        if found is None and of in outcome_rules.PLAIN_CLASSES:
+        if found is None and of in outcome_classes.PLAIN_CLASSES:
             found = self._named.get(f".{name}", CallOutcome())
         return found
 
