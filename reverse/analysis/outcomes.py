@@ -16,9 +16,7 @@ from functools import cached_property
 
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.element_counts import ElementCounts
-from rebsync.reverse.analysis.facts import (
-    NO_FACTS,
-)
+from rebsync.reverse.analysis.facts import NO_FACTS
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.local_effects import local_effects
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
