@@ -96,8 +96,10 @@ def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
     )
 
 
-def _stamp(deviation: Deviation) -> tuple[int, str]:
-    return deviation.time, deviation.rebec
+def _stamp(deviation: Deviation) -> tuple[int, bool, str]:
+    """When it was; what has a cause at that time comes after what may be the cause."""
+    has_cause = deviation.kind in ("lost message", "late", "silent")
+    return deviation.time, has_cause, deviation.rebec
 
 
 def _about(findings: Sequence[Finding], class_: str, model: Model) -> list[Finding]:
@@ -174,7 +176,7 @@ class _Judge:
 
     def _refused(self, search: InclusionSearch, found: Inclusion) -> Judged:
         name = self.component.name
-        if not found.dead:
+        if not found.furthest:
             return Judged(0, open=(f"the model of {name} cannot begin",))
         if found.failures:
             kinds = ", ".join(sorted({f.kind for f in found.failures}))
@@ -183,13 +185,12 @@ class _Judge:
             return self._open(search, found, f"{name} does not fit, but {self.doubt}")
         if found.raced:
             return self._open(search, found, f"{name} does not fit, but {_BESIDE}")
-        best = max(found.dead, key=lambda dead: dead.progress)
-        run = steps_of(self.component, search.way_to(best))
+        run = steps_of(self.component, search.way_to(found.furthest[-1]))
         return Judged(_compared(found), found.widest, self._deviation(search, found), run=run)
 
     def _open(self, search: InclusionSearch, found: Inclusion, why: str) -> Judged:
         """Undetermined; the deviation is told nevertheless."""
-        told = self._deviation(search, found).message if found.dead else "it cannot begin"
+        told = self._deviation(search, found).message if found.furthest else "it cannot begin"
         return Judged(_compared(found), found.widest, open=(f"{why}: {told}",))
 
     def _deviation(self, search: InclusionSearch, found: Inclusion) -> Deviation:
@@ -197,4 +198,4 @@ class _Judge:
 
 
 def _compared(found: Inclusion) -> int:
-    return max((sum(dead.matched) for dead in found.dead), default=0)
+    return sum(found.furthest[-1].matched) if found.furthest else 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from rebsync.checker.program import Cell, Program
@@ -70,7 +71,7 @@ class Component:
     timing: Timing
     inputs: Spool[Input]
     topics: tuple[str, ...]
-    outputs: tuple[Spool[Output], ...]
+    outputs: tuple[Sequence[Output], ...]
     by_server: dict[int, int]
     conflicts: frozenset[tuple[int, int]] = frozenset()
     in_threads: bool = False

@@ -14,7 +14,8 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from itertools import count
 from math import inf
-from typing import Literal, NamedTuple
+from operator import lt
+from typing import Literal
 
 from rebsync.checker.endless import EndlessBody
 from rebsync.checker.steps import Failure
@@ -22,76 +23,38 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.conform.components.bodies import BodyRun, Publication
 from rebsync.roundtrip.conform.components.component import (
     UNORDERED,
-    Cells,
     Component,
     Input,
     Output,
+)
+from rebsync.roundtrip.conform.components.hypotheses import (
+    Candidate,
+    Hypothesis,
+    Posted,
+    advanced,
+    missed,
 )
 from rebsync.roundtrip.conform.components.interface import is_same
 from rebsync.roundtrip.conform.components.spool import Spool
 
 CONNECTS = 2.0  # s after a node has shown itself in which its topics may not be connected yet
 BEFORE = 60.0  # s before a recording in which nodes may have begun
-_KEPT = 20  # hypotheses that came furthest
+_KEPT = 64  # hypotheses that came furthest: the first and the last ones
 
 Fit = tuple[float, float, tuple[int, ...]]
 """When a body may have run, and how many outputs of each topic fit then."""
 
 
-class Posted(NamedTuple):
-    """A message that the rebec has posted to itself, due between two times."""
-
-    server: int
-    cells: Cells
-    low: float
-    high: float
-
-
-class Hypothesis(NamedTuple):
-    """What may have happened so far.
-
-    The last body began at `low` at the earliest and at `high` at the latest; `free` says when
-    the rebec is done with it. `base` inputs were taken or missed, and so were those in `taken`.
-    `matched` outputs of each topic fit; `connected` are the lanes of which an input came.
-    """
-
-    low: float
-    high: float
-    free: tuple[float, float]
-    variables: Cells
-    pending: tuple[Posted, ...]
-    base: int
-    taken: frozenset[int]
-    matched: tuple[int, ...]
-    connected: frozenset[int] = frozenset()
-    last: int = -1
-
-    @property
-    def progress(self) -> tuple[int, float]:
-        """How far it has come."""
-        return sum(self.matched) + self.base + len(self.taken), self.low
-
-
-class Candidate(NamedTuple):
-    """A message that may be served next, in an interval of time: what the rebec has posted to
-    itself, or an input, by its number, too; neither for the constructor."""
-
-    server: int
-    cells: Cells
-    low: float
-    high: float
-    posted: Posted | None = None
-    number: int = -1
-    input: Input | None = None
-
-
 @dataclass(frozen=True, slots=True)
 class Inclusion:
-    """How a search ended. `raced`: bodies of two threads may have overlapped before."""
+    """How a search ended. `raced`: bodies of two threads may have overlapped before.
+
+    `furthest` are states by time, the first and the last ones of those that explain most outputs.
+    """
 
     verdict: Literal["fits", "refused", "cut"]
     reason: str = ""
-    dead: tuple[Hypothesis, ...] = ()
+    furthest: tuple[Hypothesis, ...] = ()
     raced: bool = False
     failures: tuple[Failure, ...] = ()
     widest: int = 1
@@ -117,7 +80,11 @@ class InclusionSearch:
         self._timing = component.timing
         self._received = len(component.inputs)
         self._recorded = tuple(map(len, component.outputs))
-        self._dead: list[Hypothesis] = []
+        # What caused a message just before the end may have been recorded after it, so not at all.
+        until = self._timing.end - self._timing.slack
+        self._caused = tuple(_until(outputs, until) for outputs in component.outputs)
+        self._furthest: list[Hypothesis] = []
+        self._explained = -1  # outputs, in each of these
         self._waiting: list[tuple[float, int, Hypothesis]] = []
         self._seen: defaultdict[float, set[Hypothesis]] = defaultdict(set)
         self._numbers = count()
@@ -140,22 +107,26 @@ class InclusionSearch:
         for each in starts:
             self._push(each)
         widest, before = 1, -inf
+        fitting: Hypothesis | None = None
         while self._waiting:
             widest = max(widest, len(self._waiting))
             if len(self._waiting) > self.limit:
                 reason = f"more than {self.limit} states of {self.component.name} are possible"
                 return self._ended("cut", reason, widest)
             low, _, hypothesis = heapq.heappop(self._waiting)
-            if self._dead and self._dead[0].progress[0] < hypothesis.progress[0]:
-                self._dead = []  # what follows from this one comes further
+            self._note(hypothesis)
             if low > before:
                 self._seen.pop(before, None)
                 before = low
             if self.keeps and not self._waiting:
                 self.way_to(hypothesis)
                 self._came_from = {}
-            if self._is_complete(hypothesis):
+            if self._is_complete(hypothesis, self._recorded):
                 return self._ended("fits", "", widest, hypothesis)
+            if self._is_complete(hypothesis, self._caused) and (
+                fitting is None or sum(hypothesis.matched) > sum(fitting.matched)
+            ):
+                fitting = hypothesis
             try:
                 after = self.successors(hypothesis)
             except EndlessBody as endless:
@@ -165,9 +136,7 @@ class InclusionSearch:
                 self._push(each)
                 if self.keeps and each != hypothesis:
                     self._came_from.setdefault(each, hypothesis)
-            if not after:
-                self._die(hypothesis)
-        return self._ended("refused", "", widest)
+        return self._ended("refused" if fitting is None else "fits", "", widest, fitting)
 
     def way_to(self, last: Hypothesis) -> Sequence[Hypothesis]:
         """The hypotheses up to one, as far as they are known; it is the last to be asked for."""
@@ -188,8 +157,8 @@ class InclusionSearch:
         widest: int,
         last: Hypothesis | None = None,
     ) -> Inclusion:
-        dead, failures = tuple(self._dead), tuple(self.failures)
-        return Inclusion(verdict, reason, dead, self.raced, failures, widest, last)
+        furthest, failures = tuple(self._furthest), tuple(self.failures)
+        return Inclusion(verdict, reason, furthest, self.raced, failures, widest, last)
 
     def _push(self, hypothesis: Hypothesis) -> None:
         seen = self._seen[hypothesis.low]
@@ -197,16 +166,20 @@ class InclusionSearch:
             seen.add(hypothesis)
             heapq.heappush(self._waiting, (hypothesis.low, next(self._numbers), hypothesis))
 
-    def _die(self, hypothesis: Hypothesis) -> None:
-        best = self._dead[0].progress[0] if self._dead else -1
-        if hypothesis.progress[0] > best:
-            self._dead = []
-        if hypothesis.progress[0] >= best and len(self._dead) < _KEPT:
-            self._dead.append(hypothesis)
+    def _note(self, hypothesis: Hypothesis) -> None:
+        """Keeps a state if no other explains more outputs."""
+        explained = sum(hypothesis.matched)
+        if explained > self._explained:
+            self._explained = explained
+            self._furthest.clear()
+        if explained == self._explained:
+            self._furthest.append(hypothesis)
+            if len(self._furthest) > _KEPT:
+                del self._furthest[_KEPT // 2]
 
-    def _is_complete(self, hypothesis: Hypothesis) -> bool:
-        """Whether all that was recorded is explained, and nothing was due before the end."""
-        if hypothesis.matched != self._recorded:
+    def _is_complete(self, hypothesis: Hypothesis, outputs: tuple[int, ...]) -> bool:
+        """Whether so many outputs are explained, and nothing was due before the end."""
+        if any(map(lt, hypothesis.matched, outputs)):
             return False
         return self._latest(hypothesis) >= self._timing.end
 
@@ -217,7 +190,7 @@ class InclusionSearch:
         found: list[Hypothesis] = []
         for candidate in self.candidates(before):
             if candidate.input is not None and self._may_miss(before, candidate.input):
-                found.append(_missed(before, candidate.number))
+                found.append(missed(before, candidate.number))
             for run in self.runs(before, candidate):
                 found += self._ran(before, candidate, run)
         return found
@@ -350,7 +323,7 @@ class InclusionSearch:
                 still.append(Posted(after.server, after.cells, low + due, high + due))
             pending = tuple(sorted(still))
         if received is not None:
-            base, taken = _advanced(before, number)
+            base, taken = advanced(before, number)
             if received.lane not in connected:
                 connected |= {received.lane}
         if run.busy:
@@ -370,16 +343,9 @@ class InclusionSearch:
         return pair in component.conflicts and low - self._timing.slack <= before.high
 
 
-def _missed(before: Hypothesis, number: int) -> Hypothesis:
-    base, taken = _advanced(before, number)
-    return before._replace(base=base, taken=taken)
-
-
-def _advanced(before: Hypothesis, number: int) -> tuple[int, frozenset[int]]:
-    """The inputs that were taken with one more."""
-    if number > before.base:
-        return before.base, before.taken | {number}
-    base = number + 1
-    while base in before.taken:
-        base += 1
-    return base, frozenset(n for n in before.taken if n > base)
+def _until(outputs: Sequence[Output], time: float) -> int:
+    """The number of messages up to a time, which are all but the last ones."""
+    number = len(outputs)
+    while number and outputs[number - 1].stamp > time:
+        number -= 1
+    return number

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from rebsync.roundtrip.conform.components.component import Component
-from rebsync.roundtrip.conform.components.inclusion import Hypothesis
+from rebsync.roundtrip.conform.components.hypotheses import Hypothesis
 from rebsync.roundtrip.conform.conformance import TopicInterval
 
 

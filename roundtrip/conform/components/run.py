@@ -11,7 +11,7 @@ from rebsync.checker.steps import Action
 from rebsync.checker.trace import ShownMessage, ShownRebec, TraceStep
 from rebsync.roundtrip.conform.components.component import Component
 from rebsync.roundtrip.conform.components.environment import CLASS
-from rebsync.roundtrip.conform.components.inclusion import Hypothesis
+from rebsync.roundtrip.conform.components.hypotheses import Hypothesis
 from rebsync.roundtrip.conform.components.interface import shown
 
 SHOWN = 40  # steps
