@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from math import inf
+from math import inf, isfinite
 from typing import NamedTuple
 
 from rebsync.checker.endless import EndlessBody
@@ -46,7 +46,7 @@ class Expected(NamedTuple):
     server: int
 
 
-class Change(NamedTuple):
+class ChannelFault(NamedTuple):
     """A fault that is undone: its kind, and the message that is recorded, or published, or both."""
 
     kind: Kind
@@ -55,25 +55,29 @@ class Change(NamedTuple):
     expected: Expected | None
 
 
-class _Attempt(NamedTuple):
+class _Repaired(NamedTuple):
     """The next messages of the topics after some changes: they fit up to some states, or all."""
 
-    changes: tuple[Change, ...]
+    changes: tuple[ChannelFault, ...]
     outputs: tuple[Sequence[Output], ...]
     ends: Sequence[Hypothesis]
     fits: bool = False
 
     @property
-    def cause(self) -> Change:
+    def cause(self) -> ChannelFault:
         """What the changes say together."""
         match self.changes:
-            case (Change("lost message"), Change("unexpected" | "repeated")) if self._is_one():
+            case (ChannelFault("lost message"), ChannelFault("unexpected" | "repeated")) if (
+                self._is_one()
+            ):
                 first, other = self.changes
                 return first._replace(kind="late", recorded=other.recorded)
-            case (Change("unexpected" | "repeated"), Change("lost message")) if self._is_one():
+            case (ChannelFault("unexpected" | "repeated"), ChannelFault("lost message")) if (
+                self._is_one()
+            ):
                 first, other = self.changes
                 return first._replace(kind="early", expected=other.expected)
-            case (Change("wrong value"), Change("wrong value")) if self._is_one():
+            case (ChannelFault("wrong value"), ChannelFault("wrong value")) if self._is_one():
                 return self.changes[0]._replace(kind="swapped")
             case _:
                 return self.changes[0]
@@ -135,15 +139,15 @@ class Alignment:
             for n, all_ in zip(before, component.outputs, strict=True)
         )
         own = tuple(number - n for number, n in zip(matched, before, strict=True))
-        self._begin = _Attempt((), outputs, [each._replace(matched=own) for each in last])
+        self._begin = _Repaired((), outputs, [each._replace(matched=own) for each in last])
 
-    def cause(self) -> Change | None:
+    def cause(self) -> ChannelFault | None:
         """The change after which what follows fits, or fits for longest.
 
         None: no change helps, or nothing at all follows, and the model publishes more than once.
         """
         is_over = not any(map(self._left, range(len(self._begin.outputs))))
-        tried: list[_Attempt] = [self._begin]
+        tried: list[_Repaired] = [self._begin]
         for _ in range(1 if is_over else _CHANGES):
             best = sorted(tried, key=lambda t: -t.reached)[:_KEPT]
             tried = [
@@ -154,14 +158,16 @@ class Alignment:
         else:
             if is_over:
                 return None
-        slack = self._search.component.timing.slack
 
-        def rank(attempt: _Attempt) -> tuple[float, int]:
-            reached = attempt.reached
-            moment = reached // slack if slack and abs(reached) < inf else reached
-            return -moment, _PREFERRED.index(attempt.cause.kind)
+        def rank(repaired: _Repaired) -> tuple[float, int]:
+            return -self._moment(repaired.reached), _PREFERRED.index(repaired.cause.kind)
 
         return min(tried, key=rank).cause if tried else None
+
+    def _moment(self, time: float) -> float:
+        """The same for times that differ by less than things may be late."""
+        slack = self._search.component.timing.slack
+        return time // slack if slack and isfinite(time) else time
 
     def _left(self, topic: int) -> int:
         """The number of messages that follow on a topic."""
@@ -174,28 +180,34 @@ class Alignment:
         return InclusionSearch(window, _STATES, self._search.served_before)
 
     def _tried(
-        self, before: _Attempt, change: Change, outputs: tuple[Sequence[Output], ...]
-    ) -> _Attempt:
+        self, before: _Repaired, change: ChannelFault, outputs: tuple[Sequence[Output], ...]
+    ) -> _Repaired:
         found = self._on(outputs).run(before.ends)
-        return _Attempt((*before.changes, change), outputs, found.furthest, found.verdict == "fits")
+        return _Repaired(
+            (*before.changes, change), outputs, found.furthest, found.verdict == "fits"
+        )
 
     # --- changes
 
-    def _changed(self, attempt: _Attempt) -> Iterator[tuple[Change, tuple[Sequence[Output], ...]]]:
+    def _changed(
+        self, repaired: _Repaired
+    ) -> Iterator[tuple[ChannelFault, tuple[Sequence[Output], ...]]]:
         """The changes of what comes next, each once, with the messages after it."""
-        search, seen = self._on(attempt.outputs), set[object]()
-        for end in attempt.ends:
+        search, seen = self._on(repaired.outputs), set[object]()
+        for end in repaired.ends:
             for change, topic_after in self._changes(search, end):
-                outputs = attempt.outputs
+                outputs = repaired.outputs
                 after = (*outputs[: change.topic], topic_after, *outputs[change.topic + 1 :])
-                key = change.kind, change.topic, tuple(topic_after)
+                each = change.expected
+                when = (each.sent.cells, self._moment(each.due)) if each is not None else ()
+                key = change.kind, change.topic, change.recorded, when
                 if key not in seen:
                     seen.add(key)
                     yield change, after
 
     def _changes(
         self, search: InclusionSearch, end: Hypothesis
-    ) -> Iterator[tuple[Change, Sequence[Output]]]:
+    ) -> Iterator[tuple[ChannelFault, Sequence[Output]]]:
         outputs = search.component.outputs
         for each in sorted(set(expected(search, end)), key=by_time):
             number = end.matched[each.topic]
@@ -207,23 +219,26 @@ class Alignment:
             if after:
                 is_again = bool(before) and before[-1].cells == after[0].cells
                 kind: Kind = "repeated" if is_again else "unexpected"
-                yield Change(kind, topic, after[0], None), [*before, *after[1:]]
+                yield ChannelFault(kind, topic, after[0], None), [*before, *after[1:]]
 
     def _to(
         self, search: InclusionSearch, each: Expected, after: Sequence[Output]
-    ) -> Iterator[tuple[Change, list[Output]]]:
+    ) -> Iterator[tuple[ChannelFault, list[Output]]]:
         """The changes that make the next message of a topic the one that is expected."""
         topic, cells = each.topic, each.sent.cells
         missing = Output(each.due, cells, (), -1, -1)
-        yield Change("lost message", topic, None, each), [missing, *after]
+        yield ChannelFault("lost message", topic, None, each), [missing, *after]
         if not after:
             return
         first, *rest = after
         if search.is_output(first, each.sent):
             kind: Kind = "early" if first.stamp < each.low else "late"
-            yield Change(kind, topic, first, each), [first._replace(stamp=each.due), *rest]
+            yield ChannelFault(kind, topic, first, each), [first._replace(stamp=each.due), *rest]
         else:
-            yield Change("wrong value", topic, first, each), [first._replace(cells=cells), *rest]
+            yield (
+                ChannelFault("wrong value", topic, first, each),
+                [first._replace(cells=cells), *rest],
+            )
 
 
 def _horizon(component: Component, matched: Sequence[int]) -> float:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from rebsync.model import Call, MessageServer, Model, ReactiveClass, walk
 from rebsync.roundtrip.conform.components.alignment import (
     Alignment,
-    Change,
+    ChannelFault,
     Expected,
     by_time,
     expected,
@@ -56,7 +56,7 @@ class TopicDiagnosis:
             kind, name, time, message, None, 0, allowed, code=code, message_place=place
         )
 
-    def _code(self, change: Change | None, next_: set[str]) -> CodePlace | None:
+    def _code(self, change: ChannelFault | None, next_: set[str]) -> CodePlace | None:
         """Where in the code the callback is that a message comes from.
 
         It is the one that the model serves; else one that it could serve next (`next_`), or
@@ -76,31 +76,31 @@ class TopicDiagnosis:
             }
         return next((_code_of(each) for each in servers if each.name in next_), None)
 
-    def _reason(self, change: Change | None, due: float) -> Reason:
+    def _reason(self, change: ChannelFault | None, due: float) -> Reason:
         """What a change says in words; without one nothing came that was due."""
         slack = self.component.timing.slack
         match change:
-            case Change("lost message", _, _, Expected() as each):
+            case ChannelFault("lost message", _, _, Expected() as each):
                 until = f"{each.high + slack:.3f} s"
                 why = f"the model publishes {self._values(each)} by {until}"
                 return Reason(
                     "lost message", f"{why}, and no such message was recorded", None, each.due
                 )
-            case Change("late" | "early" as kind, _, Output() as output, Expected() as each):
+            case ChannelFault("late" | "early" as kind, _, Output() as output, Expected() as each):
                 by = f"from {each.low:.3f}" if kind == "early" else f"by {each.high + slack:.3f}"
                 why = f"the model publishes it {by} s"
                 return Reason(kind, why, output, min(output.stamp, each.due))
-            case Change(
+            case ChannelFault(
                 "swapped" | "wrong value" as kind, _, Output() as output, Expected() as each
             ):
                 why = f"the model publishes {self._values(each)}"
                 if kind == "swapped":
                     why = f"{self._values(each)} has to be published before, and comes after"
                 return Reason(kind, why, output, output.stamp)
-            case Change("repeated", _, Output() as output, _):
+            case ChannelFault("repeated", _, Output() as output, _):
                 why = "it was published before, and the model publishes it once"
                 return Reason("repeated", why, output, output.stamp)
-            case Change(_, _, Output() as output, _):
+            case ChannelFault(_, _, Output() as output, _):
                 return Reason(
                     "unexpected", "the model publishes nothing then", output, output.stamp
                 )
