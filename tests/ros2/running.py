@@ -15,6 +15,7 @@ from tests.ros2.asking import Answer, Ask
 from tests.ros2.launching import Launched, launched
 
 _LEVELS = {"INFO": 2, "WARN": WARNING, "ERROR": ERROR}
+_BOOL = "tag:yaml.org,2002:bool"
 _BODY = ("server", "arguments", "arrival", "start", "now")
 
 
@@ -147,8 +148,18 @@ def _seconds(nanoseconds: int, zero: int) -> float:
     return round((nanoseconds - zero) / 1e9, 6)
 
 
+class _Loader(yaml.CSafeLoader):
+    """YAML in which a field may be called `on`: only `true` and `false` are truth values."""
+
+
+_Loader.yaml_implicit_resolvers = {
+    first: [(tag, of) for tag, of in all_ if tag != _BOOL or first in "tf"]
+    for first, all_ in yaml.CSafeLoader.yaml_implicit_resolvers.items()
+}
+
+
 def _fields(text: str) -> dict[str, Any]:
-    fields = yaml.load(text, yaml.CSafeLoader)
+    fields = yaml.load(text, _Loader)
     assert isinstance(fields, dict)
     return fields
 

@@ -15,6 +15,7 @@ from rebsync.config import parse_config
 from rebsync.source import Source
 from tests.forward.compiling import generated, written
 from tests.ros1.test_examples import (
+    NAMES,
     Example,
     test_each_rebec_serves_what_the_model_says,
     test_invariants_hold_in_every_state,
@@ -24,6 +25,7 @@ from tests.ros1.test_examples import (
     test_the_run_ends_in_the_state_of_the_model,
     test_the_run_gets_somewhere,
     test_the_run_is_one_of_the_model,
+    test_the_unsafe_robots_collide,
     test_velocities_take_every_robot_to_its_cells,
 )
 from tests.ros2.building import build_driver, make_messages
@@ -38,12 +40,12 @@ __all__ = [
     "test_the_run_ends_in_the_state_of_the_model",
     "test_the_run_gets_somewhere",
     "test_the_run_is_one_of_the_model",
+    "test_the_unsafe_robots_collide",
     "test_velocities_take_every_robot_to_its_cells",
 ]
 
 _ROOT = Path(__file__).parents[2]
 _EXPECTED = _ROOT / "tests" / "ros1" / "expected"
-NAMES = ("experiment1", "experiment2", "experiment3", "warehouse")
 
 
 def package_of(name: str, directory: Path) -> Path:
