@@ -17,7 +17,7 @@ from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.dead_texts import without_dead_texts
 from rebsync.reverse.files.monitors import is_monitor
-from rebsync.reverse.files.packages import CODE
+from rebsync.reverse.files.packages import BESIDE, CODE
 from rebsync.reverse.files.python_files import SETUP, is_launch, is_python
 from rebsync.reverse.findings import Finding, Findings, Grade
 from rebsync.reverse.generated.before_main import at_the_end, beside_main
@@ -298,7 +298,11 @@ def _built(files: Mapping[str, Source], only: str | None, findings: Findings) ->
 
 def _in_cpp(files: Mapping[str, Source], findings: Findings) -> Code:
     """The files of C++, parsed."""
-    trees = [parse(source) for path, source in sorted(files.items()) if path.endswith(_CODE)]
+    trees = [
+        replace(parse(source), is_beside=path.startswith(BESIDE))
+        for path, source in sorted(files.items())
+        if path.endswith(_CODE)
+    ]
     findings.all += [finding for tree in trees for finding in unparsed(tree)]
     return Code.of(trees)
 

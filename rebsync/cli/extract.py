@@ -60,6 +60,7 @@ def command(paths: tuple[str, ...], form: str, style: str | None, output: str) -
     4 something unreadable, 2 nothing read.
     """
     from rebsync.reverse.answer import answer
+    from rebsync.reverse.build.workspace import in_workspace
     from rebsync.reverse.files.parallel import each
     from rebsync.roundtrip.package.units import units
 
@@ -67,7 +68,7 @@ def command(paths: tuple[str, ...], form: str, style: str | None, output: str) -
         raise click.UsageError("--format json has the report in it: leave out --report")
     for path in paths:
         refuse_to_overwrite(path, output)
-    answers = each(units(paths), partial(answer, style=style, whole=form == "json"))
+    answers = each(in_workspace(units(paths)), partial(answer, style=style, whole=form == "json"))
     first = list(_one(answers, output) if _is_one_file(output) else islice(answers, 2))
     told = _Told(output, len(first) > 1)
     statuses = [s for given in chain(first, answers) if (s := told.tell(given)) is not None]

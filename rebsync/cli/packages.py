@@ -109,6 +109,7 @@ def _choice(environment: str) -> EnvironmentChoice:
 
 
 def _files(path: str) -> dict[str, Source]:
+    from rebsync.reverse.build.workspace import in_workspace
     from rebsync.reverse.files.reading import read
     from rebsync.roundtrip.package.units import as_one, units
 
@@ -118,7 +119,7 @@ def _files(path: str) -> dict[str, Source]:
         hint = "name one of them" if found else f"name the model: {models[0]}" if models else None
         message = "several packages are here" if found else "no code is here"
         raise RebsyncError.of(path, "RS802", message, hint)
-    return read(as_one(found[0])).files
+    return read(next(in_workspace([as_one(found[0])]))).files
 
 
 def _parsed(source: Source | None) -> Properties:

@@ -13,7 +13,7 @@ from collections.abc import Collection, Container, Iterable, Iterator, Mapping, 
 from rebsync.records import dataclass
 from rebsync.reverse.build.built_python import unbuilt_python
 from rebsync.reverse.build.cmake import build_of
-from rebsync.reverse.files.packages import CODE, HEADERS
+from rebsync.reverse.files.packages import BESIDE, CODE, HEADERS
 from rebsync.reverse.files.python_files import is_launch
 from rebsync.source import Source
 
@@ -55,6 +55,7 @@ def _unbuilt_cpp(files: Mapping[str, Source]) -> Unbuilt:
     if build is None or not build.is_closed:
         return _NOTHING
     compiled = {s for t in build.targets for s in t.sources if s in files}
+    compiled |= {path for path in files if path.startswith(BESIDE)}
     reached = _reached(compiled, files)
     if not reached:
         return _NOTHING

@@ -14,6 +14,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from rebsync.records import dataclass
 from rebsync.reverse.build.cmake import BUILD
+from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.files.python_files import LAUNCHES, SETUP, SUFFIX, is_launch, is_python
 from rebsync.source import Source
 
@@ -47,6 +48,7 @@ def unbuilt_python(files: Mapping[str, Source]) -> frozenset[str]:
     programs = _programs(files, modules)
     if len(modules) < len(read) or not programs:
         return frozenset()
+    programs |= {path for path in modules if path.startswith(BESIDE)}
     reached, waiting = set(programs), list(programs)
     while waiting:
         path = waiting.pop()

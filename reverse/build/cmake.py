@@ -19,6 +19,7 @@ from rebsync.reverse.build.cmake_targets import (
 )
 from rebsync.reverse.build.cmake_text import Command, CommandBlock, Item, Quote, read_cmake
 from rebsync.reverse.build.cmake_values import CmakeVariables, known, sections
+from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.unknowns import Open, Text
 from rebsync.source import Source, Span
 
@@ -52,7 +53,8 @@ def _found(files: Mapping[str, Source], pattern: str) -> list[str]:
     folder, deep, last = pattern.partition("**/")
     if not deep:
         folder, last = posixpath.split(pattern)
-    near = (p for p in files if (p.startswith(folder) if deep else posixpath.dirname(p) == folder))
+    own = (p for p in files if not p.startswith(BESIDE))
+    near = (p for p in own if (p.startswith(folder) if deep else posixpath.dirname(p) == folder))
     return [path for path in near if fnmatchcase(posixpath.basename(path), last)]
 
 

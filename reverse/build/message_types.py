@@ -14,6 +14,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.scope import WIDE, Variable, of_width
 from rebsync.reverse.build.common_messages import COMMON
 from rebsync.reverse.build.messages import plain_type, read_message
+from rebsync.reverse.files.packages import owner_of
 from rebsync.reverse.syntax.cpp_tree import Cpp
 from rebsync.reverse.texts import TEXT
 from rebsync.source import Source
@@ -68,11 +69,12 @@ class MessageTypes:
         for path, source in sorted(files.items()):
             found = _MESSAGE.search(f"/{path}")
             if found is not None:
-                read = read_message(source, package, found[1])
+                owner = owner_of(path, package)
+                read = read_message(source, owner, found[1])
                 own[read.full_name] = [(f.name, f.type, f.length) for f in read.fields]
                 for constant in read.constants:
                     value = _kept(constant.value, rosidl)
-                    for scope in ("", f"{package}::", f"{package}::msg::"):
+                    for scope in ("", f"{owner}::", f"{owner}::msg::"):
                         if value is not None:
                             constants[f"{scope}{read.name}::{constant.name}"] = value
         return MessageTypes(own, package, {}, constants, {})

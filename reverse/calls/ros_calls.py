@@ -9,6 +9,7 @@ from functools import partial
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.calls.beside import without_unused
 from rebsync.reverse.calls.node_calls import asked_of_nodes
 from rebsync.reverse.calls.ros_calls_facts import Facts
 from rebsync.reverse.calls.ros_calls_shapes import (
@@ -71,7 +72,8 @@ class Asking:
         """What is asked for, in the order of files and places: made when it is first wanted."""
         if self._graph is None:
             facts = Facts(self.values())
-            found = [fact for asked in self.calls() for fact in facts.of(asked)]
+            every = (fact for asked in self.calls() for fact in facts.of(asked))
+            found = without_unused(every, self.code.files)
             self._graph = Graph(tuple(sorted(found, key=_order)))
         return self._graph
 

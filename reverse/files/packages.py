@@ -16,6 +16,7 @@ from rebsync.reverse.files.stores import Disk, Entry, Store, join
 from rebsync.trees import is_within, tree_of_code
 
 MANIFEST = "package.xml"
+BESIDE = "../"  # how the path of a file begins that another package of the workspace has
 HEADERS = frozenset({".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp", ".inl", ".H"})
 CODE = HEADERS | {".c", ".cc", ".cpp", ".cxx", ".c++", ".C", ".cu"}
 _EXECUTABLE = 0o111
@@ -198,6 +199,14 @@ def is_read(name: str, inside: str) -> bool:
     if suffix in CODE or suffix == SUFFIX:
         return True
     return (suffix in _OTHERS or name in _NAMED) and not _TESTS & set(inside.split("/"))
+
+
+def owner_of(path: str, package: str) -> str:
+    """The name of the package that a file is of, by its path among those of a package.
+
+    Of another one it is `../NAME/path`, whatever directory that is in.
+    """
+    return path.split("/", 2)[1] if path.startswith(BESIDE) else package
 
 
 def suffix_of(path: str) -> str:

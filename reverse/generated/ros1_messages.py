@@ -8,6 +8,7 @@ from rebsync.model import Type
 from rebsync.reserved import RUNTIME_FIELDS
 from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.build.messages import MessageField, plain_type, read_message
+from rebsync.reverse.files.packages import owner_of
 from rebsync.source import Source
 
 _TYPES = {
@@ -32,7 +33,7 @@ def own_messages(files: Mapping[str, Source]) -> dict[str, dict[str, Type | None
     for path, source in declared.items():
         name = path.rpartition("/")[2].removesuffix(".msg")
         read = read_message(source, "", name)
-        found[f"{package or ''}/{name}"] = {
+        found[f"{owner_of(path, package or '')}/{name}"] = {
             f.name: _type(f) for f in read.fields if f.name not in RUNTIME_FIELDS
         }
     return found

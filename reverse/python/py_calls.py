@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.calls.beside import without_unused
 from rebsync.reverse.graph import (
     Callbacks,
     ClientFact,
@@ -58,7 +59,8 @@ def graph_of(code: PyCode) -> Graph:
 def graph_with(values: PyValues) -> Graph:
     """The same of files some of whose values may be known."""
     facts = _Facts(values)
-    return Graph(tuple(f for asked in asked_in(values) for f in facts.of(asked)))
+    every = (f for asked in asked_in(values) for f in facts.of(asked))
+    return Graph(tuple(without_unused(every, [m.py for m in values.code.modules.values()])))
 
 
 def facts_of(values: PyValues, asked: PyRosCall) -> Iterator[Fact]:

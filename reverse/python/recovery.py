@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
+from dataclasses import replace
 from functools import partial
 
 from rebsync import model as m
@@ -13,6 +14,7 @@ from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.build.message_types import MessageTypes
+from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.own_parameters import Stored
@@ -119,7 +121,10 @@ class PythonCode:
         messages: Mapping[str, Collection[str]] | None = None,
     ) -> PythonCode:
         """Parses them; `messages` are the fields of the package's message types."""
-        trees = [parse(source) for _, source in sorted(sources.items())]
+        trees = [
+            replace(parse(source), is_beside=path.startswith(BESIDE))
+            for path, source in sorted(sources.items())
+        ]
         findings.all += [f for py in trees for f in unparsed(py)]
         code = PyCode.of(trees)
         return PythonCode(

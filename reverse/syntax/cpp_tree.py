@@ -34,6 +34,7 @@ class Cpp:
     than one, and by how many bytes more than characters the text up to there has. `deep` are the
     bytes of places that nest deeper than is read: they are not in the tree. `inverted` are the
     bytes of each `~` that is `!` in the tree, `filled` those of each `;` that is only in the tree.
+    `is_beside`: the file is of another package, which is read for what this one takes of it.
     """
 
     source: Source
@@ -43,6 +44,7 @@ class Cpp:
     deep: tuple[tuple[int, int], ...] = ()
     inverted: frozenset[int] = frozenset()
     filled: frozenset[int] = frozenset()
+    is_beside: bool = False
 
     @cached_property
     def data(self) -> bytes:

@@ -1,0 +1,1 @@
+"""Tests of packages that take classes, helpers and messages of others in their workspace."""

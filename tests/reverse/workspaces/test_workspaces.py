@@ -1,0 +1,49 @@
+"""Packages are read with what they take of others in their workspace.
+
+`python -m tests.reverse.workspaces` writes `expected.rebeca` anew.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from rebsync.cli import main
+from tests.reverse.workspaces.cases import CASES, model_of, questions
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda c: c.name)
+def test_models(case: Path) -> None:
+    assert model_of(case) == (case / "expected.rebeca").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("case", "package", "question", "verdict"), list(questions()))
+def test_questions(
+    case: str, package: str, question: str, verdict: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    root = next(c for c in CASES if c.name == case) / package
+    main(["ask", str(root), question, "--format", "json"])
+    found = json.loads(capsys.readouterr().out)
+    assert found["verdict"] == verdict, found["reason"]
+
+
+@pytest.mark.parametrize("case", ["roscpp", "rclcpp", "rospy", "rclpy"])
+def test_alone_a_package_knows_nothing_of_others(
+    case: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked = next(q for q in questions() if q[0] == case and q[3] == "satisfied")
+    root = next(c for c in CASES if c.name == case) / asked[1]
+    shutil.copytree(root, tmp_path / "alone" / asked[1])
+    status = main(["ask", str(tmp_path / "alone" / asked[1]), asked[2]])
+    assert status != 0, capsys.readouterr().out
+
+
+def test_facts_are_those_of_the_package(capsys: pytest.CaptureFixture[str]) -> None:
+    root = next(c for c in CASES if c.name == "roscpp")
+    assert main(["extract", str(root / "robot_pkg"), "--format", "json"]) == 1
+    told = json.loads(capsys.readouterr().out)
+    assert [each["topic"] for each in told["publishers"]] == ["alarm"]
+    assert [each["topic"] for each in told["subscriptions"]] == ["level"]
