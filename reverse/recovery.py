@@ -299,7 +299,7 @@ def _built(files: Mapping[str, Source], only: str | None, findings: Findings) ->
 def _in_cpp(files: Mapping[str, Source], findings: Findings) -> Code:
     """The files of C++, parsed."""
     trees = [
-        replace(parse(source), is_beside=path.startswith(BESIDE))
+        parse(source, path.startswith(BESIDE))
         for path, source in sorted(files.items())
         if path.endswith(_CODE)
     ]

@@ -76,12 +76,13 @@ def command(
 
 
 def _now(paths: Sequence[str], launch: str | None) -> AnalysedGraph:
+    from rebsync.reverse.build.workspace import in_workspace
     from rebsync.reverse.files.parallel import each
     from rebsync.reverse.files.reading import all_listings
     from rebsync.rosgraph.analysis import analysed
     from rebsync.rosgraph.reading import read_package
 
-    packages: list[PackageCode] = list(each(all_listings(paths), read_package))
+    packages: list[PackageCode] = list(each(in_workspace(all_listings(paths)), read_package))
     if not any(package.nodes for package in packages):
         raise RebsyncError.of(
             paths[0], "RS943", "no code that asks ROS for anything was found here"

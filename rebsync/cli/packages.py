@@ -184,12 +184,13 @@ def _names_qualities(files: Mapping[str, Source]) -> bool:
 def _unmatched(path: str) -> tuple[CodePlace, ...]:
     """Subscriptions that get nothing of a publisher, as their qualities of service never match."""
     from rebsync.checker.problem import CodePlace
+    from rebsync.reverse.build.workspace import in_workspace
     from rebsync.reverse.files.parallel import each
     from rebsync.reverse.files.reading import all_listings
     from rebsync.rosgraph.analysis import analysed
     from rebsync.rosgraph.reading import read_package
 
-    packages = list(each(all_listings([path]), read_package))
+    packages = list(each(in_workspace(all_listings([path])), read_package))
     found = (f for f in analysed(packages, path).findings if f.code == "RS991")
     return tuple(
         CodePlace(f"{_shown(f.place.source.path)}:{f.place.line} ({f.message})", None)

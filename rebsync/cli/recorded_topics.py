@@ -109,11 +109,13 @@ def compared(
 ) -> tuple[Conformance, Subject]:
     """A package compared with a recording. RebsyncError: one of them cannot be read."""
     from rebsync.cli.packages import read_observed
-    from rebsync.reverse.files.reading import chosen
+    from rebsync.reverse.build.workspace import in_workspace
+    from rebsync.reverse.files.packages import Listing
+    from rebsync.reverse.files.reading import all_listings, read
     from rebsync.roundtrip.conform.components.environment import own_types
     from rebsync.roundtrip.conform.components.heard import HeardRecordings
 
-    given = chosen(path)
+    given = read(next(in_workspace(all_listings([path])), Listing(path, {})))
     opened = HeardRecordings.of(recordings, own_types(given))
     package = OpenPackage.of(given, opened.topics())
     properties = read_observed(path, property_file)

@@ -9,7 +9,7 @@ from dataclasses import field, replace
 from rebsync.records import dataclass
 from rebsync.reverse.calls.action_calls import actions_in
 from rebsync.reverse.calls.ros_calls import Asking
-from rebsync.reverse.files.packages import CODE
+from rebsync.reverse.files.packages import BESIDE, CODE
 from rebsync.reverse.graph import ClientFact, Fact, NodeFact, ServiceFact
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_programs import programs, with_nodes
@@ -29,7 +29,8 @@ _CODE = tuple(sorted(CODE))
 
 def nodes_in_cpp(files: Mapping[str, Source], package: str) -> Iterator[NodeCode]:
     """The nodes; code that no program of the package runs comes as nodes that are none."""
-    code = Code.of([parse(s) for path, s in sorted(files.items()) if path.endswith(_CODE)])
+    sources = sorted((path, s) for path, s in files.items() if path.endswith(_CODE))
+    code = Code.of([parse(source, path.startswith(BESIDE)) for path, source in sources])
     asking = Asking(code)
     graph = asking.graph
     found = with_nodes(programs(code, files), graph)

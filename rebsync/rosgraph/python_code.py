@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from rebsync.records import dataclass
+from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.graph import ClientFact, Graph, NodeFact, ServiceFact
 from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.body_started import is_module, scripts_of
@@ -26,7 +27,7 @@ def nodes_in_python(
     code: Mapping[str, Source], files: Mapping[str, Source], package: str
 ) -> Iterator[NodeCode]:
     """The nodes in some files of code; `files` are all of the package."""
-    read = PyCode.of([parse(source) for _, source in sorted(code.items())])
+    read = PyCode.of([parse(s, path.startswith(BESIDE)) for path, s in sorted(code.items())])
     values = PyValues(read)
     actions = list(actions_in(values))
     facts = Graph((*graph_with(values).facts, *actions))

@@ -3,8 +3,8 @@
 A base class, a helper or a wrapper of publishers is often in another package. Those files of the
 packages that it depends on are read with it that its own code reaches: headers by `#include`, the
 sources of library targets that include one of these, modules of Python that are imported, and all
-messages. Programs of other packages are none of it. A path of such a file is
-`../NAME/path/in/package`, whatever folder the package is in.
+messages and launch files, with what these load. Programs of other packages are none of it. A path
+of such a file is `../NAME/path/in/package`, whatever folder the package is in.
 """
 
 from __future__ import annotations
@@ -34,6 +34,7 @@ from rebsync.source import Source
 _INCLUDE = re.compile(rb'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"\n]+)[>"]', re.MULTILINE)
 _IMPORT = re.compile(rb"^[ \t]*(?:from|import)[ \t]+([A-Za-z_]\w*)", re.MULTILINE)
 _IS_PROGRAM = re.compile(rb"__main__|\bint\s+main\s*\(")
+_TEXTS = (".msg", ".launch", ".launch.xml", ".yaml", ".yml")
 _CMAKE = ("CMakeLists.txt", ".cmake")
 
 
@@ -64,7 +65,7 @@ class _Shared:
     headers: dict[str, frozenset[bytes]] = field(default_factory=dict)
     sources: dict[str, frozenset[bytes]] = field(default_factory=dict)
     modules: dict[str, frozenset[bytes]] = field(default_factory=dict)
-    messages: tuple[str, ...] = ()
+    texts: tuple[str, ...] = ()  # messages, launch files, and parameters
     is_read: bool = False
 
     def read(self) -> None:
@@ -72,7 +73,7 @@ class _Shared:
         if self.is_read:
             return
         self.is_read = True
-        self.messages = tuple(n for n in self.listing.files if n.endswith(".msg"))
+        self.texts = tuple(n for n in self.listing.files if n.endswith(_TEXTS) or is_launch(n))
         data = dict(_data(self.listing, self.listing.files))
         built = _built(self.listing, data)
         for name, text in data.items():
@@ -140,7 +141,7 @@ class _Workspace:
         needs = list(self._needs(own))
         for each in needs:
             each.read()
-        taken = {(each.name, name) for each in needs for name in each.messages}
+        taken = {(each.name, name) for each in needs for name in each.texts}
         if any(each.headers or each.modules for each in needs):
             code = [data for _, data in _data(listing, listing.files)]
             taken |= set(_reached(code, needs))

@@ -13,7 +13,7 @@ SETUP = "setup.py"
 # How the names of launch files end, and what they import.
 LAUNCHES = (".launch.py", "_launch.py", "-launch.py")
 _OF_ROS_2 = re.compile(r"[._-]launch\.(?:py|xml|yaml|yml)\Z")
-_LAUNCH = b"launch_ros"
+_LAUNCH = (b"launch_ros", b"LaunchDescription")  # the second alone where others are included
 _SCRIPT = re.compile(rb"#![^\n]*\bpython")
 _HEAD = 80  # bytes, in which the first line of a script says who runs it
 _IMPORT = re.compile(rb"[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+|import[ \t]+)([^#\n]*)")
@@ -52,7 +52,9 @@ def is_python(path: str, source: Source) -> bool:
 def relevant_python(code: Mapping[str, bytes], only: str | None = None) -> set[str]:
     """Those of some files of Python that can matter: those of ROS, and what they import."""
     kept = {name for name, data in code.items() if name == only or _of_ros(data)}
-    kept |= {n for n, data in code.items() if n.endswith(LAUNCHES) and _LAUNCH in data}
+    kept |= {
+        n for n, data in code.items() if n.endswith(LAUNCHES) and any(w in data for w in _LAUNCH)
+    }
     if kept and SETUP in code and b"console_scripts" in code[SETUP]:
         kept.add(SETUP)
     if not kept or len(kept) == len(code):

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from rebsync.records import dataclass
+from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.files.python_files import is_launch_of_ros_2
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.launch.launch_files import read_launch
 from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch, speaks_ros_2
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
+from rebsync.reverse.launch.ros2_words import SHARE
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_presence import STAND_IN
 from rebsync.reverse.nodes.node_programs import Program
@@ -76,7 +79,10 @@ def system_of(
     def load(path: str) -> Source | None:
         return files.get(path.removeprefix("/"))
 
-    surroundings = Surroundings(load, lambda _: "")
+    def find(name: str) -> str:
+        return "" if name == package or not package else f"/{BESIDE}{name}"
+
+    surroundings = Surroundings(load, find)
     paths = [only] if only is not None else sorted(p for p in files if _is_system(p, files[p]))
     read = [(files[p], _read(files[p], surroundings, package)) for p in paths]
     if not read:
@@ -122,13 +128,20 @@ def _is_system(path: str, source: Source) -> bool:
 
     In ROS 1 `x.launch.xml` is the name of those that others include.
     """
-    return path.endswith(".launch") or (is_launch_of_ros_2(path) and speaks_ros_2(source))
+    is_ros_2 = is_launch_of_ros_2(path) and speaks_ros_2(source)
+    return not path.startswith(BESIDE) and (path.endswith(".launch") or is_ros_2)
 
 
 def _read(source: Source, surroundings: Surroundings, package: str) -> Launch:
     if speaks_ros_2(source):
-        return read_ros2_launch(source, surroundings.load, package)
+        return read_ros2_launch(source, surroundings.load, package, partial(_shared, surroundings))
     return read_launch(source, surroundings)
+
+
+def _shared(surroundings: Surroundings, path: str) -> Source | None:
+    """A file that another package of the workspace shares."""
+    is_shared = path.startswith(SHARE)
+    return surroundings.load(f"{BESIDE}{path.removeprefix(SHARE)}") if is_shared else None
 
 
 def _size(launch: Launch, package: str) -> int:

@@ -38,11 +38,15 @@ def _parser() -> Parser:
     return Parser(Language(tree_sitter_python.language()))
 
 
-def parse(source: Source) -> Py:
-    """The tree of a file; where the text is no Python it has error nodes."""
+def parse(source: Source, is_beside: bool = False) -> Py:
+    """The tree of a file; where the text is no Python it has error nodes.
+
+    `is_beside`: the file is of another package than what is read.
+    """
     data = source.text.encode("utf-8", "surrogatepass")
     root = _parser().parse(data).root_node
-    return Py(source, root, Plain(data), byte_places(source.text, data))
+    places = byte_places(source.text, data)
+    return Py(source, root, Plain(data), places, is_beside=is_beside)
 
 
 def unparsed(py: Py) -> list[Finding]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
-from dataclasses import replace
 from functools import partial
 
 from rebsync import model as m
@@ -121,10 +120,7 @@ class PythonCode:
         messages: Mapping[str, Collection[str]] | None = None,
     ) -> PythonCode:
         """Parses them; `messages` are the fields of the package's message types."""
-        trees = [
-            replace(parse(source), is_beside=path.startswith(BESIDE))
-            for path, source in sorted(sources.items())
-        ]
+        trees = [parse(source, path.startswith(BESIDE)) for path, source in sorted(sources.items())]
         findings.all += [f for py in trees for f in unparsed(py)]
         code = PyCode.of(trees)
         return PythonCode(

@@ -108,8 +108,11 @@ def _parser() -> Parser:
     return Parser(_LANGUAGE)
 
 
-def parse(source: Source) -> Cpp:
-    """The tree of a file; where the text is no C++ it has error nodes."""
+def parse(source: Source, is_beside: bool = False) -> Cpp:
+    """The tree of a file; where the text is no C++ it has error nodes.
+
+    `is_beside`: the file is of another package than what is read.
+    """
     plain = Plain(source.text.encode("utf-8", "surrogatepass"))
     text = readable(source.text, plain)
     data = plain.data if text == source.text else text.encode("utf-8", "surrogatepass")
@@ -129,7 +132,7 @@ def parse(source: Source) -> Cpp:
         inverted.update(found)
         data = _with_negations(data, found)
         root = _parser().parse(data).root_node
-    return Cpp(source, root, plain, wide, tuple(deep), frozenset(inverted), filled)
+    return Cpp(source, root, plain, wide, tuple(deep), frozenset(inverted), filled, is_beside)
 
 
 def parse_as_it_is(source: Source) -> Cpp:

@@ -17,6 +17,7 @@ from rebsync.model import Type
 from rebsync.records import dataclass
 from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.build.message_types import MessageTypes
+from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.files.reading import Chosen
 from rebsync.reverse.graph import Graph, PublisherFact, SubscriptionFact
 from rebsync.reverse.recovery import Extracted, extract
@@ -170,6 +171,7 @@ def _split(type_: str) -> tuple[str, str]:
 
 def own_types(given: Chosen) -> OwnTypes:
     """The message types that a package declares."""
-    found = ((PurePath(path), source) for path, source in given.files.items())
+    own = {path: s for path, s in given.files.items() if not path.startswith(BESIDE)}
+    found = ((PurePath(path), source) for path, source in own.items())
     texts = {path.stem: s.text for path, s in found if path.suffix == ".msg"}
     return OwnTypes(package_name(given.files), texts)

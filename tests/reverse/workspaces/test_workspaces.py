@@ -30,7 +30,9 @@ def test_questions(
     assert found["verdict"] == verdict, found["reason"]
 
 
-@pytest.mark.parametrize("case", ["roscpp", "rclcpp", "rospy", "rclpy"])
+@pytest.mark.parametrize(
+    "case", ["roscpp", "rclcpp", "rospy", "rclpy", "launch_ros1", "launch_ros2"]
+)
 def test_alone_a_package_knows_nothing_of_others(
     case: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -47,3 +49,18 @@ def test_facts_are_those_of_the_package(capsys: pytest.CaptureFixture[str]) -> N
     told = json.loads(capsys.readouterr().out)
     assert [each["topic"] for each in told["publishers"]] == ["alarm"]
     assert [each["topic"] for each in told["subscriptions"]] == ["level"]
+
+
+@pytest.mark.parametrize("case", ["roscpp", "rclcpp", "rospy", "rclpy"])
+def test_the_graph_has_what_nodes_inherit(case: str, capsys: pytest.CaptureFixture[str]) -> None:
+    root = next(c for c in CASES if c.name == case)
+    main(["graph", str(root), "--format", "json"])
+    told = json.loads(capsys.readouterr().out)
+    package = next(q[1] for q in questions() if q[0] == case)
+    own = [b["id"] for b in told["boxes"] if b["package"] == package]
+    assert len(own) == 1  # none is for code of others that it does not use
+    names = {b["id"]: b["name"] for b in told["boxes"]}
+    ends = {
+        w[end] for w in told["wires"] for end in ("from", "to") if set(own) & {w["from"], w["to"]}
+    }
+    assert {names[end] for end in ends - set(own)} == {"/alarm", "/level"}
