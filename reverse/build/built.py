@@ -55,10 +55,10 @@ def _unbuilt_cpp(files: Mapping[str, Source]) -> Unbuilt:
     if build is None or not build.is_closed:
         return _NOTHING
     compiled = {s for t in build.targets for s in t.sources if s in files}
-    compiled |= {path for path in files if path.startswith(BESIDE)}
     reached = _reached(compiled, files)
     if not reached:
         return _NOTHING
+    reached |= {path for path in files if path.startswith(BESIDE)}
     others = [p for p in files if p not in reached and p.endswith((*_SOURCES, *_HEADERS))]
     if not others:
         return _NOTHING

@@ -48,8 +48,8 @@ def unbuilt_python(files: Mapping[str, Source]) -> frozenset[str]:
     programs = _programs(files, modules)
     if len(modules) < len(read) or not programs:
         return frozenset()
-    programs |= {path for path in modules if path.startswith(BESIDE)}
-    reached, waiting = set(programs), list(programs)
+    taken = {path for path in modules if path.startswith(BESIDE)}
+    reached, waiting = programs | taken, [*programs, *taken]
     while waiting:
         path = waiting.pop()
         fresh = {

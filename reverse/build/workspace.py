@@ -4,7 +4,7 @@ A base class, a helper or a wrapper of publishers is often in another package. T
 packages that it depends on are read with it that its own code reaches: headers by `#include`, the
 sources of library targets that include one of these, modules of Python that are imported, and all
 messages and launch files, with what these load. Programs of other packages are none of it. A path
-of such a file is `../NAME/path/in/package`, whatever folder the package is in.
+of such a file is `~/NAME/path/in/package`, whatever folder the package is in.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import posixpath
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field, replace
+from functools import cache
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
@@ -29,6 +30,7 @@ from rebsync.reverse.files.packages import (
     suffix_of,
 )
 from rebsync.reverse.files.python_files import SETUP, SUFFIX, is_launch, is_script
+from rebsync.reverse.libraries import cpp, python
 from rebsync.source import Source
 
 _INCLUDE = re.compile(rb'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"\n]+)[>"]', re.MULTILINE)
@@ -73,17 +75,43 @@ class _Shared:
         if self.is_read:
             return
         self.is_read = True
-        self.texts = tuple(n for n in self.listing.files if n.endswith(_TEXTS) or is_launch(n))
+        files = (n for n in self.listing.files if not {"test", "tests"} & set(n.split("/")))
+        self.texts = tuple(n for n in files if n.endswith(_TEXTS) or is_launch(n))
         data = dict(_data(self.listing, self.listing.files))
         built = _built(self.listing, data)
         for name, text in data.items():
             suffix = suffix_of(name)
+            if _is_wrapper(text):
+                continue
             if suffix in HEADERS:
                 self.headers[name] = frozenset(_INCLUDE.findall(text))
             elif name in built and not _IS_PROGRAM.search(text):
                 self.sources[name] = frozenset(_INCLUDE.findall(text))
             elif suffix == SUFFIX and not _is_program(name, text):
                 self.modules[name] = frozenset(_IMPORT.findall(text))
+
+
+def _is_wrapper(text: bytes) -> bool:
+    """Whether a file defines functions or classes that are called as those of client libraries are.
+
+    Calls are read by such names, whatever is around them.
+    """
+    return any(pattern.search(text) is not None for pattern in _wrappers())
+
+
+@cache
+def _wrappers() -> tuple[re.Pattern[bytes], ...]:
+    names = "|".join(sorted({*cpp.node_methods(), *cpp.handle_methods()})).encode()
+    nodes = {name.rpartition("::")[2] for name in cpp.node_names()}
+    classes = "|".join(sorted({*cpp.own_classes(), *cpp.handles(), *nodes})).encode()
+    in_python = "|".join(sorted(python.asking_names())).encode()
+    return (
+        re.compile(
+            rb"\b(?:" + names + rb")\s*\(\s*(?:const\b|std::|rclcpp::|ros::)[\w:<> ]+[&*\s]\s*\w+"
+        ),
+        re.compile(rb"\b(?:class|struct)\s+(?:" + classes + rb")\b"),
+        re.compile(rb"\bdef\s+(?:" + in_python + rb")\s*\("),
+    )
 
 
 def _is_program(name: str, text: bytes) -> bool:

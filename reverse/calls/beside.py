@@ -14,26 +14,26 @@ from rebsync.reverse.syntax.cpp_tree import Cpp
 
 
 def without_unused(facts: Iterable[Fact], files: Sequence[Cpp]) -> Iterator[Fact]:
-    """The facts but for those of classes of other packages of which no object is made."""
+    """The facts but for those of classes and functions of other packages that nothing uses."""
     used: dict[str, bool] = {}
     for fact in facts:
-        owner = _class_beside(fact)
-        if owner and owner not in used:
-            used[owner] = is_made(owner, files)
-        if not owner or used[owner]:
+        owner = fact.site.owner or ""
+        if fact.site.cpp.is_beside and owner not in used:
+            is_class = fact.site.function is None or fact.site.function.owner
+            used[owner] = (is_made if is_class else is_named)(owner, files)
+        if not fact.site.cpp.is_beside or used[owner]:
             yield fact
+
+
+def is_named(name: str, files: Iterable[Cpp]) -> bool:
+    """Whether the own files of a package name a function of another one, or several files do."""
+    found = [each for each in files if name.encode() in each.words]
+    return len(found) > 2 or any(not each.is_beside for each in found)
 
 
 def is_made(name: str, files: Iterable[Cpp]) -> bool:
     """Whether objects of a class of another package may be made: its name stands for one."""
     return any(_is_used_in(name, each) for each in files)
-
-
-def _class_beside(fact: Fact) -> str:
-    """The class of another package that a fact belongs to; or empty."""
-    site = fact.site
-    is_of_class = site.function is None or site.function.owner
-    return site.owner or "" if site.cpp.is_beside and is_of_class else ""
 
 
 def _is_used_in(name: str, file: Cpp) -> bool:

@@ -16,7 +16,9 @@ from rebsync.reverse.files.stores import Disk, Entry, Store, join
 from rebsync.trees import is_within, tree_of_code
 
 MANIFEST = "package.xml"
-BESIDE = "../"  # how the path of a file begins that another package of the workspace has
+BESIDE = (
+    "~/"  # how the path of a file begins that another package of the workspace has: after all own
+)
 HEADERS = frozenset({".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp", ".inl", ".H"})
 CODE = HEADERS | {".c", ".cc", ".cpp", ".cxx", ".c++", ".C", ".cu"}
 _EXECUTABLE = 0o111
@@ -204,7 +206,7 @@ def is_read(name: str, inside: str) -> bool:
 def owner_of(path: str, package: str) -> str:
     """The name of the package that a file is of, by its path among those of a package.
 
-    Of another one it is `../NAME/path`, whatever directory that is in.
+    Of another one it is `~/NAME/path`, whatever directory that is in.
     """
     return path.split("/", 2)[1] if path.startswith(BESIDE) else package
 
