@@ -63,3 +63,23 @@ def write_output(output: str, text: str) -> None:
     from rebsync.writing import replace_text
 
     replace_text(output, text)
+
+
+def serve_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options of what is shown by a page that is served."""
+    for option in (
+        click.option(
+            "--port",
+            type=click.IntRange(0, 65535),
+            default=0,
+            metavar="N",
+            help="With --serve: the port (default: any that is free).",
+        ),
+        click.option(
+            "--serve",
+            is_flag=True,
+            help="Serve a page on this machine that follows every possible step.",
+        ),
+    ):
+        command = option(command)
+    return command

@@ -26,7 +26,8 @@ def states_table(trace: Trace, name: str, ending: str | None) -> Markup:
 def _head(trace: Trace) -> Markup:
     rebecs = trace.steps[0].rebecs
     fixed = [
-        element("th", text, rowspan="2", scope="col") for text in ("step", "time", "what", "line")
+        element("th", text, rowspan="2", scope="col", class_=kind)
+        for text, kind in (("step", "at"), ("time", "when"), ("what", None), ("line", None))
     ]
     groups = [
         element("th", rebec.name, colspan=str(len(rebec.variables) + 1), scope="colgroup")
@@ -52,8 +53,8 @@ def _row(
     line = element("a", str(step.line), href=f"#L{step.line}") if step.line else None
     return element(
         "tr",
-        element("th", str(step.number), scope="row"),
-        element("td", f"{step.time:,}", class_="number"),
+        element("th", str(step.number), scope="row", class_="at"),
+        element("td", f"{step.time:,}", class_="number when"),
         element("td", *what, class_="what"),
         element("td", line, class_="number"),
         *_cells(step, before),

@@ -18,6 +18,7 @@ from rebsync.checker.show.movement import movement_section
 from rebsync.checker.show.movement_board import Board, drawing
 from rebsync.checker.show.movement_data import frames, scene
 from rebsync.checker.show.page import trace_page
+from rebsync.checker.show.page_run import RunDetails
 from rebsync.checker.trace import Trace
 from rebsync.files import read_source
 from tests.checker.movement.moving import EXAMPLES, analysed, example_run, moved, run_of
@@ -69,7 +70,7 @@ def page(unsafe: tuple[Trace, Movement], tmp_path: Path) -> Path:
     """The page of that run."""
     path = tmp_path / "page.html"
     trace, movement = unsafe
-    text = trace_page(trace, read_source(str(UNSAFE)), lambda _: movement)
+    text = trace_page(trace, read_source(str(UNSAFE)), RunDetails(lambda _: movement))
     path.write_text(text, encoding="utf-8")
     return path
 
