@@ -100,7 +100,7 @@
     }
 
     root.addEventListener('click', (event) => {
-      const button = event.target.closest('[data-time]');
+      const button = event.target.closest('button[data-time]');
       if (!button) return;
       host.dispatchEvent(new CustomEvent('timewanted', { detail: Number(button.dataset.time) }));
     });

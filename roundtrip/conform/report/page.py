@@ -34,7 +34,7 @@ body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5em; color: #222; backgro
 .conforms { background: #cfc; } .deviates, .violated { background: #fcc; }
 .plot .axis { stroke: #888; } .plot .zero { stroke: #ccc; } .plot circle { fill: #247; }
 .plot circle.greatest { fill: #c22; } .plot text { font-size: 12px; fill: #444; }
-.heads { display: none; } table.lines code { white-space: pre; }
+.heads, .gutter { display: none; } table.lines code { white-space: pre; }
 .times { overflow-x: auto; } .times table { border-collapse: collapse; font-size: 13px; }
 .times td, .times th { padding: 2px 8px; text-align: left; border-bottom: 1px solid #ddd; }
 table.lines { border-collapse: collapse; font-size: 13px; }
