@@ -19,6 +19,8 @@ from contextlib import suppress
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
+import click
+
 from rebsync.records import dataclass
 from rebsync.terminal import say
 
@@ -51,8 +53,12 @@ class Live:
 
 
 def serve(live: Live, port: int = 0) -> None:
-    """Serves until it is interrupted; port 0 is any that is free. Raises OSError."""
-    with LiveServer(live, port) as server:
+    """Serves until it is interrupted; port 0 is any that is free. UsageError: it is taken."""
+    try:
+        server = LiveServer(live, port)
+    except OSError as error:
+        raise click.UsageError(f"port {port} cannot be used: {error.strerror}") from None
+    with server:
         say(f"the page is at {server.address}", err=True)
         say("Ctrl-C ends", err=True)
         gc.enable()  # it may go on for long

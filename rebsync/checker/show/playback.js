@@ -62,6 +62,13 @@
       tell();
     }
 
+    // A time that somebody points at: that of a step, if one is near.
+    function snapped(at) {
+      const near = steps.map((each) => each[1])
+        .reduce((best, each) => (Math.abs(each - at) < Math.abs(best - at) ? each : best));
+      return Math.abs(near - at) <= (end - begin) / 100 ? near : at;
+    }
+
     function stop() {
       if (playing) cancelAnimationFrame(playing);
       playing = 0;
@@ -127,6 +134,7 @@
       if (isTimed) toTime(Number(slider.value));
       else toPosition(Number(slider.value));
     });
+    host.addEventListener('timenear', (event) => toTime(snapped(event.detail)));
     host.addEventListener('timewanted', (event) => toTime(event.detail));
     host.addEventListener('positionwanted', (event) => toPosition(event.detail));
     host.addEventListener('stepselected', (event) => {

@@ -29,7 +29,7 @@
       if (!drawn) return;
       const there = drawn.getBoundingClientRect();
       const at = begin + ((event.clientX - there.left) / there.width) * span;
-      if (isTimed) host.dispatchEvent(new CustomEvent('timewanted', { detail: at }));
+      if (isTimed) host.dispatchEvent(new CustomEvent('timenear', { detail: at }));
       else host.dispatchEvent(new CustomEvent('positionwanted', { detail: Math.round(at) }));
     });
   }
