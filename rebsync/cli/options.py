@@ -29,6 +29,18 @@ def format_option(command: _Command) -> _Command:
     return option(command)
 
 
+def names_option(command: _Command) -> _Command:
+    """`--property-name NAME`, several times, as the argument `names`."""
+    option = click.option(
+        "--property-name",
+        "names",
+        multiple=True,
+        metavar="NAME",
+        help="Check the properties of these names only.",
+    )
+    return option(command)
+
+
 def output_option(command: _Command) -> _Command:
     """`-o FILE`, as the argument `output`."""
     option = click.option(

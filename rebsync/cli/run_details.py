@@ -51,9 +51,14 @@ def live_in(problem: Problem, semantics: Semantics, page: Callable[[RunDetails],
 
 def _details(problem: Problem, teller: Teller) -> RunDetails:
     from rebsync.checker.branching import branchings
+    from rebsync.checker.falsified import falsified_in
     from rebsync.checker.show.page_run import RunDetails
 
-    return RunDetails(moving_in(problem), lambda trace: branchings(teller, trace))
+    return RunDetails(
+        moving_in(problem),
+        lambda trace: branchings(teller, trace),
+        falsified_in(problem, teller.view.semantics),
+    )
 
 
 def _teller(problem: Problem, semantics: Semantics) -> Teller:

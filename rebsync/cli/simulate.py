@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rebsync.cli.options import serve_options
+from rebsync.cli.options import names_option, serve_options
 from rebsync.cli.problem import keep_what_is_read, measured, read_problem
 from rebsync.cli.runs import STYLES, serve_run, write_run
 from rebsync.cli.status import Status
@@ -32,6 +32,7 @@ _FEWEST = 30  # runs, from which on means are about normally distributed
 @click.command("simulate")
 @click.argument("model", metavar="MODEL")
 @view_options
+@names_option
 @click.option("--seed", type=int, metavar="N", help="Chance that can be repeated.")
 @click.option("--until", type=click.IntRange(0), metavar="T", help="End at the time T.")
 @click.option(
@@ -84,6 +85,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     if given["serve"] and (given["interactive"] or given["runs"] or given["measures"]):
         raise click.UsageError("--serve shows one run: leave --interactive and --runs out")
     problem = read_problem(model, given["property_file"], untimed=given["language"] == "core")
+    problem = problem.named(given["names"])
     keep_what_is_read(problem, output)
     if given["runs"] or given["measures"]:
         return _many(measured(problem, given["measures"]), given, output)

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from rebsync.cli.amounts import amount, duration
-from rebsync.cli.options import serve_options
-from rebsync.cli.problem import keep_what_is_read, measured, named, read_problem
+from rebsync.cli.options import names_option, serve_options
+from rebsync.cli.problem import keep_what_is_read, measured, read_problem
 from rebsync.cli.status import STATUS_OF, Status, worst
 from rebsync.cli.verify_output import write_result
 from rebsync.diagnostics import RebsyncError
@@ -64,13 +64,7 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     help="Of a package: what comes from outside: anything (the default), nothing, or what the "
     "classes of FILE send.",
 )
-@click.option(
-    "--property-name",
-    "names",
-    multiple=True,
-    metavar="NAME",
-    help="Check the properties of these names only.",
-)
+@names_option
 @click.option("--model", "written", metavar="FILE", help="Of a package: write its model to FILE.")
 @click.option(
     "--engine",
@@ -220,7 +214,7 @@ def _one(model: str, given: dict[str, Any], output: str) -> Status:
         raise click.UsageError("--serve shows what was found: leave --replay and --export out")
     if given["symmetry"] and (given["states"] or given["export"]):
         raise click.UsageError("--states and --export write all states: leave --symmetry out")
-    problem = named(_read(model, given), given["names"])
+    problem = _read(model, given).named(given["names"])
     keep_what_is_read(problem, output, given["states"], replayed=given["replay"])
     problem = measured(problem, given["measures"], given["between"])
     if given["replay"] is not None:
@@ -256,7 +250,7 @@ def _swept(model: str, given: dict[str, Any], output: str) -> Status:
     if any(given[name] for name in ("replay", "states", "export", "violation", "serve")):
         raise click.UsageError("--for-all prints a table only, without runs and states")
     asked = given["measures"], given["between"]
-    problem = measured(named(_read(model, given), given["names"]), *asked)
+    problem = measured(_read(model, given).named(given["names"]), *asked)
     keep_what_is_read(problem, output)
     options = _options({**given, "everything": not given["stop_at"]}, model)
     rows = sweep(problem, asked, parameters, options, untimed=given["language"] == "core")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rebsync.checker.branching import Branches, Branchings, unbranched
+from rebsync.checker.falsified import Falsified, unasserted
 from rebsync.checker.movement.ways import Movement, Moving, nowhere
 from rebsync.checker.result import Violation
 from rebsync.checker.show import words
@@ -27,11 +28,13 @@ FOLLOWED = 0  # the number of the run that somebody follows; those of the page c
 class RunDetails:
     """What a page shows of a run besides its steps: how robots move, and what else could happen.
 
-    `live` is the address by which other steps are followed; None in a page that stands alone.
+    `falsified` tells the assertions that are false in the states of a run. `live` is the address by
+    which other steps are followed; None in a page that stands alone.
     """
 
     moving: Moving = nowhere
     branches: Branches = unbranched
+    falsified: Falsified = unasserted
     live: str | None = None
 
 
@@ -47,6 +50,7 @@ class Shown:
     trace: Trace
     movement: Movement | None
     branchings: Branchings
+    falsified: tuple[tuple[str, ...], ...] = ()  # of each step; of a violation, its message says it
     message: str = ""
     place: str | None = None  # the target of a link in the page
     ending: str | None = None
@@ -54,7 +58,9 @@ class Shown:
 
 def shown_run(heading: str, trace: Trace, details: RunDetails) -> Shown:
     """A run in which nothing is wrong but what its steps say."""
-    return Shown(heading, trace, details.moving(trace), details.branches(trace))
+    return Shown(
+        heading, trace, details.moving(trace), details.branches(trace), details.falsified(trace)
+    )
 
 
 def shown_violation(
@@ -71,7 +77,7 @@ def shown_violation(
         place = f"P{violation.line}"
     message = violation.message + (f": {violation.formula}" if violation.formula else "")
     found = details.moving(trace), details.branches(trace)
-    return Shown(words.title(violation), trace, *found, message, place, ending)
+    return Shown(words.title(violation), trace, *found, message=message, place=place, ending=ending)
 
 
 def followed_run(trace: Trace, details: RunDetails) -> str:
@@ -114,7 +120,7 @@ def _chart(run: Shown, name: str) -> Markup:
 
 
 def _states(run: Shown, name: str) -> Markup:
-    table = states_table(run.trace, name, run.ending)
+    table = states_table(run.trace, name, run.ending, run.falsified)
     return element(
         "div", table, class_="pane view-states", tabindex="0", aria_label="States", role="group"
     )
