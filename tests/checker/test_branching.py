@@ -11,6 +11,7 @@ from rebsync.checker.branching import MOST_TOLD, NoSuchStep, branchings, run_alo
 from rebsync.checker.lowering import lower
 from rebsync.checker.problem import Problem
 from rebsync.checker.simulate import by_chance, walk
+from rebsync.checker.state import State
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.checker.telling import Teller
 from rebsync.checker.trace import Trace
@@ -81,7 +82,7 @@ def test_every_possible_step_is_told_and_can_be_followed(model: Path, semantics:
     found = branchings(teller, trace)
     assert [each.taken for each in found[: len(ordinals)]] == ordinals
     assert len(found) == len(ordinals) + without_end(trace)
-    state = ()
+    state: State = ()
     for number, branching in enumerate(found):
         steps = teller.view.steps(state) if number else teller.view.initial_states()
         assert branching.count == len(steps)

@@ -814,7 +814,7 @@ _LOADED = """
 import sys
 from rebsync.cli import main
 status = main(["check", *sys.argv[1:]])
-heavy = {"lark", "tree_sitter", "jinja2", "libcst", "rich", "rebsync.model"} & set(sys.modules)
+heavy = {"lark", "tree_sitter", "jinja2", "libcst", "rebsync.model"} & set(sys.modules)
 print(status, sorted(heavy))
 """
 
