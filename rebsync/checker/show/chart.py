@@ -67,7 +67,10 @@ def _gutter(layout: Chart) -> Markup:
         for p in layout.rows
     ]
     times = [
-        element("text", f"{time:,}", class_="time", x=GUTTER - 14, y=y + 20)
+        joined(
+            element("line", class_="time", x1=14, y1=y, x2=GUTTER, y2=y),
+            element("text", f"{time:,}", class_="time", x=GUTTER - 14, y=y + 20),
+        )
         for time, y in layout.bands
     ]
     return element(
@@ -75,7 +78,7 @@ def _gutter(layout: Chart) -> Markup:
         joined(_background(), *rows, *times),
         class_="msc",
         width=GUTTER - 8,
-        height=layout.height,
+        height=layout.height - LINE,
         aria_hidden="true",
     )
 

@@ -86,7 +86,8 @@
   // Scrolling across hides what happens in a step: only a variable that cannot be seen is worth it.
   function revealRow(row) {
     const pane = row.closest('.pane');
-    const changed = row.querySelector('.changed:not(:has(.bag))');
+    const wrong = row.classList.contains('wrong'); // then what is wrong has to be read first
+    const changed = row.querySelector(wrong ? '.what' : '.changed:not(:has(.bag))');
     reveal(around([row]), pane);
     if (!changed) return;
     const place = around([changed]);
