@@ -46,7 +46,11 @@ def live_in(problem: Problem, semantics: Semantics, page: Callable[[RunDetails],
         except NoSuchStep as missing:
             raise Refused(f"step {missing.number} cannot be made: {missing}") from None
 
-    return Live(lambda address: page(replace(details, live=address)), follow)
+    try:
+        start = run_along(teller, (0,))
+    except NoSuchStep:
+        start = None
+    return Live(lambda address: page(replace(details, live=address, start=start)), follow)
 
 
 def _details(problem: Problem, teller: Teller) -> RunDetails:

@@ -52,6 +52,8 @@ def result_page(
         if measure.undefined is not None:
             heading = f"{measure.expression} has no value"
             runs.append(shown_run(heading, measure.undefined, details))
+    if not runs and details.start is not None:
+        runs.append(shown_run("The start", details.start, details))
     texts = _Texts(source, result.coverage, property_source)
     return _page(texts, _summary(result), runs, details.live)
 

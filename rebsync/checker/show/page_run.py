@@ -29,13 +29,15 @@ class RunDetails:
     """What a page shows of a run besides its steps: how robots move, and what else could happen.
 
     `falsified` tells the assertions that are false in the states of a run. `live` is the address by
-    which other steps are followed; None in a page that stands alone.
+    which other steps are followed; None in a page that stands alone. `start` is the run from which
+    they are followed in a page that has no other.
     """
 
     moving: Moving = nowhere
     branches: Branches = unbranched
     falsified: Falsified = unasserted
     live: str | None = None
+    start: Trace | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -377,6 +377,23 @@ def test_a_live_page_follows_other_steps(chromium: Browser, server: LiveServer) 
     assert chromium.run("return document.querySelector('.run.on').id") == "v1"
 
 
+def test_where_nothing_was_found_the_start_can_be_followed(
+    chromium: Browser, tmp_path: Path
+) -> None:
+    problem = read_problem(str(EXAMPLES / "experiment3" / "experiment3.rebeca"), None)
+    found = verify(problem, Options())
+    assert (found.verdict, found.violations) == ("satisfied", ())
+    live = live_in(problem, "tts", lambda each: result_page(found, problem.source, None, each))
+    with LiveServer(live) as server:
+        thread = threading.Thread(target=server.serve_forever, args=(0.01,))
+        thread.start()
+        chromium.command("POST", "url", {"url": server.address})
+        went = followed(chromium, "robot1")
+        server.shutdown()
+        thread.join()
+    assert (went["tabs"], went["row"]) == (["The start", "what if"], "v0-s1")
+
+
 FAILED = """
     const done = arguments[0];
     document.querySelector('.branches button').click();
