@@ -30,7 +30,6 @@ def branches_section(live: str | None) -> Markup:
         class_="branches",
         id="branches",
         data_live=live,
-        aria_live="polite",
         tabindex="0",
     )
 

@@ -45,8 +45,13 @@
     }
   }
 
+  // What is beside the panes may take some of their room.
+  const sizes = new ResizeObserver(() => step !== null && revealSelected());
+
   function show(number) {
     run = runs[number];
+    sizes.disconnect();
+    run.querySelectorAll('.panes > .pane').forEach((pane) => sizes.observe(pane));
     runs.forEach((each) => each.classList.toggle('on', each === run));
     document.querySelectorAll('nav a').forEach((tab) => {
       if (tab.dataset.run === run.dataset.run) tab.setAttribute('aria-current', 'true');
@@ -89,7 +94,8 @@
     const wrong = row.classList.contains('wrong'); // then what is wrong has to be read first
     const changed = row.querySelector(wrong ? '.what' : '.changed:not(:has(.bag))');
     reveal(around([row]), pane);
-    if (!changed) return;
+    // Without the chart nothing else says what happens.
+    if (!changed || !(wrong || run.querySelector('.chart').checkVisibility())) return;
     const place = around([changed]);
     const seen = Math.min(place.right, place.left + 80);
     revealAcross(seen <= pane.getBoundingClientRect().right ? { ...place, right: seen } : place, pane);

@@ -239,9 +239,9 @@ IN_VIEW = """
     const hit = (part) => {
         const box = part.getBoundingClientRect();
         const found = document.elementFromPoint(box.left + box.width / 2, box.top + 8);
-        return found === part;
+        return part.contains(found);
     };
-    const texts = ['.at', '.when'].map((name) => row.querySelector(name));
+    const texts = ['.at', '.when', '.what'].map((name) => row.querySelector(name));
     return {
         row: row.dataset.step,
         shown: texts.every((part) => inside(part, pane) && hit(part)),
@@ -276,6 +276,21 @@ def test_it_opens_on_the_violation_with_step_and_time_in_view(
         "wide": 0,
         "scrolled": [0, 0],
     }
+
+
+def test_the_step_stays_in_view_when_other_parts_grow(chromium: Browser, page: Path) -> None:
+    page.write_text(page_of([0, *[0] * 30]), encoding="utf-8")
+    chromium.resize(800, 1100)
+    try:
+        chromium.open(page)
+        before = chromium.run("return document.querySelector('.view-states').clientHeight")
+        chromium.run("document.querySelectorAll('.branches details').forEach((d) => d.open = true)")
+        painted = "requestAnimationFrame(() => requestAnimationFrame(arguments[0]))"
+        chromium.command("POST", "execute/async", {"script": painted, "args": []})
+        assert chromium.run("return document.querySelector('.view-states').clientHeight") < before
+        assert chromium.run(IN_VIEW)["shown"]
+    finally:
+        chromium.resize(1700, 1000)
 
 
 def test_parts_can_be_hidden_and_shown(chromium: Browser, page: Path) -> None:
