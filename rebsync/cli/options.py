@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeVar
@@ -75,6 +75,14 @@ def write_output(output: str, text: str) -> None:
     from rebsync.writing import replace_text
 
     replace_text(output, text)
+
+
+def check_served(given: Mapping[str, Any], output: str) -> None:
+    """A UsageError where something is to be served, and written as well."""
+    if given["serve"] and (given["style"] != "text" or output != "-"):
+        raise click.UsageError("--serve shows a page: leave --format and --output out")
+    if given["port"] and not given["serve"]:
+        raise click.UsageError("--port is that of --serve")
 
 
 def serve_options(command: Callable[..., Any]) -> Callable[..., Any]:

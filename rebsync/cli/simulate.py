@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rebsync.cli.options import names_option, serve_options
+from rebsync.cli.options import check_served, names_option, serve_options
 from rebsync.cli.problem import keep_what_is_read, measured, read_problem
 from rebsync.cli.runs import STYLES, serve_run, write_run
 from rebsync.cli.status import Status
@@ -82,6 +82,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     given = ctx.params
     if given["interactive"] and given["seed"] is not None:
         raise click.UsageError("--interactive and --seed exclude each other")
+    check_served(given, output)
     if given["serve"] and (given["interactive"] or given["runs"] or given["measures"]):
         raise click.UsageError("--serve shows one run: leave --interactive and --runs out")
     problem = read_problem(model, given["property_file"], untimed=given["language"] == "core")

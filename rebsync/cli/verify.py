@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from rebsync.cli.amounts import amount, duration
-from rebsync.cli.options import names_option, serve_options
+from rebsync.cli.options import check_served, names_option, serve_options
 from rebsync.cli.problem import keep_what_is_read, measured, read_problem
 from rebsync.cli.status import STATUS_OF, Status, worst
 from rebsync.cli.verify_output import write_result
@@ -170,6 +170,7 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
 
     given = ctx.params
     check_name(given["states"], output)
+    check_served(given, output)
     models = _models_in(model)
     if not models:
         return _one(model, given, output)

@@ -187,6 +187,22 @@ def test_it_ends_in_order_when_interrupted(tmp_path: Path, command: str, status:
     assert "Traceback" not in err
 
 
+@pytest.mark.parametrize("command", ["simulate", "verify"])
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--serve", "--format", "html"], "leave --format and --output out"),
+        (["--serve", "-o", "page.html"], "leave --format and --output out"),
+        (["--port", "8080"], "--port is that of --serve"),
+    ],
+)
+def test_what_is_served_is_not_written(
+    tmp_path: Path, command: str, options: list[str], said: str
+) -> None:
+    done = rebsync(command, EXAMPLE, *options, cwd=tmp_path)
+    assert (done.status, said in done.err, list(tmp_path.iterdir())) == (2, True, [])
+
+
 def test_a_port_that_is_taken_is_told(tmp_path: Path, server: LiveServer) -> None:
     done = rebsync("simulate", EXAMPLE, "--serve", "--port", str(server.server_port), cwd=tmp_path)
     assert done.status == 2
