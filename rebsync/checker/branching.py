@@ -6,6 +6,7 @@ The steps are those of the successor function of a view, told by the same `Telle
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from random import Random
 from typing import TypeAlias
 
 from rebsync.checker.endless import EndlessBody, endless_reason
@@ -87,20 +88,24 @@ class NoSuchStep(Exception):
         self.number = number
 
 
-def run_along(teller: Teller, ordinals: Sequence[int]) -> Trace:
+def run_along(teller: Teller, ordinals: Sequence[int], by_chance: int = 0) -> Trace:
     """The run along the ordinals of an initial state, and of a step in each state.
 
-    Raises NoSuchStep. The first step that fails must be the last one.
+    It goes on by chance for so many steps, or until none is possible, or known. Raises NoSuchStep.
+    A step that fails must be the last one.
     """
     state: State = ()
     time = 0
     told: list[TraceStep] = []
-    for number, ordinal in enumerate(ordinals):
-        if told and told[-1].failure is not None:
-            raise NoSuchStep(number, "nothing is possible after a step that fails")
-        steps = _steps(teller, state)
+    random = Random()
+    for number in range(len(ordinals) + by_chance):
+        is_asked = number < len(ordinals)
+        steps = _possible(teller, state, told)
+        if not is_asked and (isinstance(steps, str) or len(steps) == 0):
+            break
         if isinstance(steps, str):
             raise NoSuchStep(number, steps)
+        ordinal = ordinals[number] if is_asked else random.randrange(len(steps))
         if not 0 <= ordinal < len(steps):
             raise NoSuchStep(number, f"there are {len(steps)} possible steps")
         step = steps[ordinal]
@@ -108,6 +113,13 @@ def run_along(teller: Teller, ordinals: Sequence[int]) -> Trace:
         if not isinstance(step.result, Failure):
             state, time = step.result, time + step.time
     return Trace(teller.source.path, teller.view.semantics, tuple(told))
+
+
+def _possible(teller: Teller, state: State, told: Sequence[TraceStep]) -> Sequence[Step] | str:
+    """The possible steps after those that were told, or why there are none that are known."""
+    if told and told[-1].failure is not None:
+        return "nothing is possible after a step that fails"
+    return _steps(teller, state)
 
 
 def _branching(

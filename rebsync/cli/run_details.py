@@ -40,9 +40,9 @@ def live_in(problem: Problem, semantics: Semantics, page: Callable[[RunDetails],
     teller = _teller(problem, semantics)
     details = _details(problem, teller)
 
-    def follow(ordinals: tuple[int, ...]) -> str:
+    def follow(ordinals: tuple[int, ...], by_chance: int) -> str:
         try:
-            return followed_run(run_along(teller, ordinals), details)
+            return followed_run(run_along(teller, ordinals, by_chance), details)
         except NoSuchStep as missing:
             raise Refused(f"step {missing.number} cannot be made: {missing}") from None
 

@@ -27,6 +27,7 @@ from rebsync.terminal import say
 HOST = "127.0.0.1"
 _LONGEST = 1 << 20  # bytes of what may be sent
 _MOST_STEPS = 100_000  # of a run that is asked for
+_MOST_BY_CHANCE = 1000
 _PATIENCE = 30.0  # s, within which a request must have come
 _HEADERS = {
     "Cache-Control": "no-store",
@@ -45,11 +46,11 @@ class Refused(Exception):
 class Live:
     """What is served: the page, by the address that it asks; and the part of a run along ordinals.
 
-    `follow` raises Refused.
+    `follow` also takes how many steps more are made by chance. It raises Refused.
     """
 
     page: Callable[[str], str]
-    follow: Callable[[tuple[int, ...]], str]
+    follow: Callable[[tuple[int, ...], int], str]
 
 
 def serve(live: Live, port: int = 0) -> None:
@@ -109,9 +110,9 @@ class _Handler(BaseHTTPRequestHandler):
             self._refuse(HTTPStatus.FORBIDDEN, "this comes from another page")
             return
         try:
-            ordinals = _ordinals(self._body())
+            asked = _asked(self._body())
             with self.server.lock:
-                part = self.server.live.follow(ordinals)
+                part = self.server.live.follow(*asked)
         except Refused as refused:
             self._refuse(HTTPStatus.BAD_REQUEST, str(refused))
             return
@@ -153,15 +154,17 @@ class _Handler(BaseHTTPRequestHandler):
             self.wfile.write(content)
 
 
-def _ordinals(body: bytes) -> tuple[int, ...]:
-    """The ordinals of `{"path": [...]}`. Raises Refused."""
+def _asked(body: bytes) -> tuple[tuple[int, ...], int]:
+    """The ordinals of `{"path": [...], "chance": 0}`, and the steps by chance. Raises Refused."""
     try:
         found = json.loads(body)
-        path = found["path"]
+        path, chance = found["path"], found["chance"]
     except (ValueError, RecursionError, KeyError, TypeError):
         raise Refused("what is sent has no path") from None
     if not isinstance(path, list) or not 0 < len(path) <= _MOST_STEPS:
         raise Refused(f"a path is a list of at most {_MOST_STEPS} numbers")
-    if not all(type(each) is int and each >= 0 for each in path):
+    if not all(type(each) is int and each >= 0 for each in (*path, chance)):
         raise Refused("a path is a list of whole numbers")
-    return tuple(path)
+    if chance > _MOST_BY_CHANCE:
+        raise Refused(f"at most {_MOST_BY_CHANCE} steps are made by chance at once")
+    return tuple(path), chance

@@ -144,3 +144,18 @@ def test_a_run_of_another_model_ends_where_it_differs() -> None:
     trace = run_along(teller_of(analysed(MANY)), [0, 17])
     found = branchings(teller_of(analysed(CHOICES)), trace)
     assert [each.taken for each in found] == [0, None]
+
+
+def test_a_run_goes_on_by_chance_until_it_ends() -> None:
+    teller = teller_of(analysed(MANY))
+    ended = run_along(teller, [0], by_chance=50)
+    assert [step.kind for step in ended.steps] == ["start", "take"]
+    endless = run_along(teller_of(analysed(ENDLESS)), [0], by_chance=50)
+    assert len(endless.steps) == 2
+    (choices, many) = (analysed(CHOICES), 20)
+    ends = {run_along(teller_of(choices), [0], by_chance=5).steps[1].choices for _ in range(many)}
+    assert ends == {("1",), ("2",)}  # but for one chance in half a million
+    failed = [run_along(teller_of(choices), [0, 1], by_chance=5) for _ in range(3)]
+    assert {len(run.steps) for run in failed} == {2}
+    with pytest.raises(NoSuchStep):
+        run_along(teller, [1], by_chance=5)

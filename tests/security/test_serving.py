@@ -23,11 +23,11 @@ EXAMPLE = str(ROOT / "examples" / "experiment2_unsafe" / "experiment2_unsafe.reb
 JSON = {"Content-Type": "application/json"}
 
 
-def follow(ordinals: tuple[int, ...]) -> str:
+def follow(ordinals: tuple[int, ...], by_chance: int) -> str:
     """What is served of a run, in these tests."""
     if 9 in ordinals:
         raise Refused("step 9 cannot be made")
-    return f"ran {list(ordinals)}"
+    return f"ran {list(ordinals)}, {by_chance} by chance"
 
 
 @pytest.fixture
@@ -68,8 +68,11 @@ def posted(server: LiveServer, body: object, **changed: str) -> tuple[int, str]:
 
 def test_the_page_and_a_run_are_answered(server: LiveServer) -> None:
     assert asked(server, "GET", server.base) == (200, f"page {server.base}run")
-    assert posted(server, {"path": [0, 1, 2]}) == (200, "ran [0, 1, 2]")
-    assert posted(server, {"path": [9]}) == (400, "step 9 cannot be made")
+    assert posted(server, {"path": [0, 1, 2], "chance": 7}) == (
+        200,
+        "ran [0, 1, 2], 7 by chance",
+    )
+    assert posted(server, {"path": [9], "chance": 0}) == (400, "step 9 cannot be made")
 
 
 def test_only_this_machine_can_ask(server: LiveServer) -> None:
@@ -109,7 +112,7 @@ def test_other_addresses_lead_nowhere(server: LiveServer, method: str, path: str
 def test_a_name_that_leads_here_is_refused(server: LiveServer, host: str) -> None:
     named = host.replace("PORT", str(server.server_port))
     assert asked(server, "GET", server.base, {"Host": named})[0] == 403
-    assert posted(server, {"path": [0]}, Host=named)[0] == 403
+    assert posted(server, {"path": [0], "chance": 0}, Host=named)[0] == 403
 
 
 @pytest.mark.parametrize(
@@ -117,22 +120,24 @@ def test_a_name_that_leads_here_is_refused(server: LiveServer, host: str) -> Non
 )
 def test_other_pages_cannot_ask(server: LiveServer, origin: str) -> None:
     named = origin.replace("PORT", str(server.server_port))
-    assert posted(server, {"path": [0]}, Origin=named)[0] == 403
+    assert posted(server, {"path": [0], "chance": 0}, Origin=named)[0] == 403
 
 
 def test_a_request_without_origin_is_refused(server: LiveServer) -> None:
-    assert asked(server, "POST", f"{server.base}run", JSON, b'{"path": [0]}')[0] == 403
+    assert asked(server, "POST", f"{server.base}run", JSON, b'{"path": [0], "chance": 0}')[0] == 403
 
 
 def test_forms_of_other_pages_are_no_requests(server: LiveServer) -> None:
-    assert posted(server, {"path": [0]}, Content_Type="text/plain")[0] == 400
+    assert posted(server, {"path": [0], "chance": 0}, Content_Type="text/plain")[0] == 400
 
 
 @pytest.mark.parametrize(
     "body",
-    [b"", b"{", b"[]", b"1", b"null", b'{"path": 1}', b'{"path": []}', b'{"path": ["0"]}',
-     b'{"path": [-1]}', b'{"path": [true]}', b'{"path": [0.5]}', b"[" * 5000, b"\xff",
-     b'{"path": [' + b"0," * 100_001 + b"0]}"],
+    [b"", b"{", b"[]", b"1", b"null", b'{"path": [0]}', b'{"chance": 0}',
+     *(b'{"chance": 0, "path": %b}' % path for path in (
+         b"1", b"[]", b'["0"]', b"[-1]", b"[true]", b"[0.5]", b"[" + b"0," * 100_001 + b"0]")),
+     *(b'{"path": [0], "chance": %b}' % chance for chance in (b"-1", b"1001", b"true", b"[]")),
+     b"[" * 5000, b"\xff"],
 )  # fmt: skip
 def test_what_is_no_path_is_refused(server: LiveServer, body: bytes) -> None:
     assert posted(server, body)[0] == 400

@@ -5,6 +5,7 @@
   const possible = panel.querySelector('.possible');
   const { live } = panel.dataset;
   const known = new WeakMap();
+  const CHANCE = 10; // steps that are made by chance at once
 
   function branchesOf(run) {
     if (!known.has(run)) {
@@ -27,15 +28,13 @@
     return taken.length < position || taken.includes(undefined) ? null : taken.map((s) => s.ordinal);
   }
 
-  async function follow(run, position, ordinal) {
-    const path = pathTo(run, position);
-    if (!path) return;
+  async function follow(path, chance) {
     panel.toggleAttribute('aria-busy', true);
     try {
       const answer = await fetch(live, {
         method: 'POST',
         headers: { 'Content-Type': 'application/json' },
-        body: JSON.stringify({ path: [...path, ordinal] }),
+        body: JSON.stringify({ path, chance }),
       });
       const text = await answer.text();
       if (!answer.ok) throw new Error(text);
@@ -48,6 +47,15 @@
     }
   }
 
+  // A button that asks for a run, which goes on by chance for some steps.
+  function asking(text, title, path, chance) {
+    const button = element('button', '', text);
+    button.type = 'button';
+    button.title = title;
+    button.addEventListener('click', () => follow(path, chance));
+    return button;
+  }
+
   function option(run, position, step) {
     const told = element('summary', '', step.what);
     if (step.failure) told.append(element('strong', '', step.failure));
@@ -57,11 +65,8 @@
     const item = element('li', step.taken ? 'taken' : '', details);
     if (step.taken) item.append(element('em', '', 'this run'));
     else if (live && pathTo(run, position)) {
-      const button = element('button', '', 'Follow');
-      button.type = 'button';
-      button.title = `Follow: ${step.what}`;
-      button.addEventListener('click', () => follow(run, position, step.ordinal));
-      item.append(button);
+      const path = [...pathTo(run, position), step.ordinal];
+      item.append(asking('Follow', `Follow: ${step.what}`, path, 0));
     }
     return item;
   }
@@ -89,7 +94,13 @@
     const failed = here && here.steps.some((step) => step.taken && step.failure);
     if (!failed) {
       const end = 'Nothing: the run ends here.';
-      parts.push(...listed(run, position + 1, `After step ${number}`, found[position + 1], end));
+      const next = found[position + 1];
+      parts.push(...listed(run, position + 1, `After step ${number}`, next, end));
+      const path = live && next && next.steps.length > 0 && pathTo(run, position + 1);
+      if (path) {
+        const title = `Go on by chance after step ${number}`;
+        parts.push(asking(`${CHANCE} steps by chance`, title, path, CHANCE));
+      }
     }
     if (!live) {
       const command = element('code', '', 'rebsync simulate MODEL --serve');

@@ -375,6 +375,11 @@ def test_a_live_page_follows_other_steps(chromium: Browser, server: LiveServer) 
     }
     seen = followed(chromium, "watcher.seen(2)")
     assert (seen["runs"], seen["row"], len(seen["rows"])) == (2, "v0-s2", 3)
+    far = followed(chromium, "by chance after step 2")
+    assert far["rows"][:3] == seen["rows"]
+    assert len(far["rows"]) == 13 or far["wrong"]
+    chromium.press(*"kkkkkkkkkkkk")
+    chromium.press("j", "j")
     # from an earlier step of what was followed
     chromium.press("k")
     fell = followed(chromium, "chooses 30")
@@ -424,7 +429,7 @@ FAILED = """
 def test_a_live_page_says_why_a_step_was_not_made(chromium: Browser, server: LiveServer) -> None:
     chromium.command("POST", "url", {"url": server.address})
 
-    def refuse(ordinals: tuple[int, ...]) -> str:
+    def refuse(ordinals: tuple[int, ...], by_chance: int) -> str:
         raise Refused(f"no {list(ordinals)}")
 
     server.live = Live(server.live.page, refuse)
