@@ -1,18 +1,24 @@
 """How long an editor waits for `rebsync lsp` after a keystroke, in a model of 2,000 lines.
 
-    python bench/keystroke.py [--edits N]
+    python bench/keystroke.py [--edits N] [--robots N]
 
 A real client types a character into a body in the middle of the model and asks for completion, for
 the outline, for what the name at the cursor is, or for the colours; then it waits for the
 diagnostics. Printed are the median and the longest time of each in milliseconds, and the ratio to
 the goal of 100 ms. The server waits 150 ms for the next keystroke before it sends diagnostics: that
 is taken off.
+
+With `--robots N` the model has N classes of robots, its package lies beside it, and in the code of
+each other robot somebody has changed a number: the package has drifted. Between keystrokes a file
+of code is saved, so that the server looks at the package again while the next ones are answered;
+`drift` is the time until it tells what has drifted.
 """
 
 from __future__ import annotations
 
 import argparse
 import asyncio
+import re
 import statistics
 import sys
 import tempfile
@@ -24,6 +30,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from lsprotocol import types as lsp
 
+from rebsync.cli import main as main_command
 from rebsync.lsp.server import DELAY
 from tests.lsp.client import Editor, at, editor
 
@@ -89,31 +96,49 @@ QUESTIONS: dict[str, Question] = {
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--edits", type=int, default=20, metavar="N")
-    edits = parser.parse_args().edits
-    text = model()
+    parser.add_argument("--robots", type=int, default=0, metavar="N")
+    edits, robots = (parsed := parser.parse_args()).edits, parsed.robots
+    text = model(robots or CLASSES)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "large.rebeca")
         path.write_text(text, encoding="utf-8")
         times: dict[str, list[float]] = {}
-        asyncio.run(play(path, text, edits, times))
+        code = drifted(path) if robots else None
+        asyncio.run(play(path, text, edits, times, code))
     print(f"{text.count(chr(10))} lines, {edits} keystrokes")
     for what, each in times.items():
         median = statistics.median(each)
         print(f"{what:12} {median:6.0f} ms, longest {max(each):6.0f} ms, ratio {median / GOAL:.2f}")
 
 
-def model() -> str:
+def model(count: int) -> str:
     """A ring of classes."""
-    classes = "".join(CLASS.format(i, (i + 1) % CLASSES) for i in range(CLASSES))
-    rebecs = "".join(f"  C{i} r{i}(r{(i + 1) % CLASSES}):();\n" for i in range(CLASSES))
+    classes = "".join(CLASS.format(i, (i + 1) % count) for i in range(count))
+    rebecs = "".join(f"  C{i} r{i}(r{(i + 1) % count}):();\n" for i in range(count))
     return f"{classes}\nmain {{\n{rebecs}}}\n"
 
 
-async def play(path: Path, text: str, edits: int, times: dict[str, list[float]]) -> None:
+def drifted(path: Path) -> Path:
+    """Makes the package of a model, and edits the code of each other class; gives one of these."""
+    assert main_command(["generate", str(path), "-o", str(path.parent)]) == 0
+    sources = Path(path.parent, "large/src").glob("c[0-9]*.cpp")
+    files = sorted(each for each in sources if not each.stem.endswith("_node"))
+    for file in files[::2]:
+        code = file.read_text(encoding="utf-8")
+        assert "count_ + 1" in code
+        file.write_text(code.replace("count_ + 1", "count_ + 2"), encoding="utf-8")
+    return files[0]
+
+
+async def play(
+    path: Path, text: str, edits: int, times: dict[str, list[float]], code: Path | None
+) -> None:
     async with editor(path.parent) as client:
         uri = client.open(path)
         await client.diagnostics(uri)
-        place = lsp.Position(at(text, f"  C{CLASSES // 2}() {{").line + 1, 4)
+        middle = text.count("reactiveclass") // 2
+        place = lsp.Position(at(text, f"  C{middle}() {{").line + 1, 4)
+        opened = client.open(code) if code is not None else None
         number = 0
         while number < edits:
             for what, request in QUESTIONS.items():
@@ -126,7 +151,29 @@ async def play(path: Path, text: str, edits: int, times: dict[str, list[float]])
             client.type(uri, lsp.Range(place, place), " ")
             waited = await timed(client.diagnostics(uri))
             times.setdefault("diagnostics", []).append(waited - DELAY * 1000)
-            await asyncio.sleep(0.05)
+            if code is None or opened is None:
+                await asyncio.sleep(0.05)
+                continue
+            text_of = code.read_text(encoding="utf-8")
+            code.write_text(
+                re.sub(r"count_ \+ \d+", f"count_ + {number}", text_of), encoding="utf-8"
+            )
+            told = asyncio.create_task(timed(saved(client, opened)))
+            client.text_document_did_save(
+                lsp.DidSaveTextDocumentParams(lsp.TextDocumentIdentifier(opened))
+            )
+            while not told.done():
+                client.type(uri, lsp.Range(place, place), " ")
+                question = QUESTIONS["completion"](client, lsp.TextDocumentIdentifier(uri), place)
+                times.setdefault("meanwhile", []).append(await timed(question))
+                await asyncio.sleep(0.03)
+            times.setdefault("drift", []).append(await told)
+
+
+async def saved(client: Editor, uri: str) -> None:
+    """Waits until the server has told what has drifted in a file."""
+    while not await client.diagnostics(uri):
+        pass
 
 
 async def timed(awaited: Awaitable[object]) -> float:

@@ -12,7 +12,7 @@ import os
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from rebsync.cache_folder import UnsafeFolder, is_ours, private_folder
 from rebsync.records import dataclass
@@ -77,9 +77,7 @@ def open_cache(part: str) -> Cache | None:
     """A part of the cache; None if there is no place for it, or no safe one (see `refused`)."""
     try:
         place = _chosen_directory() / part
-        return _opened(
-            place, _of_user("XDG_STATE_HOME", ".local/state"), os.environ.get(KEY_VARIABLE)
-        )
+        return _opened(place, _state_directory(), os.environ.get(KEY_VARIABLE))
     except (OSError, RuntimeError, ValueError):  # RuntimeError: a user without a home
         return None
 
@@ -106,12 +104,27 @@ def refused() -> Findings | None:
 def _chosen_directory() -> Path:
     if chosen := os.environ.get("REBSYNC_CACHE"):
         return Path(chosen)
-    return _of_user("XDG_CACHE_HOME", ".cache")
+    return _of_user("XDG_CACHE_HOME", "user_cache_path")
 
 
-def _of_user(variable: str, default: str) -> Path:
-    base = Path(os.environ.get(variable, ""))
-    return (base if base.is_absolute() else Path.home() / default) / "rebsync"
+def _state_directory() -> Path:
+    return _of_user("XDG_STATE_HOME", "user_state_path")
+
+
+def _of_user(variable: str, kind: Literal["user_cache_path", "user_state_path"]) -> Path:
+    """The folder that this user has chosen, else that of the system for such files.
+
+    A relative path counts as not chosen. RuntimeError: this user has no folders.
+    """
+    chosen = Path(os.environ.get(variable, ""))
+    if chosen.is_absolute():
+        return chosen / "rebsync"
+    import platformdirs
+
+    found: Path = getattr(platformdirs, kind)("rebsync", appauthor=False)
+    if not found.is_absolute():
+        raise RuntimeError
+    return found
 
 
 def _safe(path: Path) -> Path | None:

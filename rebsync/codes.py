@@ -252,6 +252,7 @@ RUNS = {
     "RS926": "something of Timed Rebeca in a model that is checked as core Rebeca",
     "RS927": "an array, or the state of a rebec, that is too large to check",
     "RS928": "a constant that the model does not have, or not with one value",
+    "RS929": "a name that no property has",
     "RS931": "no C compiler for the compiled engine, or one that fails",
     "RS932": "a model without the symmetries that are to reduce its states",
 }

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import field
+from collections.abc import Collection, Iterator
+from dataclasses import field, replace
 from typing import Literal, TypeAlias
 
 from rebsync.model import Expression
@@ -136,6 +136,15 @@ class Properties:
     def all(self) -> tuple[Property, ...]:
         """The properties of every kind, defines aside."""
         return (*self.assertions, *self.ltl, *self.tctl)
+
+    def named(self, names: Collection[str]) -> Properties:
+        """The same with the properties of these names only."""
+        return replace(
+            self,
+            assertions=tuple(p for p in self.assertions if p.name in names),
+            ltl=tuple(p for p in self.ltl if p.name in names),
+            tctl=tuple(p for p in self.tctl if p.name in names),
+        )
 
 
 def operands(formula: Formula) -> tuple[Formula, ...]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from typing import TextIO
 
 from rebsync.diagnostics import Findings, Severity
-from rebsync.report_text import Piece, finding_pieces
-from rebsync.terminal import without_commands
+from rebsync.report_text import Piece, coloured, finding_pieces
+from rebsync.terminal import has_colours, without_commands
 
 FORMATS = ("text", "json", "sarif", "github")
 
@@ -34,8 +33,8 @@ def report(findings: Sequence[Findings], style: str = "text") -> str:
 
 def print_report(findings: Sequence[Findings], stream: TextIO, style: str = "text") -> None:
     """Write the findings to a stream; text on a terminal gets colours."""
-    if style == "text" and stream.isatty() and not os.environ.get("NO_COLOR"):
-        _print_coloured(findings, stream)
+    if style == "text" and has_colours(stream):
+        stream.write(without_commands(coloured(_pieces(findings))))
     else:
         stream.write(report(findings, style))
 
@@ -60,14 +59,3 @@ def _pieces(findings: Sequence[Findings]) -> list[Piece]:
         for diagnostic in each.diagnostics
         for piece in finding_pieces(each.source, diagnostic)
     ]
-
-
-def _print_coloured(findings: Sequence[Findings], stream: TextIO) -> None:
-    pieces = _pieces(findings)
-    if not pieces:
-        return
-    from rich.console import Console
-    from rich.text import Text
-
-    console = Console(file=stream, highlight=False, soft_wrap=True)
-    console.print(Text.assemble(*((p.text, p.style) for p in pieces)), end="")

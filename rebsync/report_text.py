@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from unicodedata import east_asian_width
 
 from rebsync.diagnostics import Diagnostic, Severity
@@ -21,6 +21,30 @@ class Piece:
 
     text: str
     style: str = ""
+
+
+# How terminals are told of the words of a style (ECMA-48, SGR).
+_SGR = {
+    "bold": 1,
+    "dim": 2,
+    "red": 31,
+    "green": 32,
+    "yellow": 33,
+    "cyan": 36,
+}
+
+
+def coloured(pieces: Iterable[Piece]) -> str:
+    """The text of pieces in their styles, for a terminal; no style goes on over a line end."""
+    return "".join(map(_coloured, pieces))
+
+
+def _coloured(piece: Piece) -> str:
+    if not piece.style:
+        return piece.text
+    begin = f"\x1b[{';'.join(str(_SGR[word]) for word in piece.style.split())}m"
+    lines = piece.text.split("\n")
+    return "\n".join(f"{begin}{line}\x1b[0m" if line else "" for line in lines)
 
 
 def finding_pieces(source: Source, diagnostic: Diagnostic) -> Iterator[Piece]:

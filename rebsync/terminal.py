@@ -66,6 +66,11 @@ def _escape(match: re.Match[str]) -> str:
     )
 
 
+def has_colours(stream: TextIO) -> bool:
+    """Whether a stream is a terminal that shows colours, and nobody has asked for none."""
+    return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+
+
 def controls_in_text(text: str) -> re.Match[str] | None:
     """The first control in a text or comment of a model; marks of scripts may be in them."""
     return None if text.isprintable() else _CONTROL_IN_TEXT.search(text)

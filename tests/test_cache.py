@@ -7,6 +7,7 @@ import stat
 import subprocess
 from pathlib import Path
 
+import platformdirs
 import pytest
 
 from rebsync import cache
@@ -46,6 +47,28 @@ def test_what_is_stored_is_loaded_and_is_this_users_alone(home: Path) -> None:
     assert modes == {0o700}
     assert {stat.S_IMODE(p.stat().st_mode) for p in made if p.is_file()} == {0o600}
     assert sorted(p.name for p in made if p.is_file()) == ["a", "cache.key"]
+
+
+@pytest.mark.parametrize("chosen", [None, "", "relative/folder"])
+def test_it_lies_where_the_system_has_such_files(
+    chosen: str | None, home: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("cache", "state"):
+        if chosen is not None:
+            monkeypatch.setenv(f"XDG_{name.upper()}_HOME", chosen)
+        place = home / "Library" / name  # as on macOS
+        monkeypatch.setattr(
+            platformdirs, f"user_{name}_path", lambda app, appauthor, at=place: at / app
+        )
+    kept = open_cache("values")
+    assert kept is not None
+    assert kept.folder == home / "Library/cache/rebsync/values"
+    assert (home / "Library/state/rebsync/cache.key").is_file()
+
+
+def test_a_user_without_folders_has_no_cache(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(platformdirs, "user_cache_path", lambda app, appauthor: Path("~") / app)
+    assert open_cache("values") is None
 
 
 @pytest.mark.parametrize("chosen", ["REBSYNC_CACHE", "XDG_CACHE_HOME", "XDG_STATE_HOME"])

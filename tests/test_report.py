@@ -11,6 +11,7 @@ import pytest
 
 from rebsync.diagnostics import Diagnostic, Edit, Findings, Severity
 from rebsync.report import print_report, report, summary
+from rebsync.report_text import Piece, coloured
 from rebsync.source import NOWHERE, Source, Span
 
 TEXT = "reactiveclass A(2) {\n\tknowrebecs { B b; }\n}\n"
@@ -289,6 +290,11 @@ def test_colours_are_for_terminals(
     print_report(FINDINGS, pipe)
     assert ("\x1b[" in terminal.getvalue()) == coloured
     assert "\x1b[" not in pipe.getvalue()
+
+
+def test_styles_end_with_their_line() -> None:
+    pieces = (Piece("a", "bold red"), Piece("b\n"), Piece("c\nd\n", "dim"))
+    assert coloured(pieces) == "\x1b[1;31ma\x1b[0mb\n\x1b[2mc\x1b[0m\n\x1b[2md\x1b[0m\n"
 
 
 def test_summary() -> None:

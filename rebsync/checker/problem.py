@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 from typing import Literal, TypeAlias
 
 from rebsync.checker.exploration import Faults, Limits
 from rebsync.checker.steps import Semantics
+from rebsync.diagnostics import RebsyncError, did_you_mean
 from rebsync.properties import Measure, Properties, TimeBetween
 from rebsync.records import dataclass
 from rebsync.source import Source
@@ -71,6 +72,21 @@ class Problem:
     texts: TextNumbers = field(default_factory=TextNumbers)
     measures: tuple[Measure, ...] = ()
     between: tuple[TimeBetween, ...] = ()
+
+    def named(self, names: Sequence[str]) -> Problem:
+        """The problem with the properties of these names only; with all where there is no name.
+
+        RebsyncError (RS929): no property is called so.
+        """
+        if not names:
+            return self
+        known = [entry.name for entry in self.properties.all]
+        for name in names:
+            if name not in known:
+                hint = did_you_mean(name, known) or f"there is {', '.join(known) or 'none'}"
+                path = (self.property_source or self.source).path
+                raise RebsyncError.of(path, "RS929", f'no property is called "{name}"', hint)
+        return replace(self, properties=self.properties.named(names))
 
     @property
     def is_measured(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rebsync.checker.steps import Action
+from rebsync.checker.steps import Action, Semantics
 from rebsync.records import dataclass
 
 
@@ -77,6 +77,6 @@ class Trace:
     """
 
     model: str
-    semantics: str
+    semantics: Semantics
     steps: tuple[TraceStep, ...]
     loop: int | None = None

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rebsync.cli.amounts import amount, duration
+from rebsync.cli.options import names_option
 from rebsync.cli.status import STATUS_OF, Status, status_of, worst
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
@@ -38,6 +39,7 @@ _FEW = 5000  # states of each side, within which --behaviour is to answer
 )
 @click.option("--verify", is_flag=True, help="Check the model that the code extracts to as well.")
 @click.option("--property", "property_file", metavar="FILE", help="The properties for --verify.")
+@names_option
 @click.option(
     "--allow",
     type=click.Choice(["deadlock"]),
@@ -67,6 +69,8 @@ def command(ctx: click.Context, /, paths: tuple[str, ...], style: str, **_: obje
     3 a property is violated, 4 undetermined.
     """
     given = ctx.params
+    if given["names"] and not given["verify"]:
+        raise click.UsageError("--property-name picks properties for --verify")
     packages = list(find(paths or (".",), given["model"]))
     told = _Told(style, given["output"], given["full"])
     every = zip(packages, check_all(packages, given["depth"]), strict=True)
@@ -116,7 +120,7 @@ def _proof(checked: CheckResult, given: dict[str, Any]) -> Proof:
     limits = Limits(given["max_states"], given["max_time"], given["memory"])
     _, settings = settings_beside(checked.model)
     options = Options(limits=limits, allowed=frozenset({*given["allow"], *settings.allow}))
-    proof = prove(code, today, given["property_file"], options)
+    proof = prove(code, today, given["property_file"], options, given["names"])
     edited = [d.code for f in checked.findings for d in f.errors]
     edited += [each.code for each in checked.accepted]  # the properties do not go by these
     return unless_edited(proof, edited.count("RS956"))

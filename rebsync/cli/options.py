@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeVar
@@ -25,6 +25,18 @@ def format_option(command: _Command) -> _Command:
         default="text",
         show_default=True,
         help="How to print the findings.",
+    )
+    return option(command)
+
+
+def names_option(command: _Command) -> _Command:
+    """`--property-name NAME`, several times, as the argument `names`."""
+    option = click.option(
+        "--property-name",
+        "names",
+        multiple=True,
+        metavar="NAME",
+        help="Check the properties of these names only.",
     )
     return option(command)
 
@@ -63,3 +75,31 @@ def write_output(output: str, text: str) -> None:
     from rebsync.writing import replace_text
 
     replace_text(output, text)
+
+
+def check_served(given: Mapping[str, Any], output: str) -> None:
+    """A UsageError where something is to be served, and written as well."""
+    if given["serve"] and (given["style"] != "text" or output != "-"):
+        raise click.UsageError("--serve shows a page: leave --format and --output out")
+    if given["port"] and not given["serve"]:
+        raise click.UsageError("--port is that of --serve")
+
+
+def serve_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options of what is shown by a page that is served."""
+    for option in (
+        click.option(
+            "--port",
+            type=click.IntRange(0, 65535),
+            default=0,
+            metavar="N",
+            help="With --serve: the port (default: any that is free).",
+        ),
+        click.option(
+            "--serve",
+            is_flag=True,
+            help="Serve a page on this machine that follows every possible step.",
+        ),
+    ):
+        command = option(command)
+    return command

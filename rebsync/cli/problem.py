@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rebsync.cli.options import refuse_to_overwrite
-from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity, did_you_mean
+from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, Severity
 from rebsync.files import PROPERTY, STANDARD_INPUT, read_source
 from rebsync.source import Source
 
@@ -43,25 +43,6 @@ def problem_of(model: Source, properties: Source | None, *, untimed: bool = Fals
     if properties is None:
         return Problem(model, analysis, Properties())
     return Problem(model, analysis, properties_of(properties, analysis), properties)
-
-
-def named(problem: Problem, names: tuple[str, ...]) -> Problem:
-    """The problem with the properties of these names only; with all where there is no name."""
-    known = [entry.name for entry in problem.properties.all]
-    for name in names:
-        if name not in known:
-            hint = did_you_mean(name, known) or f"there is {', '.join(known) or 'none'}"
-            raise click.UsageError(f'no property is called "{name}"; {hint}')
-    if not names:
-        return problem
-    found = problem.properties
-    chosen = replace(
-        found,
-        assertions=tuple(p for p in found.assertions if p.name in names),
-        ltl=tuple(p for p in found.ltl if p.name in names),
-        tctl=tuple(p for p in found.tctl if p.name in names),
-    )
-    return replace(problem, properties=chosen)
 
 
 def measured(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from typing import TYPE_CHECKING
 
 from rebsync.cli.options import write_output
@@ -28,11 +29,21 @@ def write_run(trace: Trace, problem: Problem, style: str, output: str) -> None:
     write_output(output, _text(trace, problem, style))
 
 
+def serve_run(trace: Trace, problem: Problem, port: int) -> None:
+    """Serves the page of a run until it is interrupted."""
+    from rebsync.checker.show.page import trace_page
+    from rebsync.cli.run_details import live_in
+    from rebsync.cli.serving import serve
+
+    live = live_in(problem, trace.semantics, partial(trace_page, trace, problem.source))
+    serve(live, port)
+
+
 def _text(trace: Trace, problem: Problem, style: str) -> str:
     match style:
         case "json":
             from rebsync.checker.show.data import trace_json
-            from rebsync.cli.moving import moving_in
+            from rebsync.cli.run_details import moving_in
 
             return trace_json(trace, moving_in(problem))
         case "svg":
@@ -41,9 +52,9 @@ def _text(trace: Trace, problem: Problem, style: str) -> str:
             return chart(trace)
         case "html":
             from rebsync.checker.show.page import trace_page
-            from rebsync.cli.moving import moving_in
+            from rebsync.cli.run_details import details_in
 
-            return trace_page(trace, problem.source, moving_in(problem))
+            return trace_page(trace, problem.source, details_in(problem, trace.semantics))
         case _:
             from rebsync.checker.show.pieces import plain
             from rebsync.checker.show.text import trace_lines

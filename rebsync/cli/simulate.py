@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rebsync.cli.options import check_served, names_option, serve_options
 from rebsync.cli.problem import keep_what_is_read, measured, read_problem
-from rebsync.cli.runs import STYLES, write_run
+from rebsync.cli.runs import STYLES, serve_run, write_run
 from rebsync.cli.status import Status
 from rebsync.cli.verify import view_named, view_options
 from rebsync.terminal import say
@@ -31,6 +32,7 @@ _FEWEST = 30  # runs, from which on means are about normally distributed
 @click.command("simulate")
 @click.argument("model", metavar="MODEL")
 @view_options
+@names_option
 @click.option("--seed", type=int, metavar="N", help="Chance that can be repeated.")
 @click.option("--until", type=click.IntRange(0), metavar="T", help="End at the time T.")
 @click.option(
@@ -59,12 +61,15 @@ _FEWEST = 30  # runs, from which on means are about normally distributed
     help="svg: a message sequence chart. html: a page with chart, states and source.",
 )
 @click.option("-o", "--output", default="-", metavar="FILE", help="Write the run to FILE.")
+@serve_options
 @click.pass_context
 def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Status:
     """Make one run of a model, by chance or by hand.
 
-    Without --seed every run is another one; the seed is told on standard error. Exit status: 3 if
-    the run (or one of them) ends in a step that fails, 4 if in a body that does not end, else 0.
+    Without --seed every run is another one; the seed is told on standard error. With --serve each
+    step is chosen in the browser, from the start, or after a run by chance with --seed. Exit
+    status: 3 if the run (or one of them) ends in a step that fails, 4 if in a body that does not
+    end, else 0.
     """
     from rebsync.checker.choosing import semantics_for
     from rebsync.checker.endless import EndlessBody, endless_reason
@@ -77,17 +82,23 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     given = ctx.params
     if given["interactive"] and given["seed"] is not None:
         raise click.UsageError("--interactive and --seed exclude each other")
+    check_served(given, output)
+    if given["serve"] and (given["interactive"] or given["runs"] or given["measures"]):
+        raise click.UsageError("--serve shows one run: leave --interactive and --runs out")
     problem = read_problem(model, given["property_file"], untimed=given["language"] == "core")
+    problem = problem.named(given["names"])
     keep_what_is_read(problem, output)
     if given["runs"] or given["measures"]:
         return _many(measured(problem, given["measures"]), given, output)
     program, _formulas = lower(problem.analysis, problem.properties)
     semantics = view_named(given) or semantics_for(program, problem)
     teller = Teller(view_of(program, semantics), problem.source)
-    choose = _by_hand(teller) if given["interactive"] else by_chance(_seed(given["seed"]))
-    until, steps = given["until"], given["steps"]
+    until, steps, seed = given["until"], given["steps"], given["seed"]
     if steps is None and until is None:
-        steps = _STEPS
+        steps = 0 if given["serve"] and seed is None else _STEPS
+    if seed is None and steps == 0:
+        seed = 0  # nothing is left to chance but where the run starts
+    choose = _by_hand(teller) if given["interactive"] else by_chance(_seed(seed))
     told: list[TraceStep] = []
     reason = None
     try:
@@ -97,7 +108,10 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
         reason = endless_reason(program, endless.cut, problem.source)
     if told and not (given["interactive"] and _told_already(given["style"], output)):
         trace = Trace(problem.source.path, semantics, tuple(told))
-        write_run(trace, problem, given["style"], output)
+        if given["serve"]:
+            serve_run(trace, problem, given["port"])
+        else:
+            write_run(trace, problem, given["style"], output)
     if reason is not None:
         say(f"the run ends here: {reason}", err=True)
         return Status.UNDETERMINED

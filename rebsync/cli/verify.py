@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from rebsync.cli.amounts import amount, duration
-from rebsync.cli.problem import keep_what_is_read, measured, named, read_problem
+from rebsync.cli.options import check_served, names_option, serve_options
+from rebsync.cli.problem import keep_what_is_read, measured, read_problem
 from rebsync.cli.status import STATUS_OF, Status, worst
 from rebsync.cli.verify_output import write_result
 from rebsync.diagnostics import RebsyncError
@@ -63,13 +64,7 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     help="Of a package: what comes from outside: anything (the default), nothing, or what the "
     "classes of FILE send.",
 )
-@click.option(
-    "--property-name",
-    "names",
-    multiple=True,
-    metavar="NAME",
-    help="Check the properties of these names only.",
-)
+@names_option
 @click.option("--model", "written", metavar="FILE", help="Of a package: write its model to FILE.")
 @click.option(
     "--engine",
@@ -127,6 +122,7 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     help="svg: the chart of one run. html: a page with chart, states and source.",
 )
 @click.option("-o", "--output", default="-", metavar="FILE", help="Write the result to FILE.")
+@serve_options
 @click.option(
     "--replay", metavar="FILE", help="Run a recorded run again: JSON of an earlier result."
 )
@@ -174,10 +170,11 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
 
     given = ctx.params
     check_name(given["states"], output)
+    check_served(given, output)
     models = _models_in(model)
     if not models:
         return _one(model, given, output)
-    if len(models) > 1 and (given["style"], output) != ("text", "-"):
+    if len(models) > 1 and ((given["style"], output) != ("text", "-") or given["serve"]):
         raise click.UsageError(f"{len(models)} models are below {model}: name one of them")
     return worst([_of_several(each, given, output) for each in models])
 
@@ -214,9 +211,11 @@ def _one(model: str, given: dict[str, Any], output: str) -> Status:
         return _swept(model, given, output)
     if given["replay"] is not None and (given["states"] or given["export"]):
         raise click.UsageError("--replay makes one run: leave --states and --export out")
+    if given["serve"] and (given["replay"] is not None or given["export"]):
+        raise click.UsageError("--serve shows what was found: leave --replay and --export out")
     if given["symmetry"] and (given["states"] or given["export"]):
         raise click.UsageError("--states and --export write all states: leave --symmetry out")
-    problem = named(_read(model, given), given["names"])
+    problem = _read(model, given).named(given["names"])
     keep_what_is_read(problem, output, given["states"], replayed=given["replay"])
     problem = measured(problem, given["measures"], given["between"])
     if given["replay"] is not None:
@@ -249,10 +248,10 @@ def _swept(model: str, given: dict[str, Any], output: str) -> Status:
         raise click.UsageError("--for-all is for models: leave it out for packages")
     if given["style"] not in ("text", "json"):
         raise click.UsageError("--for-all prints a table: --format text or json")
-    if any(given[name] for name in ("replay", "states", "export", "violation")):
+    if any(given[name] for name in ("replay", "states", "export", "violation", "serve")):
         raise click.UsageError("--for-all prints a table only, without runs and states")
     asked = given["measures"], given["between"]
-    problem = measured(named(_read(model, given), given["names"]), *asked)
+    problem = measured(_read(model, given).named(given["names"]), *asked)
     keep_what_is_read(problem, output)
     options = _options({**given, "everything": not given["stop_at"]}, model)
     rows = sweep(problem, asked, parameters, options, untimed=given["language"] == "core")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
 def write_result(result: Result, problem: Problem, given: dict[str, Any], output: str) -> None:
     """Writes what was found in the style that was asked for."""
     style = given["style"]
+    if given["serve"]:
+        _serve(result, problem, given["port"])
+        return
     if style == "text" and output == "-":
         from rebsync.checker.show.text import print_result
 
@@ -25,19 +29,29 @@ def write_result(result: Result, problem: Problem, given: dict[str, Any], output
     write_output(output, _text(result, problem, style, given))
 
 
+def _serve(result: Result, problem: Problem, port: int) -> None:
+    """Serves the page of a result until it is interrupted."""
+    from rebsync.checker.show.page import result_page
+    from rebsync.cli.run_details import live_in
+    from rebsync.cli.serving import serve
+
+    page = partial(result_page, result, problem.source, problem.property_source)
+    serve(live_in(problem, result.semantics, page), port)
+
+
 def _text(result: Result, problem: Problem, style: str, given: dict[str, Any]) -> str:
     match style:
         case "json":
             from rebsync.checker.show.data import result_json
-            from rebsync.cli.moving import moving_in
+            from rebsync.cli.run_details import moving_in
 
             return result_json(result, moving_in(problem))
         case "html":
             from rebsync.checker.show.page import result_page
-            from rebsync.cli.moving import moving_in
+            from rebsync.cli.run_details import details_in
 
-            moving = moving_in(problem)
-            return result_page(result, problem.source, problem.property_source, moving)
+            details = details_in(problem, result.semantics)
+            return result_page(result, problem.source, problem.property_source, details)
         case "svg":
             from rebsync.checker.show.chart import chart
 

@@ -25,7 +25,8 @@ class Proof:
 
     `path` is that of the user's model, `source` the text that was verified; `places` tells for its
     lines where they are in model and code. `subject` is the text of the properties. `reason` says
-    why the verdict is no better, empty if nothing is in its way.
+    why the verdict is no better, empty if nothing is in its way. With `names` it is about the
+    properties of these names only, and what is always checked.
     """
 
     verdict: Verdict
@@ -35,6 +36,7 @@ class Proof:
     result: Result | None = None
     places: dict[int, Both] = field(default_factory=dict)
     subject: str = ""
+    names: tuple[str, ...] = ()
     remarks: tuple[Findings, ...] = ()
 
     @property
@@ -45,11 +47,15 @@ class Proof:
 
 
 def prove(
-    code: CodeModel, today: SourcedModel, property_path: str | None, options: Options
+    code: CodeModel,
+    today: SourcedModel,
+    property_path: str | None,
+    options: Options,
+    names: tuple[str, ...] = (),
 ) -> Proof:
-    """Verifies what the code says against the properties of the model.
+    """Verifies what the code says against the properties of the model, or those of some names.
 
-    RebsyncError: the properties cannot be read.
+    RebsyncError: the properties cannot be read, or none has such a name.
     """
     text = print_model(code.given.model)
     source = Source(f"{code.given.source.path} as a model", text)
@@ -58,6 +64,7 @@ def prove(
     problem = _problem(source, properties, today.source.path)
     if not isinstance(problem, Problem):
         return problem
+    problem = problem.named(names)
     result = _verified(problem, options)
     places: dict[int, Both] = {}
     if result.violations:
@@ -66,7 +73,8 @@ def prove(
         places = correspondence(source, parse_model(source).model, code.given, today)
     reason, model = result.reason or "", today.source.path
     subject = properties.text if properties is not None else ""
-    return _judged(Proof(result.verdict, reason, model, source, result, places, subject), code)
+    proof = Proof(result.verdict, reason, model, source, result, places, subject, names)
+    return _judged(proof, code)
 
 
 def unless_edited(proof: Proof, count: int) -> Proof:
@@ -114,7 +122,8 @@ def _verified(problem: Problem, options: Options) -> Result:
     """The result, from the cache if nothing it depends on has changed."""
     properties = problem.property_source
     told = (properties.path, properties.text) if properties is not None else ("", "")
-    key = key_of("proof", problem.source.path, problem.source.text, *told, repr(options))
+    names = repr([entry.name for entry in problem.properties.all])
+    key = key_of("proof", problem.source.path, problem.source.text, *told, names, repr(options))
     result = load(key, Result)
     if result is None:
         from rebsync.checker.verify import verify

@@ -29,6 +29,9 @@ def outcome_of(proof: Proof, drifted: bool) -> str:
     match proof.verdict:
         case "satisfied":
             what = f"all properties {still}hold"
+            if proof.names:
+                one = len(proof.names) == 1
+                what = f"{', '.join(proof.names)} {still}hold{'s' if one else ''}"
         case "violated":
             what = _broken(proof)
         case _:

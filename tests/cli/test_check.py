@@ -774,6 +774,24 @@ def test_properties_that_do_not_fit_are_undetermined(check: Check) -> None:
     assert "the properties do not fit what the code says" in shown
 
 
+def test_properties_are_picked_by_name(check: Check) -> None:
+    replace("patrol.property", "Stays_Small: small;", "Stays_Small: small; Is_Off: !robot1.on;")
+    replace(SOURCE, "% 4", "% 6")
+    asked = ("--verify", "--property-name")
+    assert re.search(r"  drifted, properties .*Is_Off.* broken\n", check("--verify")[1])
+    status, shown = check(*asked, "Stays_Small")
+    assert status == 3
+    assert "  drifted, property Stays_Small broken\n" in shown
+    assert "Is_Off" not in shown
+    replace(SOURCE, "% 6", "% 4")
+    status, shown = check(*asked, "Stays_Small")
+    assert (status, "in step, Stays_Small holds\n" in shown) == (0, True), shown
+    status, shown = check(*asked, "Stays_Smal")
+    assert (status, 'RS929 no property is called "Stays_Smal"' in shown) == (2, True), shown
+    status, shown = check("--property-name", "Stays_Small")
+    assert (status, "--property-name picks properties for --verify" in shown) == (2, True), shown
+
+
 def test_a_collision_is_shown_in_model_and_code(tmp_path: Path) -> None:
     """The drift that makes experiment 2 of the thesis unsafe."""
     example = tmp_path / "experiment2"
@@ -796,7 +814,7 @@ _LOADED = """
 import sys
 from rebsync.cli import main
 status = main(["check", *sys.argv[1:]])
-heavy = {"lark", "tree_sitter", "jinja2", "libcst", "rich", "rebsync.model"} & set(sys.modules)
+heavy = {"lark", "tree_sitter", "jinja2", "libcst", "rebsync.model"} & set(sys.modules)
 print(status, sorted(heavy))
 """
 

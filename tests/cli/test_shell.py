@@ -17,7 +17,7 @@ from rebsync.diagnostics import Diagnostic, Findings, Severity
 from rebsync.source import Source, Span
 from tests.cli.run import environment, rebsync
 
-HEAVY = ("lark", "jinja2", "rich", "libcst", "tree_sitter")
+HEAVY = ("lark", "jinja2", "libcst", "tree_sitter")
 
 
 def test_help_names_every_command_and_loads_nothing_heavy(tmp_path: Path) -> None:

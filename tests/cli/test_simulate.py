@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -167,3 +168,25 @@ def test_many_runs_are_a_distribution(tmp_path: Path) -> None:
 def test_a_distribution_is_of_many_runs(tmp_path: Path, options: tuple[str, ...]) -> None:
     (tmp_path / "walker.rebeca").write_text(UNSAFE)
     assert rebsync("simulate", "walker.rebeca", *options, cwd=tmp_path).status == 2
+
+
+def test_the_page_marks_assertions_that_are_false(tmp_path: Path) -> None:
+    (tmp_path / "walker.rebeca").write_text(UNSAFE.replace("assertion", "// assertion"))
+    (tmp_path / "walker.property").write_text(
+        "property { Assertion { Near: walker.place < 4; Whole: 6 / walker.place > 0; } }"
+    )
+    options = ("simulate", "walker.rebeca", "--seed", "1", "--steps", "8", "--format")
+    page = rebsync(*options, "html", cwd=tmp_path).out
+    steps = json.loads(rebsync(*options, "json", cwd=tmp_path).out)["trace"]
+    places = [s["state"][0]["variables"]["place"] for s in steps]
+    assert min(places) == 0
+    assert max(places) >= 4
+    marked = re.findall(r"<strong>property (\w+) (.*?) here</strong>", page)
+    assert marked.count(("Near", "is false")) == sum(place >= 4 for place in places)
+    assert marked.count(("Whole", "has no value")) == places.count(0)
+    assert marked.count(("Whole", "is false")) == sum(place > 6 for place in places)
+    chosen = rebsync(*options, "html", "--property-name", "Near", cwd=tmp_path).out
+    assert ("Near is false" in chosen, "Whole is" in chosen) == (True, False)
+    none = rebsync(*options, "html", "--property-name", "Nea", cwd=tmp_path)
+    assert none.status == 2
+    assert 'no property is called "Nea"' in none.err

@@ -470,4 +470,6 @@ def test_properties_are_picked_by_name(tmp_path: Path, capsys: pytest.CaptureFix
     assert main(["verify", model, "--property-name", "Goal_Not_Passed"]) == 0
     assert "Safety" not in capsys.readouterr().out
     assert main(["verify", model, "--property-name", "Safty"]) == 2
-    assert 'no property is called "Safty"; did you mean "Safety"?' in capsys.readouterr().err
+    assert 'RS929 no property is called "Safty"\nhint: did you mean "Safety"?' in (
+        capsys.readouterr().err
+    )

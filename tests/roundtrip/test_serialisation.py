@@ -151,7 +151,7 @@ def _all_names() -> dict[str, object]:
 
 def _named_in(module: str, annotation: str, seen: set[str]) -> Iterator[type]:
     """The classes of rebsync that an annotation names, also through aliases."""
-    for name in set(re.findall(r"\b_?[A-Z]\w*", annotation)) - seen:
+    for name in set(re.findall(r"(?<!typing\.)\b_?[A-Z]\w*", annotation)) - seen:
         seen.add(name)
         found = vars(sys.modules[module]).get(name, _all_names().get(name))
         if isinstance(found, type):

@@ -36,7 +36,8 @@ def chart(trace: Trace, ending: str | None = None) -> str:
 def chart_inside(trace: Trace, ending: str | None, name: str) -> Markup:
     """A run as part of a page that has the style; `name` is unique in the page.
 
-    The names of the rebecs stand in a drawing of their own, to stay when the chart moves.
+    The names of the rebecs, and the numbers and times of the steps, stand in drawings of their own,
+    to stay when the chart moves.
     """
     layout = chart_of(trace)
     heads = element(
@@ -48,7 +49,38 @@ def chart_inside(trace: Trace, ending: str | None, name: str) -> Markup:
         aria_hidden="true",
     )
     drawn = _svg(trace, layout, ending, name, *parts(trace, layout, ending))
-    return joined(element("div", heads, class_="heads"), drawn)
+    gutter = element("div", _gutter(layout), class_="gutter")
+    return element(
+        "div", joined(gutter, element("div", heads, class_="heads"), drawn), class_="drawn"
+    )
+
+
+def _gutter(layout: Chart) -> Markup:
+    """The numbers and times at the left of a chart."""
+    rows = [
+        element(
+            "g",
+            element("rect", class_="beside", width="100%", y=p.top, height=p.row.height),
+            element("text", str(p.row.step.number), class_="number", x=36, y=p.top + LINE + 1),
+            data_step=str(p.row.step.number),
+        )
+        for p in layout.rows
+    ]
+    times = [
+        joined(
+            element("line", class_="time", x1=14, y1=y, x2=GUTTER, y2=y),
+            element("text", f"{time:,}", class_="time", x=GUTTER - 14, y=y + 20),
+        )
+        for time, y in layout.bands
+    ]
+    return element(
+        "svg",
+        joined(_background(), *rows, *times),
+        class_="msc",
+        width=GUTTER - 8,
+        height=layout.height - LINE,
+        aria_hidden="true",
+    )
 
 
 def parts(trace: Trace, layout: Chart, ending: str | None) -> list[Markup]:

@@ -58,10 +58,15 @@ def _attribute(key: str, value: str | float | bool | None) -> str:
             return f' {name}="{number(value)}"'
 
 
-def metadata(script: str) -> list[Markup]:
-    """What stands in the head of a page that may load nothing and run nothing but its script."""
+def metadata(script: str, *, is_live: bool = False) -> list[Markup]:
+    """What stands in the head of a page that may load nothing and run nothing but its script.
+
+    A live page may ask the program that serves it.
+    """
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     policy = f"default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
+    if is_live:
+        policy += "; connect-src 'self'"
     return [
         element("meta", charset="utf-8"),
         element("meta", http_equiv="Content-Security-Policy", content=policy),

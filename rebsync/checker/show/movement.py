@@ -1,7 +1,7 @@
 """The movement of robots in a page: a drawing that plays, with the variables of the robots.
 
-Without scripts it shows where the robots go. What the script needs is data in the page; with the
-rest of the page it exchanges the events `stepselected` and `stepwanted`.
+Without scripts it shows where the robots go. What the script needs is data in the page; which time
+it draws, `playback.py` says.
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from collections.abc import Sequence
 from rebsync.checker.movement.ways import Encounter, Movement, Way
 from rebsync.checker.show.markup import Markup, element, joined
 from rebsync.checker.show.movement_board import COLOURS, drawing
-from rebsync.checker.show.movement_data import Frame, scene
+from rebsync.checker.show.movement_data import Frame, scene, short
+from rebsync.checker.show.playback import playback_controls
 from rebsync.terminal import json_text
 
-SPEEDS = ("0.25", "0.5", "1", "2", "5", "10", "50")
 _SAID = 8  # encounters that are listed
 
 
@@ -23,8 +23,10 @@ def movement_section(
 ) -> Markup:
     """The section of a run; `name` is unique in the page.
 
-    `chart` is the id of what has the chart of the steps, in a page without a script of its own.
+    `chart` is the id of what has the chart of the steps, in a page without a script of its own:
+    there the section has the controls, else they stand beside it (`movement_controls`).
     """
+    controls = [] if chart is None else [movement_controls(movement, steps, name, chart)]
     data = json_text(scene(movement, steps)).replace("<", "\\u003c")
     variables = {r.name: r.variables for step in reversed(steps) for r in step.rebecs}
     rows = [
@@ -43,52 +45,22 @@ def movement_section(
         "details",
         joined(
             element("summary", "Movement"),
-            _controls(movement, name),
+            *controls,
             element("div", ground, facts, class_="scene"),
             element("script", Markup(data), type="application/json", class_="scene-data"),
         ),
-        class_="movement",
-        data_chart=chart,
+        class_="movement view-movement",
         open=True,
         id=f"{name}-movement",
     )
 
 
-def _controls(movement: Movement, name: str) -> Markup:
-    speeds = [
-        element("option", f"{speed} units/s", value=speed, selected=speed == "1")
-        for speed in SPEEDS
-    ]
-    slider = element(
-        "input",
-        type="range",
-        class_="time",
-        min=repr(movement.begin),
-        max=repr(movement.end),
-        step="0.05",
-        value=repr(movement.begin),
-        aria_label="Time",
-        id=f"{name}-time",
-    )
-    return element(
-        "div",
-        _button("back", "Step back", "K"),
-        _button("play", "Play", "P"),
-        _button("forward", "Step", "J"),
-        slider,
-        element("output", "", class_="clock", for_=f"{name}-time", aria_live="off"),
-        element("label", element("span", "speed "), element("select", *speeds, class_="speed")),
-        class_="controls",
-        role="group",
-        aria_label="Playback",
-    )
-
-
-def _button(act: str, text: str, key: str) -> Markup:
-    return element(
-        "button", text, type="button", data_act=act, title=f"{text} ({key.lower()})",
-        aria_keyshortcuts=key,
-    )  # fmt: skip
+def movement_controls(
+    movement: Movement, steps: Sequence[Frame], name: str, chart: str | None = None
+) -> Markup:
+    """The controls that play a run of robots, until the moves that it began have ended."""
+    told = [(frame.number, short(frame.time)) for frame in steps]
+    return playback_controls(name, told, short(movement.begin), short(movement.end), chart)
 
 
 def _robot(way: Way, place: int, variables: Sequence[tuple[str, str]]) -> Markup:

@@ -33,8 +33,8 @@ def movement_json(movement: Movement | None) -> Json | None:
     if movement is None:
         return None
     return {
-        "until": _short(movement.until),
-        "end": _short(movement.end),
+        "until": short(movement.until),
+        "end": short(movement.end),
         "robots": [_way(way) for way in movement.ways],
         "encounters": [_encounter(each) for each in movement.encounters],
         "nearest": _encounter(movement.nearest) if movement.nearest is not None else None,
@@ -46,40 +46,38 @@ def _way(way: Way) -> Json:
     return {
         "name": way.robot,
         "class": way.class_name,
-        "start": {"x": _short(start.x), "y": _short(start.y), "from": list(start.told_by)},
+        "start": {"x": short(start.x), "y": short(start.y), "from": list(start.told_by)},
         "path": [
             {"time": time, "x": x, "y": y, "heading": heading}
             for time, x, y, heading in map(_numbers, way.poses)
         ],
-        "lost": None if way.lost is None else _short(way.lost),
+        "lost": None if way.lost is None else short(way.lost),
     }
 
 
 def _encounter(each: Encounter) -> Json:
     return {
         "robots": list(each.robots),
-        "from": _short(each.start),
-        "until": _short(each.end),
-        "time": _short(each.time),
-        "distance": _short(each.distance),
+        "from": short(each.start),
+        "until": short(each.end),
+        "time": short(each.time),
+        "distance": short(each.distance),
     }
 
 
 def scene(movement: Movement, steps: Sequence[Frame]) -> Json:
     """What the drawing plays: ways as lists of numbers, and the values that steps change."""
     return {
-        "begin": _short(movement.begin),
-        "until": _short(movement.until),
-        "end": _short(movement.end),
         "robots": [
             {
                 "name": way.robot,
                 "path": [_numbers(pose) for pose in way.poses],
-                "lost": None if way.lost is None else _short(way.lost),
+                "lost": None if way.lost is None else short(way.lost),
             }
             for way in movement.ways
         ],
-        "steps": [[frame.number, _short(frame.time)] for frame in steps],
+        "begin": short(movement.begin),
+        "steps": [frame.number for frame in steps],
         "changes": list(_changes(movement, steps)),
         "encounters": [_encounter(each) for each in movement.encounters],
     }
@@ -101,10 +99,10 @@ def _changes(movement: Movement, steps: Sequence[Frame]) -> Iterator[list[int | 
 
 
 def _numbers(pose: Pose) -> list[float]:
-    return [_short(pose.time), _short(pose.x), _short(pose.y), _short(pose.heading)]
+    return [short(pose.time), short(pose.x), short(pose.y), short(pose.heading)]
 
 
-def _short(value: float) -> float:
+def short(value: float) -> float:
     """A number without the noise of its last bits; a whole one as such."""
     rounded = round(value, _DIGITS)
     return int(rounded) if rounded == int(rounded) else rounded

@@ -1,7 +1,7 @@
 'use strict';
 // Selecting a step marks its row in the chart, its state, and its line of the model.
 (() => {
-  const runs = [...document.querySelectorAll('.run')];
+  let runs = [...document.querySelectorAll('.run')];
   let run = null;
   let step = null;
 
@@ -37,14 +37,21 @@
   // The same from left to right; of what is wider than its pane, the beginning.
   function revealAcross(place, pane) {
     const there = pane.getBoundingClientRect();
-    if (place.left < there.left) pane.scrollLeft -= there.left - place.left + 60;
+    const stays = pane.querySelector('tbody .when'); // step and time stay at the left
+    const left = stays ? stays.getBoundingClientRect().right : there.left;
+    if (place.left < left) pane.scrollLeft -= left - place.left + 12;
     if (place.right > there.right) {
-      pane.scrollLeft += Math.min(place.right - there.right + 12, place.left - there.left - 60);
+      pane.scrollLeft += Math.min(place.right - there.right + 12, place.left - left - 12);
     }
   }
 
+  // What is beside the panes may take some of their room.
+  const sizes = new ResizeObserver(() => step !== null && revealSelected());
+
   function show(number) {
     run = runs[number];
+    sizes.disconnect();
+    run.querySelectorAll('.panes > .pane').forEach((pane) => sizes.observe(pane));
     runs.forEach((each) => each.classList.toggle('on', each === run));
     document.querySelectorAll('nav a').forEach((tab) => {
       if (tab.dataset.run === run.dataset.run) tab.setAttribute('aria-current', 'true');
@@ -65,21 +72,30 @@
       parts(name).forEach((part) => part.classList.add('on'));
     }
     run.dispatchEvent(new CustomEvent('stepselected', { detail: step }));
-    revealRow(row);
-    revealStep(run.querySelector(`.msc .step[data-step="${step}"]`));
     const line = row.dataset.line && document.getElementById(`L${row.dataset.line}`);
-    if (line) {
-      line.classList.add('on');
-      reveal(around([line]), document.querySelector('aside'));
-    }
+    if (line) line.classList.add('on');
+    revealSelected();
+  }
+
+  // What is hidden has no place: it is revealed when it is shown.
+  function revealSelected() {
+    const row = rows().find((each) => each.dataset.step === step);
+    if (!row) return;
+    if (row.checkVisibility()) revealRow(row);
+    const drawn = run.querySelector(`.msc .step[data-step="${step}"]`);
+    if (drawn.checkVisibility()) revealStep(drawn);
+    const line = document.querySelector('.lines tr.on');
+    if (line && line.checkVisibility()) reveal(around([line]), line.closest('.texts'));
   }
 
   // Scrolling across hides what happens in a step: only a variable that cannot be seen is worth it.
   function revealRow(row) {
     const pane = row.closest('.pane');
-    const changed = row.querySelector('.changed:not(:has(.bag))');
+    const wrong = row.classList.contains('wrong'); // then what is wrong has to be read first
+    const changed = row.querySelector(wrong ? '.what' : '.changed:not(:has(.bag))');
     reveal(around([row]), pane);
-    if (!changed) return;
+    // Without the chart nothing else says what happens.
+    if (!changed || !(wrong || run.querySelector('.chart').checkVisibility())) return;
     const place = around([changed]);
     const seen = Math.min(place.right, place.left + 80);
     revealAcross(seen <= pane.getBoundingClientRect().right ? { ...place, right: seen } : place, pane);
@@ -128,20 +144,69 @@
 
   function fromAddress() {
     const [, number, at] = /^#v(\d+)(?:-s(\d+))?$/.exec(location.hash) || [];
-    if (!number || !runs[number - 1]) return false;
-    show(number - 1);
+    const place = runs.findIndex((each) => each.dataset.run === number);
+    if (place < 0) return false;
+    show(place);
     const row = rows().find((each) => each.dataset.step === at);
     select(row || rows().pop(), false);
     return true;
   }
 
+  // Which parts of the page are shown: in a wide window several, in a narrow one at a time.
+  const views = [...document.querySelectorAll('.views button')];
+
+  function drawViews() {
+    const { classList, dataset } = document.body;
+    const isNarrow = matchMedia('(max-width: 1100px)').matches;
+    views.forEach((button) => {
+      const { view } = button.dataset;
+      const shown = isNarrow ? dataset.only === view : !classList.contains(`hide-${view}`);
+      button.setAttribute('aria-pressed', String(shown));
+    });
+    revealSelected();
+  }
+
+  views.forEach((button) => button.addEventListener('click', () => {
+    const { view } = button.dataset;
+    if (matchMedia('(max-width: 1100px)').matches) document.body.dataset.only = view;
+    else document.body.classList.toggle(`hide-${view}`);
+    drawViews();
+  }));
+
+  // Who plays a run asks for its steps.
+  function watch(each) {
+    each.addEventListener('stepwanted', (event) => {
+      const row = rows().find((one) => one.dataset.step === String(event.detail));
+      if (each === run && row) select(row, false);
+    });
+  }
+
+  // A run that was followed takes the place of the one before, and is shown at its end.
+  function addRun(text) {
+    const made = new DOMParser().parseFromString(text, 'text/html').querySelector('.run');
+    const old = document.getElementById(made.id);
+    if (old) old.replaceWith(made);
+    else runs[runs.length - 1].after(made);
+    runs = [...document.querySelectorAll('.run')];
+    const tabs = document.querySelector('nav');
+    if (!tabs.querySelector(`[data-run="${made.dataset.run}"]`)) {
+      const tab = document.createElement('a');
+      tab.href = `#${made.id}`;
+      tab.dataset.run = made.dataset.run;
+      tab.textContent = 'what if';
+      tabs.append(tab);
+    }
+    watch(made);
+    document.dispatchEvent(new CustomEvent('runadded', { detail: made }));
+    show(runs.indexOf(made));
+    choose(rows().pop());
+  }
+
   if (runs.length === 0) return;
   document.documentElement.classList.add('js');
-  // Who plays a run asks for its steps.
-  runs.forEach((each) => each.addEventListener('stepwanted', (event) => {
-    const row = rows().find((one) => one.dataset.step === String(event.detail));
-    if (each === run && row) select(row, false);
-  }));
+  runs.forEach(watch);
+  document.addEventListener('runfollowed', (event) => addRun(event.detail));
+  window.addEventListener('resize', drawViews);
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches('input, select')) return;
     if (!(event.key in keys)) return;
@@ -149,7 +214,7 @@
     keys[event.key]();
   });
   document.addEventListener('click', (event) => {
-    if (event.target.closest('a, input, label, .movement')) return;
+    if (event.target.closest('a, input, label, button, summary, .movement, .plots, .branches')) return;
     const part = event.target.closest('[data-step]');
     const line = event.target.closest('#source [data-line]');
     const flight = event.target.closest('.flight');
@@ -163,4 +228,5 @@
     show(0);
     select(rows().pop(), false);
   }
+  drawViews();
 })();

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 
 from rebsync.checker.result import Coverage
+from rebsync.checker.show.highlight import highlighted
 from rebsync.checker.show.markup import Markup, element, joined
 from rebsync.source import Source
 
@@ -57,7 +58,7 @@ def coverage_section(coverage: Coverage) -> Markup:
 def _lines(
     source: Source, prefix: str, never: frozenset[int], remarks: dict[int, list[str]]
 ) -> Markup:
-    texts = source.text.splitlines()
+    texts = highlighted(source.text)
     rows = [
         element(
             "tr",

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from rebsync.checker.show import words
 from rebsync.checker.show.markup import Markup, element, escaped, joined
 from rebsync.checker.trace import ShownMessage, ShownRebec, Trace, TraceStep
 
 
-def states_table(trace: Trace, name: str, ending: str | None) -> Markup:
-    """The table of a run that is called `name` in the page; changed cells are marked."""
+def states_table(
+    trace: Trace, name: str, ending: str | None, falsified: Sequence[tuple[str, ...]] = ()
+) -> Markup:
+    """The table of a run that is called `name` in the page; changed cells are marked.
+
+    `ending` is what is wrong after the last step, `falsified` after each of the first ones.
+    """
     rows = []
     before: tuple[ShownRebec, ...] = ()
-    for step in trace.steps:
-        wrong = step.failure or (ending if step is trace.steps[-1] else None)
+    for position, step in enumerate(trace.steps):
+        told = [step.failure or (ending if step is trace.steps[-1] else None)]
+        told += falsified[position] if position < len(falsified) else ()
+        wrong = [each for each in told if each is not None]
         repeats = trace.loop is not None and step.number > trace.loop
         rows.append(_row(step, before, name, wrong, repeats))
         before = step.rebecs
@@ -26,7 +35,8 @@ def states_table(trace: Trace, name: str, ending: str | None) -> Markup:
 def _head(trace: Trace) -> Markup:
     rebecs = trace.steps[0].rebecs
     fixed = [
-        element("th", text, rowspan="2", scope="col") for text in ("step", "time", "what", "line")
+        element("th", text, rowspan="2", scope="col", class_=kind)
+        for text, kind in (("step", "at"), ("time", "when"), ("what", None), ("line", None))
     ]
     groups = [
         element("th", rebec.name, colspan=str(len(rebec.variables) + 1), scope="colgroup")
@@ -41,19 +51,18 @@ def _head(trace: Trace) -> Markup:
 
 
 def _row(
-    step: TraceStep, before: tuple[ShownRebec, ...], name: str, wrong: str | None, repeats: bool
+    step: TraceStep, before: tuple[ShownRebec, ...], name: str, wrong: Sequence[str], repeats: bool
 ) -> Markup:
     kinds = [kind for kind, is_so in (("wrong", wrong), ("repeats", repeats)) if is_so]
     what = [element("div", words.heading(step))]
     if step.choices:
         what.append(element("small", f"chooses {', '.join(step.choices)}"))
-    if wrong is not None:
-        what.append(element("strong", wrong))
+    what += [element("strong", each) for each in wrong]
     line = element("a", str(step.line), href=f"#L{step.line}") if step.line else None
     return element(
         "tr",
-        element("th", str(step.number), scope="row"),
-        element("td", f"{step.time:,}", class_="number"),
+        element("th", str(step.number), scope="row", class_="at"),
+        element("td", f"{step.time:,}", class_="number when"),
         element("td", *what, class_="what"),
         element("td", line, class_="number"),
         *_cells(step, before),

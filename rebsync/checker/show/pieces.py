@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
 from collections.abc import Iterable, Iterator, Sequence
@@ -10,8 +9,8 @@ from typing import TextIO
 from unicodedata import combining, east_asian_width
 
 from rebsync.records import dataclass
-from rebsync.report_text import Piece
-from rebsync.terminal import one_line, without_commands
+from rebsync.report_text import Piece, coloured
+from rebsync.terminal import has_colours, one_line, without_commands
 
 NARROWEST = 40
 _WORD = re.compile(r"\s*\S+|\s+")
@@ -42,15 +41,10 @@ def print_lines(lines: Sequence[Line], stream: TextIO) -> None:
         stream.write(plain(lines))
         return
     width = max(shutil.get_terminal_size().columns, NARROWEST)
-    if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb":
+    if not has_colours(stream):
         stream.write(plain(lines, width))
         return
-    from rich.console import Console
-    from rich.text import Text
-
-    console = Console(file=stream, highlight=False, soft_wrap=True)
-    pieces = _broken(lines, width)
-    console.print(Text.assemble(*((p.text, p.style) for p in pieces)), end="")
+    stream.write(without_commands(coloured(_broken(lines, width))))
 
 
 def columns(text: str) -> int:

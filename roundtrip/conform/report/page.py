@@ -24,7 +24,8 @@ from rebsync.roundtrip.conform.report.text import allowed_line, lines
 SHOWN = 40  # steps of each chart
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5em; color: #222; background: #fff; }
-.movement { color: var(--ink); background: var(--back); font-size: 14px; }
+.movement, .source { color: var(--ink); background: var(--back); }
+.movement { font-size: 14px; }
 #recorded-chart { max-height: 70vh; overflow: auto; }
 .sides { display: flex; gap: 2em; align-items: flex-start; flex-wrap: wrap; }
 .sides > section { overflow-x: auto; max-width: 100%; }
@@ -33,12 +34,12 @@ body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5em; color: #222; backgro
 .conforms { background: #cfc; } .deviates, .violated { background: #fcc; }
 .plot .axis { stroke: #888; } .plot .zero { stroke: #ccc; } .plot circle { fill: #247; }
 .plot circle.greatest { fill: #c22; } .plot text { font-size: 12px; fill: #444; }
-.heads { display: none; } table.lines code { white-space: pre; }
+.heads, .gutter { display: none; } table.lines code { white-space: pre; }
 .times { overflow-x: auto; } .times table { border-collapse: collapse; font-size: 13px; }
 .times td, .times th { padding: 2px 8px; text-align: left; border-bottom: 1px solid #ddd; }
 table.lines { border-collapse: collapse; font-size: 13px; }
-table.lines th { color: #888; font-weight: normal; text-align: right; padding-right: 1em; }
-tr:target { background: #fd8; }
+table.lines th { color: var(--quiet); font-weight: normal; text-align: right; padding-right: 1em; }
+tr:target { background: var(--chosen); }
 """
 
 
@@ -55,7 +56,7 @@ def conformance_page(
     """
     title = f"{subject.source.path} and {', '.join(paths)}"
     verdict = element("strong", found.verdict, class_=f"verdict {found.verdict}")
-    script = own_file("movement.js") if moved is not None else ""
+    script = own_file("movement.js") + own_file("playback.js") if moved is not None else ""
     said = element("p", "\n".join(lines(found, subject, paths)), class_="said")
     body = element(
         "body",
@@ -70,8 +71,8 @@ def conformance_page(
             element("script", Markup(script)) if script else Markup(""),
         ),
     )
-    moves = own_file("colours.css") + own_file("movement.css") if script else ""
-    style = element("style", Markup(moves + _STYLE + STYLE))
+    styles = ["colours.css", "source.css", *(("playback.css", "movement.css") if script else ())]
+    style = element("style", Markup("".join(map(own_file, styles)) + _STYLE + STYLE))
     head = element("head", joined(*metadata(script), element("title", title), style))
     return f"<!DOCTYPE html>\n{element('html', head, body, lang='en')}\n"
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from rebsync.checker.result import Coverage, Result, Violation
-from rebsync.checker.steps import Action
+from rebsync.checker.steps import Action, Semantics
 from rebsync.checker.trace import Change, ShownMessage, ShownRebec, Trace, TraceStep
 
 Values = Mapping[str, str]
@@ -19,7 +19,7 @@ class Recorder:
 
     rebecs: dict[str, dict[str, str]]
     model: str = "crossing.rebeca"
-    semantics: str = "tts"
+    semantics: Semantics = "tts"
     now: int = 0
     steps: list[TraceStep] = field(default_factory=list)
     bags: dict[str, list[ShownMessage]] = field(default_factory=dict)

@@ -18,6 +18,7 @@ from rebsync.checker.show.movement import movement_section
 from rebsync.checker.show.movement_board import Board, drawing
 from rebsync.checker.show.movement_data import frames, scene
 from rebsync.checker.show.page import trace_page
+from rebsync.checker.show.page_run import RunDetails
 from rebsync.checker.trace import Trace
 from rebsync.files import read_source
 from tests.checker.movement.moving import EXAMPLES, analysed, example_run, moved, run_of
@@ -28,7 +29,8 @@ from tests.checker.show.test_page import LEAST_CONTRAST
 UNSAFE = EXAMPLES / "experiment2_unsafe" / "experiment2_unsafe.rebeca"
 TAB, SPACE, RIGHT = "\ue004", " ", "\ue014"
 STATE = """
-    const root = document.querySelector('.run.on .movement');
+    const run = document.querySelector('.run.on');
+    const root = run.querySelector('.movement');
     const board = root.querySelector('.board').getBoundingClientRect();
     const cell = Number(root.querySelector('.board').dataset.cell);
     const scale = board.width / root.querySelector('.board').viewBox.baseVal.width;
@@ -40,9 +42,9 @@ STATE = """
     return {
         time: Number(root.dataset.time),
         step: Number(root.dataset.step),
-        slider: Number(root.querySelector('.time').value),
-        clock: root.querySelector('.clock').textContent,
-        button: root.querySelector('[data-act=play]').textContent,
+        slider: Number(run.querySelector('.time').value),
+        clock: run.querySelector('.clock').textContent,
+        button: run.querySelector('[data-act=play]').textContent,
         row: document.querySelector('.states tr.on').dataset.step,
         chart: document.querySelector('.msc .row.on').dataset.step,
         drawn: [...root.querySelectorAll('.disc')].map(middle).map(([x, y]) => (
@@ -69,7 +71,7 @@ def page(unsafe: tuple[Trace, Movement], tmp_path: Path) -> Path:
     """The page of that run."""
     path = tmp_path / "page.html"
     trace, movement = unsafe
-    text = trace_page(trace, read_source(str(UNSAFE)), lambda _: movement)
+    text = trace_page(trace, read_source(str(UNSAFE)), RunDetails(lambda _: movement))
     path.write_text(text, encoding="utf-8")
     return path
 
@@ -119,12 +121,14 @@ def test_steps_go_forward_and_back(
 ) -> None:
     chromium.resize(width, 1000)
     chromium.open(page, "#v1-s0")
+    if width == 800:  # there is room for one part of the page
+        chromium.click("[data-view=movement]")
     for step in range(1, 20):
-        chromium.click(".movement [data-act=forward]")
+        chromium.click(".run.on [data-act=forward]")
         shown = state(chromium)
         assert (shown["step"], shown["time"]) == (step, unsafe[0].steps[step].time)
         agrees(shown, unsafe)
-    chromium.click(".movement [data-act=back]")
+    chromium.click(".run.on [data-act=back]")
     shown = state(chromium)
     assert shown["step"] == 18
     agrees(shown, unsafe)
@@ -207,8 +211,8 @@ def test_a_collision_can_be_gone_to(chromium: Browser, page: Path) -> None:
 def test_it_works_by_keyboard(chromium: Browser, page: Path) -> None:
     chromium.open(page, "#v1-s0")
     order = []
-    chromium.run("document.querySelector('.movement summary').focus()")
-    for _ in range(6):
+    chromium.run("document.querySelector('.views button:last-child').focus()")
+    for _ in range(8):
         chromium.press(TAB)
         order.append(chromium.run("return document.activeElement.dataset.act || "
                                   "document.activeElement.className"))  # fmt: skip
@@ -219,7 +223,7 @@ def test_it_works_by_keyboard(chromium: Browser, page: Path) -> None:
             before = state(chromium)["time"]
             chromium.press(RIGHT)
             assert state(chromium)["time"] > before
-    assert order[:5] == ["back", "play", "forward", "time", "speed"]
+    assert order[:7] == ["first", "back", "play", "forward", "last", "time", "speed"]
 
 
 def test_texts_can_be_told_from_their_background(chromium: Browser, page: Path) -> None:

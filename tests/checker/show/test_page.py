@@ -136,7 +136,7 @@ def test_what_happens_in_a_step_is_not_scrolled_away(chromium: Browser, page: Pa
     page.write_text(trace_page(lasso(), SOURCE), encoding="utf-8")
     chromium.open(page, "#v1-s3")
     scrolled = "return [...document.querySelectorAll('.pane')].map((pane) => pane.scrollLeft)"
-    assert chromium.run(scrolled) == [0, 0]
+    assert set(chromium.run(scrolled)) == {0}
     assert not chromium.run("return document.body.textContent.includes('another run')")
 
 
@@ -189,7 +189,7 @@ def test_hard_texts_stay_texts(chromium: Browser, tmp_path: Path) -> None:
     page = tmp_path / "hard.html"
     page.write_text(result_page(found, Source(f"{hard}.rebeca", hard)), encoding="utf-8")
     chromium.open(page)
-    assert chromium.run("return document.querySelectorAll('img, script').length") == 1
+    assert chromium.run("return document.querySelectorAll('img, script:not([type])').length") == 1
     assert chromium.run("return document.querySelector('#L1 code').textContent") == hard
 
 
