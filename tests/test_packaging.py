@@ -63,6 +63,14 @@ def test_every_data_file_is_packaged() -> None:
                 assert path in wanted, f"{path.relative_to(ROOT)} would not be installed"
 
 
+@pytest.mark.parametrize("script", ["tools/setup", ".ci/run"])
+def test_every_folder_is_compiled_before_tests(script: str) -> None:
+    """Links to folders are not followed: what they lead to would be compiled for each command."""
+    lines = re.findall(r"-m compileall -q (.+)", (ROOT / script).read_text(encoding="utf-8"))
+    wanted = {str(FOLDERS[name].relative_to(ROOT)) for name in ("rebsync", *LINKED)}
+    assert [wanted - set(line.split()) for line in lines] == [set()]
+
+
 def test_the_version_is_told_once() -> None:
     init = (ROOT / "rebsync" / "__init__.py").read_text(encoding="utf-8")
     assert re.findall(r'__version__ = "(.+)"', init) == [PROJECT["project"]["version"]]

@@ -28,6 +28,7 @@ _ODOMETRY = Path(__file__).parents[1] / "ros1" / "models" / "odometry.rebeca"
 _REASON = missing_ros()
 pytestmark = [
     pytest.mark.ros1,
+    pytest.mark.timeout(900),  # compiles the packages of all cases, beside others that compile
     pytest.mark.skipif(
         _REASON is not None and os.environ.get("CI") != "true", reason=_REASON or "ROS 1 is here"
     ),

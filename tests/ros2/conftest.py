@@ -20,6 +20,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if _HERE not in item.path.parents or "headers" not in fixtures:
             continue
         item.add_marker(pytest.mark.ros2tools)
+        # The first test of a module compiles its packages, beside others that do so.
+        item.add_marker(pytest.mark.timeout(900))
         if reason is not None and os.environ.get("CI") != "true":
             item.add_marker(pytest.mark.skip(reason=reason))
 

@@ -72,15 +72,20 @@ def run_asked(
         lines += _lines(node)
         lines += [f"change\t{at}\t{name}" for at, name in (changes or {}).get(node.name, ())]
     system.write_text("".join(f"{line}\n" for line in lines))
-    done = subprocess.run(
-        [str(driver), str(system), str(until), *([] if step is None else [str(step)])],
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
+    # A node that waits for a reader of its pipe would seem to wait for a moment, which then comes.
+    said = directory / "said"
+    with said.open("wb") as out:
+        done = subprocess.run(
+            [str(driver), str(system), str(until), *([] if step is None else [str(step)])],
+            stdout=out,
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=120,
+        )
+    output = said.read_text(encoding="utf-8")
     if done.returncode != 0:
-        raise RunError(f"{done.returncode}: {done.stderr}\n{done.stdout[-2000:]}")
-    return _recording(done.stdout), _answers(done.stdout, asks)
+        raise RunError(f"{done.returncode}: {done.stderr}\n{output[-2000:]}")
+    return _recording(output), _answers(output, asks)
 
 
 def _asked(number: int, ask: Ask) -> str:

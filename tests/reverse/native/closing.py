@@ -17,7 +17,7 @@ from rebsync.property_check import check_properties
 from rebsync.reverse.findings import Grade
 from rebsync.reverse.recovery import extract
 from rebsync.source import Source
-from rebsync.static import analyse
+from rebsync.static import Analysis, analyse
 from tests.reverse.native import ros1, ros2
 from tests.reverse.native.ros1 import Input
 
@@ -98,18 +98,19 @@ def verdicts(case: Case, folder: Path) -> tuple[str, str]:
     model.write_text(print_model(found.model), encoding="utf-8")
     if any(f.grade is Grade.UNREADABLE for f in found.findings):
         return "undetermined", "undetermined"
-    return _verdict(model, case.shows), _verdict(model, case.never)
-
-
-def _verdict(model: Path, value: int) -> str:
-    """The verdict of the property that the sink never gets a value."""
-    read = parse_model(read_source(str(model)))
+    source = read_source(str(model))
+    read = parse_model(source)
     assert read.ok, read.diagnostics
     analysis = analyse(read.model)
     assert not analysis.errors, analysis.errors
+    return _verdict(source, analysis, case.shows), _verdict(source, analysis, case.never)
+
+
+def _verdict(source: Source, analysis: Analysis, value: int) -> str:
+    """The verdict of the property that the sink never gets a value."""
     stated = parse_properties(Source("case.property", PROPERTY.format(value=value)))
     if check_properties(stated.properties, analysis):
         return "undetermined"
-    problem = Problem(read_source(str(model)), analysis, stated.properties)
+    problem = Problem(source, analysis, stated.properties)
     options = Options(limits=Limits(states=20_000), allowed=frozenset({"deadlock"}))
     return verify(problem, options).verdict

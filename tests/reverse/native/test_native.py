@@ -14,6 +14,9 @@ from tests.reverse.native import rclcpp_run, rclpy_play, roscpp_run, rospy_play
 from tests.reverse.native.closing import Case, cases, verdicts
 from tests.reverse.native.ros1 import Input
 
+# The first test of a run compiles the nodes of all cases, beside others that compile.
+pytestmark = pytest.mark.timeout(900)
+
 IN_CPP = [c for c in cases() if c.node.endswith(".cpp")]
 IN_PYTHON = [c for c in cases() if c.node.endswith(".py")]
 RUNNERS = {"node.cpp": roscpp_run.run_all, "rclcpp.cpp": rclcpp_run.run_all}
