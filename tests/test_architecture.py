@@ -11,15 +11,11 @@ from pathlib import Path
 
 from rebsync import model as m
 from rebsync.printing import print_model
-from rebsync.reverse.analysis.effects import EffectAnalysis
-from rebsync.reverse.analysis.library_effects import WITH, LibraryEffect
-from rebsync.reverse.analysis.locations import Elements, Member
 from rebsync.reverse.build.field_order import in_order
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_messages import own_messages
-from rebsync.reverse.ir.dump import dump_function
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import parse as parse_python
@@ -27,6 +23,7 @@ from rebsync.reverse.recovery import extract
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.source import Source
+from tests.reverse.ir.dump import dump_function
 
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs/architecture.md"
@@ -49,11 +46,6 @@ class Robot(Node):
         return self.distance
 """
 _SERVED = "robot.py:Robot.on_limit"
-_KNOWN = {
-    "std_msgs.msg.Int32": LibraryEffect(calls=False),
-    ".publish": LibraryEffect(acts=True, calls=False),
-    WITH: LibraryEffect(acts=True),
-}
 
 
 def stages() -> Iterator[str]:
@@ -86,21 +78,12 @@ def stages() -> Iterator[str]:
 
 
 def form() -> Iterator[str]:
-    """A function of Python, what it is in the intermediate form, and its effects."""
+    """A function of Python, and what it is in the intermediate form."""
     yield _NODE
     imports = "from rclpy.node import Node\nfrom std_msgs.msg import Int32\n"
     code = PyCode.of([parse_python(Source("robot.py", imports + _NODE))])
     program = python_program(code)
     yield dump_function(program.function(_SERVED))
-    effects = EffectAnalysis(program, _KNOWN.get).of(_SERVED)
-    written = sorted(w.name for w in effects.writes if isinstance(w, Member) and w.name)
-    elements = [w for w in effects.writes if isinstance(w, Elements)]
-    yield (
-        f"writes {', '.join(written)}{' and elements' * bool(elements)}\n"
-        f"acts by {', '.join(sorted(effects.acts))}\n"
-        f"runs {', '.join(sorted(effects.functions))}\n"
-        f"may do anything: {effects.anything}\n"
-    )
 
 
 def _tree(function: CppFunction) -> str:

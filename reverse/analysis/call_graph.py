@@ -11,22 +11,22 @@ from collections.abc import Iterable
 from functools import cached_property
 
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.locations import CapturedVariable, GlobalVariable, Location, Member
 from rebsync.reverse.analysis.stores import (
     AnyValue,
     CallResult,
+    CapturedVariable,
     ClassValue,
+    GlobalVariable,
     Key,
+    Member,
     ObjectValue,
     Stores,
     key_of,
-    stores_of,
 )
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
 from rebsync.reverse.ir.program import Class, Function, FunctionKind, Program
-from rebsync.reverse.ir.walk import walk
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ class CallGraph:
 
     def __init__(self, program: Program) -> None:
         self.program = program
-        self.stores: Stores = stores_of(program)
+        self.stores = Stores(program)
         self._methods: dict[str, list[str]] = {}
         for class_ in program.classes.values():
             for name, function in class_.methods:
@@ -119,18 +119,6 @@ class CallGraph:
             if each.name == name
         )
         return frozenset(f for f in found if f is not None)
-
-    @cached_property
-    def addressed(self) -> frozenset[Location]:
-        """The variables that references may lead to: those whose addresses are taken."""
-        found: set[Location] = set()
-        for name in self.program.functions:
-            for node in walk(self.program.function(name)):
-                if isinstance(node, e.AddressOf):
-                    key = key_of(node.target, name)
-                    if isinstance(key, CapturedVariable | GlobalVariable):
-                        found.add(key)
-        return frozenset(found)
 
     @cached_property
     def suspended(self) -> frozenset[str]:

@@ -195,7 +195,7 @@ class ElementCounts:
         stores = self.graph.stores
         if not stores.of(key) or any(_is_other(v) for _, v in stores.initial(key)):
             return True
-        kept = (v for found in stores.values.values() for _, v in found)
+        kept = (value for _, value in stores.everything())
         return any(container in _parts(v) for v in kept) or self._is_passed(container, function)
 
     def _is_passed(self, container: e.Local, function: str) -> bool:

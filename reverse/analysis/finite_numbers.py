@@ -103,7 +103,7 @@ class FiniteNumbers:
             return None
         if key in within:
             return _ANY_WHOLE  # Only what is stored besides counts.
-        changed = self.graph.stores.changed.get(key, [])
+        changed = self.graph.stores.changed(key)
         known = self.graph.stores.initial(key) + changed
         found = [self._of_stored(each, within | {key}) for each in known]
         whole = _either(*found)

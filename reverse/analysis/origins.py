@@ -12,13 +12,13 @@ from typing import TypeAlias
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
-from rebsync.reverse.analysis.local_effects import local_effects
-from rebsync.reverse.analysis.locations import Member
+from rebsync.reverse.analysis.implicit_calls import implicit_calls
 from rebsync.reverse.analysis.stores import (
     AnyValue,
     CallResult,
     ClassValue,
     Key,
+    Member,
     ObjectValue,
     Stored,
     key_of,
@@ -273,9 +273,8 @@ class Origins:
             function, inner = waiting.pop()
             yield function, inner
             around = replace(self.graph.program.function(function), body=inner)
-            local = local_effects(self.graph, around)
-            has_library = any(targets.libraries for _, targets in local.calls)
-            implicit = local.implicit | (self.operators if has_library else frozenset())
+            found = implicit_calls(self.graph, around)
+            implicit = found.functions | (self.operators if found.has_library else frozenset())
             implicit -= seen
             waiting += ((n, self.graph.program.function(n).body) for n in implicit)
             seen |= implicit
@@ -289,18 +288,17 @@ class Origins:
         match node:
             case s.Construct(_, _, _, str() as name):
                 return frozenset({name})
-            case s.Call(_, s.FunctionCallee(name)):
-                called = frozenset({name})
-            case s.Call(_, s.MethodCallee(_, name)):
-                called = self.methods_of_any(name)
-            case s.Call(_, s.ValueCallee(value)):
-                called = self._functions(value, function)
-            case s.Call():
-                called = frozenset()
+            case s.Construct(_, name):
+                return self.graph.construction(name).functions
+            case s.Call(_, callee, arguments):
+                around = self.graph.program.function(function)
+                values = [a.value for a in arguments]
+                if isinstance(callee, s.ValueCallee):
+                    values.append(callee.value)
+                handed = (self._functions(value, function) for value in values)
+                return self.graph.callee(callee, around).functions.union(*handed)
             case _:
                 return frozenset()
-        passed = (self._functions(a.value, function) for a in node.arguments)
-        return called.union(*passed)
 
     def _functions(self, value: e.Expression, function: str) -> frozenset[str]:
         held = self.of(value, function)

@@ -11,8 +11,6 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
 )
 from rebsync.reverse.analysis.format_strings import has_pieces
-from rebsync.reverse.analysis.iterated_containers import IteratedContainers
-from rebsync.reverse.analysis.locations import Member
 from rebsync.reverse.analysis.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
@@ -25,6 +23,7 @@ from rebsync.reverse.analysis.origins import (
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
 from rebsync.reverse.analysis.problems import Problem, ProblemNotes
+from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
@@ -97,11 +96,6 @@ class OutcomeCalls:
         if node.class_name is not None:
             for name in self._answers(node.class_name, ImplicitCall.DESTROY):
                 self._enters(node, name)
-
-    def iterates(self, node: s.ForEach) -> None:
-        """Notes that a loop changes what it iterates."""
-        if IteratedContainers(self.notes).is_changed(node):
-            self.notes.fails(node, "changes while it is iterated")
 
     def entered(self, context: e.Expression, facts: Facts) -> None:
         """Notes what entering a context of a library may do."""

@@ -285,7 +285,6 @@ class OutcomeWalk:
         self.value(node.iterable, facts)
         if self._changes.in_for_each(node) or self._changes.is_own(node):
             self.notes.problem(node, ENDLESS)
-        self._calls.iterates(node)
         inside = without(self._changed(facts, node.body), node.target)
         size = self.notes.counts.elements(node.iterable, self.name)
         if self.notes.is_parameter(node.iterable):

@@ -18,7 +18,7 @@ from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.element_counts import ElementCounts
 from rebsync.reverse.analysis.facts import NO_FACTS
 from rebsync.reverse.analysis.held_locks import HeldLocks
-from rebsync.reverse.analysis.local_effects import local_effects
+from rebsync.reverse.analysis.implicit_calls import implicit_calls
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcome_statements import ENDLESS, OutcomeWalk
 from rebsync.reverse.analysis.problems import Problem, ProblemNotes
@@ -86,9 +86,9 @@ class OutcomeAnalysis:
         walk_.defaults(self._silent.factories(function, self._active))
         walk_.body(function.body, NO_FACTS)
         self.locks.check(function, notes)
-        local = local_effects(self.graph, function)
-        implicit = local.implicit | (self._silent.called(function).difference(self._active))
-        if any(targets.libraries for _, targets in local.calls):
+        found = implicit_calls(self.graph, function)
+        implicit = found.functions | (self._silent.called(function).difference(self._active))
+        if found.has_library:
             implicit |= self.origins.operators
         for name in sorted(implicit):
             if not self.is_model(name) and name != function.name:

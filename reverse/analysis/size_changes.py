@@ -25,6 +25,7 @@ CHANGING = GROWING | {Size.LOSES, Size.ANY}
 # Methods that give what is there at the time when it is asked for.
 _VIEWS = frozenset({"items", "keys", "values", "elements", "__iter__"})
 _ORDERED = frozenset(LibraryOrigin(n, True) for n in ("list", "tuple", "str", "deque", "set"))
+_INDEXED = frozenset(LibraryOrigin(n, True) for n in ("list", "tuple", "str"))
 _NUMBERS = frozenset({PlainOrigin(), LibraryOrigin("str", True)})
 # What changes sizes of its object, or of what it gets, and has no size in the table of outcomes.
 _CHANGING_OBJECT = frozenset(
@@ -90,7 +91,19 @@ class SizeChanges:
         """Whether the containers that a loop takes elements from may have more, or fewer."""
         over = frozenset(self._views(loop.iterable))
         keys = frozenset(self._keys(loop))
+        if self._is_left_to_others(loop.body, over):
+            return True
         return bool(over) and self._changes(loop.body, over, CHANGING, keys)
+
+    def _is_left_to_others(self, body: s.Body, over: frozenset[e.Expression]) -> bool:
+        """Whether a generator stops within a loop, and others may change what it is over.
+
+        A list has indices, and may change: whoever asks for elements has a loop of its own.
+        """
+        if not any(isinstance(n, s.Yield | s.Await) for n in walk(body)):
+            return False
+        shared = (c for c in over if isinstance(c, e.Global | e.Captured | e.Attribute | e.Index))
+        return any(not self.origins.of(c, self.function) <= _INDEXED for c in shared)
 
     def is_own(self, loop: s.ForEach) -> bool:
         """Whether a loop in C++ may go by an iterator that the program has itself."""

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import field
 from typing import TypeAlias
 
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.locations import CapturedVariable, GlobalVariable, Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, Program
@@ -41,6 +39,29 @@ class CallResult:
 
 
 @dataclass(frozen=True, slots=True)
+class GlobalVariable:
+    """A variable of a module."""
+
+    module: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class CapturedVariable:
+    """A local variable of all calls of a function, which functions within it may share."""
+
+    function: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """An attribute of any object, class or module: told apart by names, not by objects."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
 class TemporaryVariable:
     """A temporary of a function."""
 
@@ -48,48 +69,84 @@ class TemporaryVariable:
     number: int
 
 
-# Locals that nobody captures are `CapturedVariable` here as well.
 Key: TypeAlias = GlobalVariable | CapturedVariable | Member | TemporaryVariable
 Value: TypeAlias = e.Expression | AnyValue | ClassValue | ObjectValue | CallResult
 Stored: TypeAlias = tuple[str, Value]
 ANY_VALUE = AnyValue()
 
 
-@dataclass(frozen=True, slots=True)
 class Stores:
     """By each variable or attribute the values that are stored in it, with their functions.
 
-    `changed` says what `+=` and the like compute, each of which is any value in `values`.
+    Bodies are lowered when something is asked that they may store in: for a local that of its
+    function, with all within it; for an attribute or a variable of a module those of the program.
     """
 
-    values: dict[Key, list[Stored]] = field(default_factory=dict)
-    changed: dict[Key, list[Stored]] = field(default_factory=dict)
+    def __init__(self, program: Program) -> None:
+        self._program = program
+        self._values: dict[Key, list[Stored]] = {}
+        self._changed: dict[Key, list[Stored]] = {}
+        self._seen: set[str] = set()
+        self._is_whole = False
 
     def of(self, key: Key) -> list[Stored]:
-        return self.values.get(key, [])
+        """All that is ever stored under a name."""
+        self._see_all(key)
+        return self._values.get(key, [])
+
+    def changed(self, key: Key) -> list[Stored]:
+        """What `+=` and the like compute; in `of` each of these is any value."""
+        self._see_all(key)
+        return self._changed.get(key, [])
 
     def initial(self, key: Key) -> list[Stored]:
         """What is stored otherwise than by `+=` and the like."""
         found = list(self.of(key))
-        for function, _ in self.changed.get(key, []):
+        for function, _ in self.changed(key):
             found.remove((function, ANY_VALUE))
         return found
 
+    def everything(self) -> Iterator[Stored]:
+        """All that is stored anywhere."""
+        self._see_whole()
+        for found in self._values.values():
+            yield from found
 
-def stores_of(program: Program) -> Stores:
-    """All stores of a program, whose bodies are all lowered for this."""
-    stores = Stores()
-    for name in program.functions:
-        function = program.function(name)
+    def _see_all(self, key: Key) -> None:
+        """Reads the bodies that may store under a name."""
+        match key:
+            case CapturedVariable(function) | TemporaryVariable(function):
+                waiting = [function]
+                while waiting and not self._is_whole:
+                    waiting += self._see(waiting.pop())
+            case _:
+                self._see_whole()
+
+    def _see_whole(self) -> None:
+        for name in () if self._is_whole else self._program.functions:
+            self._see(name)
+        self._is_whole = True
+
+    def _see(self, name: str) -> list[str]:
+        """Reads one body; gives the functions that are defined within it."""
+        if name in self._seen or name not in self._program:
+            return []
+        self._seen.add(name)
+        function, inner = self._program.function(name), list[str]()
         for key, value in _stores(function):
-            stores.values.setdefault(key, []).append((name, value))
+            self._values.setdefault(key, []).append((name, value))
         for node in walk(function):
-            if isinstance(node, s.CompoundAssign):
-                changed = key_of(node.target, name)
-                value = e.Binary(node.operator, node.target, node.value, node.target.type)
-                if changed is not None:
-                    stores.changed.setdefault(changed, []).append((name, value))
-    return stores
+            match node:
+                case s.CompoundAssign(target, operator, value):
+                    changed = key_of(target, name)
+                    computed = e.Binary(operator, target, value, target.type)
+                    if changed is not None:
+                        self._changed.setdefault(changed, []).append((name, computed))
+                case e.Closure(function=within) | s.DefineClass(name=within):
+                    inner.append(within)
+                case _:
+                    pass
+        return inner
 
 
 def key_of(target: e.Expression, function: str) -> Key | None:

@@ -16,7 +16,6 @@ FAILURES: Mapping[str, tuple[str, str]] = {
     "shifts by less than zero": ("", "builtins.ValueError"),
     "is too great": ("", "builtins.OverflowError"),
     "has a style that is none": ("", "builtins.ValueError"),
-    "changes while it is iterated": ("", "builtins.RuntimeError"),
     "lacks the argument": ("", "builtins.IndexError"),
     "is empty": ("std::bad_optional_access", "builtins.AttributeError"),
     "does not hold": ("", "builtins.AssertionError"),

@@ -34,7 +34,7 @@ from rebsync.reverse.ir.cpp.sequencing import in_any_order
 from rebsync.reverse.ir.cpp.standard_functions import STANDARD
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol
 from rebsync.reverse.ir.cpp.types import AUTO, Declared, ReferenceKind
-from rebsync.reverse.ir.dump_expressions import dump_type
+from rebsync.reverse.ir.dump_types import dump_type
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.syntax.macros import hides
 from rebsync.source import Span

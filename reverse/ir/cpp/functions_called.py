@@ -27,7 +27,7 @@ from rebsync.reverse.ir.cpp.overloads import (
 from rebsync.reverse.ir.cpp.sequencing import has_effects, in_any_order
 from rebsync.reverse.ir.cpp.symbols import FunctionSymbol
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
-from rebsync.reverse.ir.dump_expressions import dump_type
+from rebsync.reverse.ir.dump_types import dump_type
 from rebsync.source import Span
 
 

@@ -13,7 +13,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.symbol_table import SymbolTable
 from rebsync.reverse.ir.cpp.symbols import AliasSymbol, ClassSymbol, EnumSymbol
-from rebsync.reverse.ir.dump_expressions import dump_type
+from rebsync.reverse.ir.dump_types import dump_type
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType, ModuleType
 from typing import Any
 
@@ -20,6 +20,10 @@ MODULE = "case.py"
 SHORT = 3000  # lines that are run
 _OBJECT = re.compile(r"<[\w.]*?(\w+) object at 0x\w+>")
 _PREFIX = "LOG = []\ndef log(x):\n    LOG.append(x)\n    return x\n"
+
+
+class _TooLong(BaseException):
+    """A text runs for more lines than the interpreter is to go through."""
 
 
 def program_of(text: str, prefix: str = _PREFIX) -> Program:
@@ -44,12 +48,15 @@ def is_short(text: str) -> bool:
         if frame.f_code.co_filename != MODULE:
             return None
         lines += event == "line"
-        return counted if lines <= SHORT else None
+        if lines > SHORT:
+            raise _TooLong
+        return counted
 
     before = sys.gettrace()
     sys.settrace(counted)
     try:
-        natively(text)
+        with suppress(_TooLong):
+            natively(text)
     finally:
         sys.settrace(before)
     return lines <= SHORT

@@ -9,12 +9,12 @@ import pytest
 from rebsync.reverse.ir import calls as c
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.dump import dump_body, dump_function
 from rebsync.reverse.ir.operators import Conversion, Operator
 from rebsync.reverse.ir.program import Function, Parameter, Program
 from rebsync.reverse.ir.types import DOUBLE, TRUTH, UNBOUNDED, Integer
 from rebsync.reverse.ir.walk import STATEMENTS, statements, walk
 from rebsync.source import Source, Span
+from tests.reverse.ir.dump import dump_body, dump_function
 
 _SELF = e.Local("self")
 _SPEED = e.Attribute(_SELF, "speed")

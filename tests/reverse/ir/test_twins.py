@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
-from rebsync.reverse.ir.dump import dump_class, dump_function
 from rebsync.reverse.ir.program import FunctionKind, Program
 from tests.reverse.ir.cpp_running import FILE
 from tests.reverse.ir.cpp_running import program_of as cpp_program
+from tests.reverse.ir.dump import dump_class, dump_function
 from tests.reverse.ir.interpreter import Interpreter
 from tests.reverse.ir.objects import ObjectInterpreter
 from tests.reverse.ir.running import MODULE

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.dump_expressions import dump_expression, dump_operator, dump_type
+from rebsync.reverse.ir.dump_types import dump_type
 from rebsync.reverse.ir.expressions import Expression
 from rebsync.reverse.ir.program import Class, Function, FunctionKind, Parameter, ParameterKind
 from rebsync.reverse.ir.types import UNKNOWN
 from rebsync.unions import assert_never
+from tests.reverse.ir.dump_expressions import dump_expression, dump_operator
 
 
 def dump_function(function: Function) -> str:
