@@ -5,9 +5,10 @@ Everything else may not end.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 
-from rebsync.reverse.analysis.finite_numbers import FiniteNumbers, type_range
+from rebsync.reverse.analysis.finite_numbers import FiniteNumbers, Limits, type_range
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -23,13 +24,20 @@ _MIRRORED = {
     Operator.LESS_EQUAL: Operator.GREATER_EQUAL,
     Operator.GREATER_EQUAL: Operator.LESS_EQUAL,
 }
+_OPPOSITE = {
+    Operator.LESS: Operator.GREATER_EQUAL,
+    Operator.GREATER: Operator.LESS_EQUAL,
+    Operator.LESS_EQUAL: Operator.GREATER,
+    Operator.GREATER_EQUAL: Operator.LESS,
+}
 
 
 class LoopEnds:
     """The loops of one function.
 
     `is_size` says of a call whether it gives the size, or the end, of a container; `is_written` of
-    a bound whether a loop stores in what it is made of.
+    a bound whether a loop stores in what it is made of; `lent` has the ids of references by which
+    nobody stores.
     """
 
     def __init__(
@@ -38,31 +46,26 @@ class LoopEnds:
         function: str,
         is_size: Callable[[s.Call], bool],
         is_written: Callable[[s.Loop, e.Expression], bool],
+        lent: frozenset[int],
     ) -> None:
         self.numbers = numbers
         self.function = function
         self.is_size = is_size
         self.is_written = is_written
+        self.lent = lent
 
     def ends(self, loop: s.Loop) -> bool:
         """Whether a loop ends, if its body does and puts nothing into its bound."""
-        for node in walk(loop):
-            target = getattr(node, "target", None)
-            if not isinstance(target, e.Temporary) or target not in walk(loop.test):
-                continue
-            if not isinstance(node, s.Call) or not self.is_size(node):
-                return False
-        tests = [loop.test]
-        while tests:
-            test = _bare(tests.pop())
-            if isinstance(test, e.And):
-                tests += [test.left, test.right]
-            elif isinstance(test, e.Binary) and self._counts(loop, test):
-                return True
-        return False
+        return any(self._is_false_at_last(loop, test) for test in _tests(loop))
+
+    def _is_false_at_last(self, loop: s.Loop, test: e.Expression) -> bool:
+        """Whether a test that each round makes does not hold in all of them."""
+        if isinstance(test, e.Literal):
+            return not test.value
+        return isinstance(test, e.Binary) and self._counts(loop, test)
 
     def _counts(self, loop: s.Loop, test: e.Binary) -> bool:
-        left, right = _bare(test.left), _bare(test.right)
+        left, right = (_before_its_step(loop, _bare(side)) for side in (test.left, test.right))
         match left:
             case e.Binary(Operator.ADD, inner, e.Literal(int() as more)) if more >= 0:  # i + 1 < n
                 left = _bare(inner)
@@ -79,20 +82,51 @@ class LoopEnds:
         """Whether a variable gets nearer to a bound in each round."""
         if not isinstance(counter, e.Local) or counter in walk(bound):
             return False
-        if self.is_written(loop, bound):
+        if self.is_written(loop, bound) or not self._is_asked(loop, bound):
             return False
-        if operator is Operator.UNEQUAL:
-            return isinstance(_bare(bound), e.Temporary) and _is_iterator(loop, counter)
-        step = _step(loop, counter)
+        if operator is Operator.UNEQUAL and isinstance(_bare(bound), e.Temporary):
+            return _is_iterator(loop, counter)
+        step = self._step(loop, counter)
         width, limits = self._width(counter), self.numbers.limits(bound, self.function)
         if step is None or width is None or limits is None:
             return False
+        if operator is Operator.UNEQUAL:
+            return _is_passed(width, limits, step)
         if operator in _UP and step > 0:
             return _is_reached(width, operator is Operator.LESS, limits.greatest, step)
         if operator in _DOWN and step < 0:
             least = None if limits.least is None else -limits.least
             return _is_reached(width, operator is Operator.GREATER, least, -step, is_down=True)
         return False
+
+    def _is_asked(self, loop: s.Loop, bound: e.Expression) -> bool:
+        """Whether what each round computes anew of a bound is the size or end of a container."""
+        parts = {n for n in walk(bound) if isinstance(n, e.Temporary)}
+        stores = (n for n in walk(loop) if getattr(n, "target", None) in parts)
+        asked = {id(n) for n in walk(loop.prelude)}
+        return all(isinstance(n, s.Call) and self.is_size(n) and id(n) in asked for n in stores)
+
+    def _step(self, loop: s.Loop, counter: e.Local) -> int | None:
+        """What is added to a counter in each round, where nothing else is stored in it."""
+        stores = [n for n in walk(loop) if _stores_in(n, counter)]
+        uses = (n for n in walk(loop) if isinstance(n, e.AddressOf) and n.target == counter)
+        if len(stores) != 1 or any(id(n) not in self.lent for n in uses):
+            return None
+        store = stores[0]
+        skips = any(isinstance(n, s.Continue) for n in walk(loop.body))
+        if store not in (*loop.prelude, *loop.step) and (store not in loop.body or skips):
+            return None
+        match store:
+            case s.CompoundAssign(_, Operator.ADD, e.Literal(int() as step)):
+                return step
+            case s.CompoundAssign(_, Operator.SUBTRACT, e.Literal(int() as step)):
+                return -step
+            case s.Assign(_, e.Binary(Operator.ADD, left, e.Literal(int() as step))) if (
+                left == counter
+            ):
+                return step
+            case _:
+                return None
 
     def _width(self, counter: e.Local) -> t.Integer | None:
         """The type of a whole number; a float may stay as it is when one is added."""
@@ -102,6 +136,28 @@ class LoopEnds:
             return None
         limits = self.numbers.limits(counter, self.function)
         return t.UNBOUNDED if limits is not None and limits.is_whole else None
+
+
+def _tests(loop: s.Loop) -> Iterator[e.Expression]:
+    """What must hold for a loop to go on after a round: its test, and those that leave it."""
+    waiting = [loop.test]
+    while waiting:
+        test = _bare(waiting.pop())
+        if isinstance(test, e.And):
+            waiting += [test.left, test.right]
+        else:
+            yield test
+    if any(isinstance(n, s.Continue) for n in walk(loop.body)):
+        return
+    for node in loop.body:
+        match node:
+            case s.If(test, (*_, s.Break() | s.Return()), ()):
+                held = _bare(test)
+                opposite = _OPPOSITE.get(held.operator) if isinstance(held, e.Binary) else None
+                if isinstance(held, e.Binary) and opposite is not None:
+                    yield replace(held, operator=opposite)
+            case _:
+                pass
 
 
 def _is_reached(
@@ -120,26 +176,25 @@ def _is_reached(
     return is_strict and width.signed and width.bits >= 32 and bound <= last
 
 
-def _step(loop: s.Loop, counter: e.Local) -> int | None:
-    """What is added to a counter in each round, where nothing else is stored in it."""
-    stores = [n for n in walk(loop) if _stores_in(n, counter)]
-    if len(stores) != 1 or any(
-        isinstance(n, e.AddressOf) and n.target == counter for n in walk(loop)
-    ):
-        return None
-    store = stores[0]
-    skips = any(isinstance(n, s.Continue) for n in walk(loop.body))
-    if store not in loop.step and (store not in loop.body or skips):
-        return None
-    match store:
-        case s.CompoundAssign(_, Operator.ADD, e.Literal(int() as step)):
-            return step
-        case s.CompoundAssign(_, Operator.SUBTRACT, e.Literal(int() as step)):
-            return -step
-        case s.Assign(_, e.Binary(Operator.ADD, left, e.Literal(int() as step))) if left == counter:
-            return step
+def _is_passed(width: t.Integer, limits: Limits, step: int) -> bool:
+    """Whether a counter that takes each number of its type comes by all that a bound may be."""
+    if width.bits is None or width.bits > 32 or abs(step) != 1:
+        return False
+    if limits.least is None or limits.greatest is None or not limits.is_whole:
+        return False
+    lowest, highest = type_range(width)
+    return lowest <= limits.least and limits.greatest <= highest
+
+
+def _before_its_step(loop: s.Loop, value: e.Expression) -> e.Expression:
+    """The variable whose value a test has: of `i++ < n` that of before the step."""
+    if not isinstance(value, e.Temporary):
+        return value
+    match [n for n in walk(loop) if getattr(n, "target", None) == value]:
+        case [s.Assign(_, e.Local() as of) as store] if store in walk(loop.prelude):
+            return of
         case _:
-            return None
+            return value
 
 
 def _is_iterator(loop: s.Loop, counter: e.Local) -> bool:

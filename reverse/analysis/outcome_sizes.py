@@ -113,21 +113,31 @@ class OutcomeSizes:
 
     # --- loops -----------------------------------------------------------------------------------
 
-    def is_bound(self, node: s.Call) -> bool:
-        """Whether a call gives the size or the end of a container."""
-        outcome, _ = self.of_receiver(node)
+    def bound(self, node: s.Call) -> e.Expression | None:
+        """The container of which a call gives the size or the end, if it is one of a library."""
+        outcome, container = self._asked(node)
         name = node.callee.name if isinstance(node.callee, s.LibraryCallee) else ""
         is_end = name.rpartition("::")[2] in _ENDS
         if not is_end and (outcome is None or outcome.tells is not Tells.SIZE):
-            return False
-        classes = self.origins.own_classes(self.container(node), self.function)
+            return None
+        if container is None:
+            return None
+        classes = self.origins.own_classes(container, self.function)
         has_own = (self.origins.has_method(c, m) for c in classes for m in _ASKED)
-        return not any(has_own)
+        return None if any(has_own) else container
 
-    def container(self, node: s.Call) -> e.Expression:
-        """The container of which a call gives the size or the end."""
-        _, receiver = self.of_receiver(node)
-        return node.arguments[0].value if receiver is None else receiver
+    def emptied(self, node: s.Call) -> e.Expression | None:
+        """The container of a library of which a call says whether it has no elements."""
+        outcome, container = self._asked(node)
+        if outcome is None or outcome.tells is not Tells.EMPTY or container is None:
+            return None
+        return None if self.origins.own_classes(container, self.function) else container
+
+    def _asked(self, node: s.Call) -> tuple[CallOutcome | None, e.Expression | None]:
+        """What a method does, with its object; or what a function does, with what it gets first."""
+        outcome, receiver = self.of_receiver(node)
+        given = [argument.value for argument in node.arguments[:1]]
+        return outcome, next(iter(given), None) if receiver is None else receiver
 
     def is_emptied(self, loop: s.Loop) -> bool:
         """Whether each round takes an element out of the container whose size is tested."""
@@ -138,10 +148,13 @@ class OutcomeSizes:
             if least is None or not isinstance(limit, int) or limit < least:
                 return False
             test = self.expressions.bare(test.left)
-        tested = {test}
+        asks, asked, tested = self.bound, test, {test}
+        if isinstance(test, e.Unary) and test.operator is Operator.NOT:
+            asks, asked = self.emptied, self.expressions.bare(test.operand)
         for node in loop.prelude:
-            if isinstance(node, s.Call) and node.target == test and self.is_bound(node):
-                tested.add(self.container(node))
+            if isinstance(node, s.Call) and node.target == asked:
+                container = asks(node)
+                tested |= set() if container is None else {container}
         # With a default, `pop` of a key may take nothing.
         calls = [n for n in loop.body if isinstance(n, s.Call) and len(n.arguments) < 2]
         taken = [self.of_receiver(n) for n in calls]

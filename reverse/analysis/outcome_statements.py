@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from rebsync.reverse.analysis.bounded_loops import LoopEnds
 from rebsync.reverse.analysis.facts import (
     NO_FACTS,
     Facts,
@@ -20,13 +19,12 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
     without_sizes,
 )
-from rebsync.reverse.analysis.finite_numbers import FiniteNumbers
+from rebsync.reverse.analysis.loop_endings import LoopEndings
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin
 from rebsync.reverse.analysis.outcome_calls import OutcomeCalls
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
 from rebsync.reverse.analysis.problems import Problem, ProblemNotes
-from rebsync.reverse.analysis.size_changes import SizeChanges
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import walk
@@ -45,9 +43,7 @@ class OutcomeWalk:
         self._expressions = OutcomeExpressions(notes)
         self._sizes = OutcomeSizes(notes, self._expressions)
         self._calls = OutcomeCalls(notes, self._expressions, self._sizes, of)
-        numbers = FiniteNumbers(self.origins.graph, notes.table)
-        self._changes = SizeChanges(notes, self._sizes)
-        self._ends = LoopEnds(numbers, self.name, self._sizes.is_bound, self._changes.in_bound)
+        self._endings = LoopEndings(notes, self._sizes)
         self._handled: list[set[Problem]] = []
 
     def value(self, value: e.Expression | None, facts: Facts) -> None:
@@ -258,8 +254,7 @@ class OutcomeWalk:
 
     def _loop(self, node: s.Loop, facts: Facts) -> Facts:
         inner = (*node.prelude, *node.body, *node.step)
-        is_bounded = self._ends.ends(node) or self._sizes.is_emptied(node)
-        if not is_bounded or self._changes.in_loop(node) or self._is_shared(node):
+        if not self._endings.ends(node):
             self.notes.problem(node, ENDLESS)
         inside = self._changed(facts, inner)
         before = self.body(node.prelude, inside) or inside
@@ -271,19 +266,9 @@ class OutcomeWalk:
         has_break = any(isinstance(n, s.Break) for n in walk(node.body))
         return inside if has_break or node.otherwise else left
 
-    def _is_shared(self, node: s.Loop) -> bool:
-        """Whether functions within share a variable that the test of a loop names."""
-        stepped = [n for n in walk(node.step) if isinstance(n, e.AddressOf)]
-        uses = [n for n in walk(self.notes.function) if isinstance(n, e.AddressOf)]
-        own = {
-            n.target.name for n in stepped if isinstance(n.target, e.Local) and uses.count(n) == 1
-        }
-        names = self.notes.function.captured - own
-        return any(isinstance(n, e.Local) and n.name in names for n in walk(node.test))
-
     def _for_each(self, node: s.ForEach, facts: Facts) -> Facts:
         self.value(node.iterable, facts)
-        if self._changes.in_for_each(node) or self._changes.is_own(node):
+        if not self._endings.ends(node):
             self.notes.problem(node, ENDLESS)
         inside = without(self._changed(facts, node.body), node.target)
         size = self.notes.counts.elements(node.iterable, self.name)

@@ -120,8 +120,10 @@ class SizeChanges:
     def _tested(self, loop: s.Loop) -> Iterator[e.Expression]:
         tests = {*walk(loop.test)}
         for node in loop.prelude:
-            if isinstance(node, s.Call) and node.target in tests and self.sizes.is_bound(node):
-                yield self.sizes.container(node)
+            if isinstance(node, s.Call) and node.target in tests:
+                for container in (self.sizes.bound(node), self.sizes.emptied(node)):
+                    if container is not None:
+                        yield container
         bare = self.sizes.expressions.bare(loop.test)
         if isinstance(bare, e.Local | e.Global | e.Captured | e.Attribute):
             yield bare  # while values:

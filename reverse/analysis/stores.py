@@ -142,7 +142,7 @@ class Stores:
                     computed = e.Binary(operator, target, value, target.type)
                     if changed is not None:
                         self._changed.setdefault(changed, []).append((name, computed))
-                case e.Closure(function=within) | s.DefineClass(name=within):
+                case e.Closure(function=within) | s.DefineClass(_, within):
                     inner.append(within)
                 case _:
                     pass

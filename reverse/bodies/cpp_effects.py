@@ -11,7 +11,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.bodies import cpp_roots, known_functions
 from rebsync.reverse.bodies.cpp_algorithms import looked_at
-from rebsync.reverse.bodies.cpp_endings import may_end
+from rebsync.reverse.bodies.cpp_endings import ENDLESS, ends
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOPS, OF_TEXTS, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
@@ -91,8 +91,8 @@ class Effects:
         self._inner = before
 
     def _repeated(self, node: Node) -> None:
-        if not may_end(self.scope, node):
-            raise self._touches(node, "nothing ends this loop")
+        if not ends(self.scope, self.cpp, node):
+            raise self._touches(node, ENDLESS)
         self._around = (*self._around, node.type)
         self._block(node)
         self._around = self._around[:-1]
@@ -218,6 +218,8 @@ class Effects:
                 self._changes(argument, name, f'this may change "{name}"')
 
     def _range(self, node: Node) -> None:
+        if not ends(self.scope, self.cpp, node):
+            raise self._touches(node, ENDLESS)
         declarator, over = part(node, "declarator"), part(node, "right")
         refers = declarator.type == "reference_declarator"
         changes = refers and "const" not in cpp_roots.specifiers_of(node)

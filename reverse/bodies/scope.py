@@ -294,8 +294,7 @@ class Scope:
     # Of enumerations the values by name (`RED`, `Color::RED`), and the names of the types.
     enumerators: Mapping[str, int | str] = field(default_factory=dict)
     enums: frozenset[str] = frozenset()
-    # What the model keeps of types that the code names itself, if it does: aliases of this body,
-    # and the types that the parameters of a template stand for.
+    # What the model keeps of types that the code names itself: aliases, a template's parameters.
     aliases: Mapping[str, Carried | None] = field(default_factory=dict)
     # The fields of message types by their paths; None where the model has no such type.
     messages: Mapping[str, Mapping[str, Type | None]] = field(default_factory=dict)
@@ -322,8 +321,7 @@ class Scope:
     returns: Type | None = None
     # Locals that hold what the functions give whose bodies stand in this one, by their names.
     results: dict[str, Variable] = field(default_factory=dict, compare=False, repr=False)
-    # The bits, without the sign, of locals that hold more than an `int`; texts that may be any;
-    # literals of which the model has the lower bits.
+    # The bits of locals wider than an `int`; texts that may be any; literals that are cut.
     wide: dict[str, int] = field(default_factory=dict, compare=False, repr=False)
     changed_texts: set[str] = field(default_factory=set, compare=False, repr=False)
     lowered: set[Expression] = field(default_factory=set, compare=False, repr=False)
@@ -333,6 +331,8 @@ class Scope:
     calls: dict[int, CppCall] = field(default_factory=dict, compare=False, repr=False)
     # The definitions of macros with parameters, by their names.
     macros: Mapping[str, Sequence[Node]] = field(default_factory=dict, compare=False, repr=False)
+    # Whether a loop ends, by the form.
+    ends: Callable[[Cpp, Node], bool] | None = field(default=None, compare=False, repr=False)
 
     def carried(self, node: Node) -> Carried | None:
         """What the model keeps of a type, or None if it has nothing like it."""

@@ -11,6 +11,7 @@ from rebsync import model as m
 from rebsync.names import carry, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_CLASSES, RESERVED
+from rebsync.reverse.bodies.cpp_form import CppForm
 from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.scope import (
@@ -92,6 +93,7 @@ class Classes:
     meanings: tuple[Meaning, ...] = ()
     alone: bool = False
     shown: frozenset[tuple[str, str]] = frozenset()
+    form: CppForm = field(init=False)
     _scopes: dict[str, Scope] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -100,24 +102,24 @@ class Classes:
             self.roles = {name: Roles() for name in self.code.classes}
             return
         self.code = without_mixins(self.code)
+        self.form = CppForm(self.code)
         self.meanings = other_meanings(self.code)
         self.shown = shown_only(self.code) if self.alone else frozenset()
-        for owner in self.code.classes.values():
-            self.roles[owner.name] = roles_of(self.code, owner)
+        classes = self.code.classes.values()
+        self.roles |= {owner.name: roles_of(self.code, owner) for owner in classes}
         ordered = as_handed_on(self.code, self.messages, self.served, self.roles)
         self.messages, self.served = ordered
         self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
         self.types |= {carry(name, NO_CLASSES) for name in self.served.classes}  # of Python
         self.served = self.served.joined(families_of(self.code, self.roles))
         sent = (p.message for roles in self.roles.values() for p in roles.publishers.values())
-        states = (s for c in self.code.classes.values() for s in state_types(self.code, c))
+        states = (s for c in classes for s in state_types(self.code, c))
         self.types = self.types.union(self.fields, self.served.servers, sent, states)
-        for owner in self.code.classes.values():
+        for owner in classes:
             learn_servers(self.code, owner, self.roles, self.types)
-        for owner in self.code.classes.values():
+        for owner in classes:
             add_sends(self.code, owner, self.roles, self.fields, self.served)
-        for owner in self.code.classes.values():
-            self.timers[owner.name] = tuple(self._timed(owner))
+        self.timers |= {owner.name: tuple(self._timed(owner)) for owner in classes}
 
     def read(self, wanted: set[str] | None = None) -> tuple[m.ReactiveClass | m.Interface, ...]:
         """All of them, or those that are wanted, in the order of the code."""
@@ -169,20 +171,17 @@ class Classes:
         known, state = self._variables(owner)
         members: list[m.ClassMember] = [m.KnownRebecs(tuple(known))] if known else []
         members += [m.StateVars(tuple(state))] if state else []
-        own = stored_in(self.code, roles, owner)
-        members += with_own(tuple(self._constructors(owner)), own, class_name(owner.name))
-        members += [
-            self._server(owner, f, name)
-            for f in functions
-            if (name := self._served(owner, f)) is not None
-        ]
+        own, name = stored_in(self.code, roles, owner), class_name(owner.name)
+        members += with_own(tuple(self._constructors(owner)), own, name)
+        served = [(f, self._served(owner, f)) for f in functions]
+        members += [self._server(owner, f, by) for f, by in served if by is not None]
         members += self._lambdas(owner)
-        members += [self._method(owner, f) for f in functions if self._served(owner, f) is None]
+        members += [self._method(owner, f) for f, by in served if by is None]
         members += [self._method(owner, f) for f in functions_beside(self.code, owner)]
         extends = [b for b in owner.bases if self._is_reactive(b)]
         return m.ReactiveClass(
-            class_name(owner.name),
-            (self.roles[owner.name].queue_length or 1) + ticking(self.timers[owner.name]),
+            name,
+            (roles.queue_length or 1) + ticking(self.timers[owner.name]),
             tuple(members),
             self._is_abstract(owner),
             class_name(extends[0]) if extends else None,
@@ -365,8 +364,7 @@ class Classes:
         callable_: set[str] = set()
         for above in reversed(self.code.lineage(owner.name)):
             roles = self.roles[above.name]
-            for member in above.fields:
-                members[member.name] = self._member(roles, member)
+            members |= {f.name: self._member(roles, f) for f in above.fields}
             for function in self.code.functions_of(above):
                 served = self._served(above, function)
                 if function.name in roles.sends:
@@ -376,10 +374,9 @@ class Classes:
                 elif self._is_of_model(above, function):
                     functions[function.name] = called(self.code, function, self.types)
                     callable_.add(function.name)
-                elif only_logs(function) and self._is_by_hand(above, function):
-                    functions.setdefault(function.name, Ignored())
                 else:
-                    functions.setdefault(function.name, Around())
+                    only = only_logs(function) and self._is_by_hand(above, function)
+                    functions.setdefault(function.name, Ignored() if only else Around())
             callable_ |= roles.constants | set(roles.sends)
         for function in functions_beside(self.code, owner):
             functions[function.name] = called(self.code, function, self.types)
@@ -397,4 +394,5 @@ class Classes:
             aliases=aliases(self.code),
             messages=self.messages,
             unit=self.unit,
+            ends=self.form.ends,
         )

@@ -11,6 +11,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.calm import Calm, Sure
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
+from rebsync.reverse.bodies.cpp_form import CppForm
 from rebsync.reverse.bodies.cpp_regions import Regions
 from rebsync.reverse.bodies.cpp_statements import CppStatements
 from rebsync.reverse.bodies.cpp_types import carried
@@ -67,6 +68,11 @@ class Common:
     messages: Mapping[str, Fields]
     types: frozenset[str]
     signatures: Signatures
+    _forms: dict[int, CppForm] = field(default_factory=dict, repr=False)
+
+    def form(self, code: Code) -> CppForm:
+        """The intermediate form of some of its files."""
+        return self._forms.setdefault(id(code), CppForm(code))
 
 
 @dataclass(slots=True)
@@ -143,6 +149,7 @@ class Bodies:
             chooses=chooses,
             server=server,
             unit=self.setup.times.unit,
+            ends=self.common.form(self.code).ends,
         )
 
     def _own_members(self) -> Mapping[str, Member]:

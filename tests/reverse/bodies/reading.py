@@ -8,6 +8,7 @@ from pathlib import Path
 from rebsync import model as m
 from rebsync.grammars.parser import parse_model
 from rebsync.printing import print_model
+from rebsync.reverse.bodies.cpp_form import CppForm
 from rebsync.reverse.bodies.cpp_statements import CppStatements
 from rebsync.reverse.bodies.scope import (
     Called,
@@ -113,6 +114,7 @@ def read_case(source: Source) -> tuple[m.Model, Findings]:
         messages=_MESSAGES,
         widths=_WIDTHS,
         open=True,
+        ends=CppForm(code).ends,
     )
     servers = [_server(cpp, f, scope, findings) for f in functions if _is_served(f)]
     return _whole(tuple(enumerated(servers)[0])), findings

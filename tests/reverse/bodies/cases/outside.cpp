@@ -95,3 +95,4 @@ void Node::onWaits() {
   ::poll(files_, 1, 100);
   sensor_.poll();
 }
+int count_;
