@@ -9,9 +9,10 @@ from tree_sitter import Node
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.ir.cpp.functions import lambda_names
 from rebsync.reverse.ir.cpp.lowering import CppLowering
+from rebsync.reverse.ir.cpp.symbols import FunctionSymbol
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
-from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp
 
@@ -34,18 +35,23 @@ class CppForm:
         return ProgramLoops(self._lowering.program(), LibraryOutcomes(Language.CPP, macros))
 
     @cached_property
-    def _names(self) -> dict[int, str]:
-        """The names of functions in the form, lambdas included, by their nodes."""
-        symbols = self._lowering.world.symbols
-        found: dict[int, str] = {}
-        for name, symbol in symbols.functions.items():
-            if symbol.code.body is not None:
-                found[symbol.code.node.id] = name
-                found |= lambda_names(symbol, symbols.classes.get(symbol.owner or ""))
-        return found
+    def _functions(self) -> dict[int, FunctionSymbol]:
+        """The functions that have a body, by their nodes."""
+        symbols = self._lowering.world.symbols.functions.values()
+        return {f.code.node.id: f for f in symbols if f.code.body is not None}
 
     def ends(self, cpp: Cpp, loop: Node) -> bool:
         """Whether a loop in a function ends, if what stands in it does."""
-        around = climb(loop, lambda node: node.type in _FUNCTIONS)
-        name = self._names.get(around.id) if around is not None else None
+        name = self._around(loop)
         return name is not None and self._loops.ends(name, cpp.span(loop))
+
+    def _around(self, node: Node) -> str | None:
+        """The name of the function or lambda that a node stands in; None if it is in none."""
+        around = [n for n in ancestors(node) if n.type in _FUNCTIONS]
+        symbol = next((self._functions[n.id] for n in around if n.id in self._functions), None)
+        if symbol is None:
+            return None
+        if around[0].type == "function_definition":
+            return symbol.name
+        owner = self._lowering.world.symbols.classes.get(symbol.owner or "")
+        return lambda_names(symbol, owner).get(around[0].id)

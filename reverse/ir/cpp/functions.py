@@ -54,7 +54,8 @@ def lambda_names(function: FunctionSymbol, owner: ClassSymbol | None) -> dict[in
 def names_of_lambdas(around: str, nodes: Iterable[Node | None]) -> dict[int, str]:
     """The names of the lambdas in some code, by their nodes."""
     found: dict[int, str] = {}
-    waiting = [n for n in nodes if n is not None]
+    # A text is searched faster than its tree.
+    waiting = [n for n in nodes if n is not None and b"[" in (n.text or b"")]
     waiting.reverse()
     while waiting:
         node = waiting.pop()
