@@ -18,6 +18,7 @@ from rebsync.reverse.graph import Fact
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_values import Instance
+from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.body_learnt import Learnt
 from rebsync.reverse.python.body_scope import (
     OTHER,
@@ -84,6 +85,7 @@ class Reading:
     timers: set[int] = with_default(default_factory=set)
     stored: set[int] = with_default(default_factory=set)
     places: dict[str, tuple[Source, Span]] = with_default(default_factory=dict)
+    form: PyForm | None = None
 
     @property
     def code(self) -> PyCode:

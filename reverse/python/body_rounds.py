@@ -45,20 +45,23 @@ def _is_plain_loop(reader: BodyStatementReader, loop: Node, targets: list[Node])
         return False
     targets.append(field(loop, "left"))
     over = field(loop, "right")
+    form, frame = reader.reading.form, reader.frame
     return (
-        is_harmless(reader.reading, over, reader.frame)
-        and _ends(reader, over)
+        is_harmless(reader.reading, over, frame)
+        and _is_there(reader, over)
         and _are_plain(reader, named(field(loop, "body")), targets)
+        and form is not None
+        and form.ends(frame.py, loop)
     )
 
 
-def _ends(reader: BodyStatementReader, over: Node) -> bool:
+def _is_there(reader: BodyStatementReader, over: Node) -> bool:
     """Whether what is gone through is there at once, as far as it is seen."""
     if over.type == "call":
         inner = field(over, "function")
         holder = [field(inner, "object")] if inner.type == "attribute" else []
         given = [n for n in named(field(over, "arguments")) if n.type != "keyword_argument"]
-        return last_name(inner) in _FINITE and all(_ends(reader, n) for n in (*holder, *given))
+        return last_name(inner) in _FINITE and all(_is_there(reader, n) for n in (*holder, *given))
     if over.type not in _PLACES:
         return over.type in ("string", "integer", "list_comprehension", "slice")
     ways = reader.reading.values.ways(over, reader.frame.scope)

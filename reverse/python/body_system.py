@@ -24,6 +24,7 @@ from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_times import Times
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.python.body_classes import PyClass
+from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.body_learnt import Asked, Learnt
 from rebsync.reverse.python.body_listing import list_shared, list_unit, list_wiring
 from rebsync.reverse.python.body_reading import Reading
@@ -72,6 +73,10 @@ class PySystem:
     only: str | None = None
     started: Started = NOTHING
     beside: Part = with_default(default_factory=Part.empty)
+    form: PyForm = with_default(init=False)
+
+    def __post_init__(self) -> None:
+        self.form = PyForm(self.values.code)
 
     def read(self) -> PyNodes:
         """All of them; what has no place in the model is listed."""
@@ -214,6 +219,7 @@ class _ReadingRound:
             frozenset(s for u in self.units for s in u.lineage),
             self.system.started.entries,
             used_names={n for n, _ in known} | {s.name for s in own.values()},
+            form=self.system.form,
         )
 
     def _periods(
