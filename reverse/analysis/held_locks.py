@@ -1,7 +1,8 @@
 """Locks that a thread may wait for while it holds them, for ever.
 
 What locks a mutex for a block (`std::lock_guard` and its kin, `with`) holds it to the end of the
-block; nothing in there, and nothing that it calls, may lock the same one, unless it is recursive.
+block; `m.lock();` holds to `m.unlock();` in the same block, if nothing between leaves it. Nothing
+in there, and nothing that it calls, may lock the same one, unless it is recursive.
 """
 
 from __future__ import annotations
@@ -9,8 +10,9 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator
 
+from rebsync.reverse.analysis.element_counts import ElementCounts
 from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin, Origins
-from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.problems import Problem, ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, Key, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -19,6 +21,8 @@ from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import STATEMENTS, Node, walk
 
 _GUARDS = frozenset({"lock_guard", "unique_lock", "scoped_lock", "shared_lock"})
+_BY_HAND = frozenset({"lock", "lock_shared", "try_lock", "try_lock_for", "try_lock_until"})
+_LEAVING = (s.Return, s.Raise, s.Break, s.Continue, s.Yield, s.Unsupported)
 _LOCK = LibraryOrigin("threading.Lock", True)
 _REENTRANT = LibraryOrigin("threading.RLock")
 _AGAIN = "this waits for ever where the lock is held already"
@@ -35,6 +39,7 @@ class HeldLocks:
     def __init__(self, origins: Origins) -> None:
         self.origins = origins
         self.stores = origins.graph.stores
+        self._counts = ElementCounts(origins)
 
     def check(self, function: Function, notes: ProblemNotes) -> None:
         """Notes where a function may lock what it has locked."""
@@ -45,13 +50,20 @@ class HeldLocks:
             mutexes = self._locked(node, function.name)
             if not mutexes:
                 continue
-            is_left = any(isinstance(n, s.Yield) for n in walk(inside))
-            if is_left or (isinstance(node, s.Call) and not isinstance(node.target, e.Local)):
+            inside, is_longer = _held(node, inside)
+            if is_longer:
                 notes.problem(node, _LONGER)
             for name, body in self.origins.runs(inside, function.name):
                 later = (self._locked(inner, name) for inner in walk(body))
                 if any(_meet(mutexes, others) for others in later):
                     notes.problem(node, _AGAIN)
+
+    def of(self, name: str) -> frozenset[Problem]:
+        """Where a function of a program may lock what it has locked."""
+        function = self.origins.graph.program.function(name)
+        notes = ProblemNotes(function, self.origins, self._counts, lambda _: False, {})
+        self.check(function, notes)
+        return frozenset(notes.found)
 
     def _locked(self, node: Node, function: str) -> Mutexes:
         """The mutexes that a statement locks, other than recursive ones."""
@@ -59,6 +71,8 @@ class HeldLocks:
             case s.Call(_, s.LibraryCallee(name), arguments) if _is_guard(name):
                 values = (a.value for a in arguments)
                 found = [self._mutexes(v, function, _NONE) for v in values if not _is_tag(v)]
+            case s.Call(_, s.LibraryCallee(name, receiver)) if _is_by_hand(name):
+                found = [] if receiver is None else [self._mutexes(receiver, function, _NONE)]
             case s.With(context):
                 held = self.origins.of(context, function)
                 is_lock = _LOCK in held or AnyOrigin() in held
@@ -99,6 +113,24 @@ class HeldLocks:
                 return False
 
 
+def _held(node: s.Statement, rest: s.Body) -> tuple[s.Body, bool]:
+    """What runs while a lock is held, of what follows it; and whether more than that may."""
+    if not isinstance(node, s.Call):
+        return rest, any(isinstance(n, s.Yield) for n in walk(rest))
+    if not isinstance(node.callee, s.LibraryCallee) or not _is_by_hand(node.callee.name):
+        return rest, not isinstance(node.target, e.Local)
+    unlock = node.callee.name.rpartition("::")[0] + "::unlock"
+    for number, later in enumerate(rest):
+        match later:
+            case s.Call(_, s.LibraryCallee(name, of)) if name == unlock:
+                if of == node.callee.receiver:
+                    between = rest[:number]
+                    return between, any(isinstance(n, _LEAVING) for n in walk(between))
+            case _:
+                pass
+    return rest, True
+
+
 def _with_rest(body: s.Body) -> Iterator[tuple[s.Statement, s.Body]]:
     """The statements of a body, each with those that run while it holds a lock."""
     for number, node in enumerate(body):
@@ -135,6 +167,12 @@ def _inner(
 def _is_guard(name: str) -> bool:
     plain = name.partition("<")[0].rpartition("::")[2]
     return plain in _GUARDS
+
+
+def _is_by_hand(name: str) -> bool:
+    """Whether a method locks a mutex until somebody unlocks it."""
+    of, _, method = name.rpartition("::")
+    return of.endswith("mutex") and "recursive" not in of and method in _BY_HAND
 
 
 def _is_tag(value: e.Expression) -> bool:

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from functools import cache
 
 from rebsync.reverse.analysis.bounded_loops import LoopEnds
-from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.element_counts import ElementCounts
 from rebsync.reverse.analysis.finite_numbers import FiniteNumbers
 from rebsync.reverse.analysis.origins import Origins
@@ -19,10 +18,9 @@ from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.size_changes import SizeChanges
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.program import Function, Program
+from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.effects import of_function
-from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.source import Span
 
 
@@ -111,10 +109,10 @@ def _is_trusted(notes: ProblemNotes, callee: s.Callee) -> bool:
 class ProgramLoops:
     """The loops of a program, by the places where they stand."""
 
-    def __init__(self, program: Program, table: LibraryOutcomes) -> None:
-        self._program = program
-        self._origins = Origins(CallGraph(program), table, program.functions)
-        self._counts = ElementCounts(self._origins)
+    def __init__(self, origins: Origins) -> None:
+        self._program = origins.graph.program
+        self._origins = origins
+        self._counts = ElementCounts(origins)
         self.ends = cache(self._ends)
 
     def _ends(self, name: str, place: Span) -> bool:

@@ -27,6 +27,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
+from rebsync.reverse.ir.program import Program
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 
@@ -89,6 +90,11 @@ class Origins:
         # While names are looked for: what was found of them, and which this round has visited.
         self._found: dict[Key, frozenset[Origin]] = {}
         self._visited: set[Key] | None = None
+
+    @classmethod
+    def of_program(cls, program: Program, table: LibraryOutcomes) -> Origins:
+        """Those of a program of which all is people's own."""
+        return cls(CallGraph(program), table, program.functions)
 
     def of(self, value: e.Expression, function: str) -> frozenset[Origin]:
         """What the value of an expression in a function may be."""

@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 
 from tree_sitter import Node
 
+from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
+from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.cpp.functions import lambda_names
 from rebsync.reverse.ir.cpp.lowering import CppLowering
 from rebsync.reverse.ir.cpp.symbols import FunctionSymbol
+from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.syntax.ancestors import ancestors
-from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp
+from rebsync.source import NOWHERE, Span
 
+_LOCKS = re.compile(rb"(?<![cCbB])lock")
+_UNKNOWN = "what this locks is not known"
 _FUNCTIONS = frozenset({"function_definition", "lambda_expression"})
 
 
@@ -30,9 +39,17 @@ class CppForm:
         return CppLowering(self._code)
 
     @cached_property
+    def _origins(self) -> Origins:
+        table = LibraryOutcomes(Language.CPP, frozenset(self._code.macros))
+        return Origins.of_program(self._lowering.program(), table)
+
+    @cached_property
     def _loops(self) -> ProgramLoops:
-        macros = frozenset(self._code.macros)
-        return ProgramLoops(self._lowering.program(), LibraryOutcomes(Language.CPP, macros))
+        return ProgramLoops(self._origins)
+
+    @cached_property
+    def _locks(self) -> HeldLocks:
+        return HeldLocks(self._origins)
 
     @cached_property
     def _functions(self) -> dict[int, FunctionSymbol]:
@@ -55,3 +72,26 @@ class CppForm:
             return symbol.name
         owner = self._lowering.world.symbols.classes.get(symbol.owner or "")
         return lambda_names(symbol, owner).get(around[0].id)
+
+    def odd_locks(self, functions: Iterable[CppFunction]) -> Iterator[tuple[Cpp, Span, str]]:
+        """The places in functions where a thread may wait for itself, for ever."""
+        locking = (f for f in functions if f.body is not None and _LOCKS.search(f.body.text or b""))
+        for function in locking:
+            symbol = self._functions.get(function.node.id)
+            if symbol is None:
+                yield function.cpp, function.cpp.span(function.node), _UNKNOWN
+                continue
+            owner = self._lowering.world.symbols.classes.get(symbol.owner or "")
+            for name in (symbol.name, *lambda_names(symbol, owner).values()):
+                found = {(p.place.start, p.place.end, p.why): p.place for p in self._locks.of(name)}
+                for (_, _, why), place in sorted(found.items()):
+                    yield function.cpp, place, why
+                yield from ((function.cpp, p, _UNKNOWN) for p in self._unread(function, name))
+
+    def _unread(self, function: CppFunction, name: str) -> Iterator[Span]:
+        """The places in a function that lock something, perhaps, and have no form."""
+        for node in walk(self._origins.graph.program.function(name).body):
+            if isinstance(node, s.Unsupported):
+                place = node.place if node.place != NOWHERE else function.cpp.span(function.node)
+                if _LOCKS.search(function.cpp.source.text[place.start : place.end].encode()):
+                    yield place

@@ -160,7 +160,7 @@ class Classes:
 
     def _reactive(self, owner: CppClass) -> m.ReactiveClass:
         roles = self.roles[owner.name]
-        check_plumbing(self.code, owner, self.roles, self.fields, self.findings)
+        check_plumbing(self.code, self.form, owner, self.roles, self.fields, self.findings)
         for meaning in self.meanings:
             if in_files_of(self.code, owner, meaning):
                 unread = Unread(meaning.cpp.span(meaning.node), meaning.why)

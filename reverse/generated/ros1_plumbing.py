@@ -11,7 +11,7 @@ from collections.abc import Collection, Container, Iterable, Iterator, Mapping, 
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_locks import odd_locks
+from rebsync.reverse.bodies.cpp_form import CppForm
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros1_descriptors import number_of
@@ -46,6 +46,7 @@ _TELLS = frozenset({"flatten", "publish"})
 
 def check_plumbing(
     code: Code,
+    form: CppForm,
     owner: CppClass,
     all_roles: Mapping[str, Roles],
     fields: Fields,
@@ -59,9 +60,10 @@ def check_plumbing(
     for cpp, node, why in (
         *_odd_servers(code, roles),
         *_odd_fields(code, owner),
-        *odd_locks(code, line, [f for c in line for f in code.functions_of(c)]),
     ):
         findings.unreadable(cpp.source, Unread(cpp.span(node), why), owner.name)
+    for cpp, place, why in form.odd_locks([f for c in line for f in code.functions_of(c)]):
+        findings.unreadable(cpp.source, Unread(place, why), owner.name)
     lineage = [all_roles[c.name] for c in line]
     for function in code.functions_of(owner):
         if function.body is None:

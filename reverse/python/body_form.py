@@ -7,6 +7,7 @@ from functools import cached_property
 from tree_sitter import Node
 
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
+from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.ir.program import Program
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
@@ -27,8 +28,12 @@ class PyForm:
         return python_program(self._code)
 
     @cached_property
+    def _origins(self) -> Origins:
+        return Origins.of_program(self.program, LibraryOutcomes(Language.PYTHON))
+
+    @cached_property
     def _loops(self) -> ProgramLoops:
-        return ProgramLoops(self.program, LibraryOutcomes(Language.PYTHON))
+        return ProgramLoops(self._origins)
 
     def ends(self, py: Py, loop: Node) -> bool:
         """Whether a loop ends, if what it goes through does, and what stands in it."""
