@@ -22,8 +22,15 @@ from rebsync.reverse.ir.walk import STATEMENTS, Node, walk
 
 _GUARDS = frozenset({"lock_guard", "unique_lock", "scoped_lock", "shared_lock"})
 _BY_HAND = frozenset({"lock", "lock_shared", "try_lock", "try_lock_for", "try_lock_until"})
+_NAMED = e.AddressOf | e.Local | e.Temporary | e.Global | e.Captured | e.Attribute
 _LEAVING = (s.Return, s.Raise, s.Break, s.Continue, s.Yield, s.Unsupported)
-_LOCK = LibraryOrigin("threading.Lock", True)
+_LOCKS = frozenset(
+    LibraryOrigin(name, True)
+    for name in (
+        *("threading.Lock", "threading.Condition", "threading.Semaphore"),
+        *("threading.BoundedSemaphore", "_thread.allocate_lock", "thread.allocate_lock"),
+    )
+)
 _REENTRANT = LibraryOrigin("threading.RLock")
 _AGAIN = "this waits for ever where the lock is held already"
 _LONGER = "this may hold a lock for longer than its block"
@@ -55,7 +62,7 @@ class HeldLocks:
                 notes.problem(node, _LONGER)
             for name, body in self.origins.runs(inside, function.name):
                 later = (self._locked(inner, name) for inner in walk(body))
-                if any(_meet(mutexes, others) for others in later):
+                if any(_meet(mutexes, others) for others in later) or _acquires(body):
                     notes.problem(node, _AGAIN)
 
     def of(self, name: str) -> frozenset[Problem]:
@@ -75,7 +82,7 @@ class HeldLocks:
                 found = [] if receiver is None else [self._mutexes(receiver, function, _NONE)]
             case s.With(context):
                 held = self.origins.of(context, function)
-                is_lock = _LOCK in held or AnyOrigin() in held
+                is_lock = not held.isdisjoint(_LOCKS) or AnyOrigin() in held
                 found = [self._mutexes(context, function, _NONE)] if is_lock else []
             case _:
                 return _NONE
@@ -93,11 +100,13 @@ class HeldLocks:
         found = list[Mutexes]()
         for of, each in stored:
             match each:
-                case CallResult(s.Call(_, callee)):
-                    found.append(_NONE if self._is_reentrant(callee, of) else frozenset({key}))
+                case CallResult(s.Call(_, callee)) if self._is_reentrant(callee, of):
+                    continue
+                case CallResult(s.Call(_, s.LibraryCallee())):
+                    found.append(frozenset({key}))  # a new one
                 case e.AddressOf(to) if to == value:
                     continue
-                case e.AddressOf() | e.Local() | e.Global() | e.Captured() | e.Attribute():
+                case _ if isinstance(each, _NAMED):
                     found.append(self._mutexes(each, of, seen | {key}))
                 case _:
                     found.append(frozenset({None}))
@@ -111,6 +120,13 @@ class HeldLocks:
                 return self.origins.of(value, function) == {_REENTRANT}
             case _:
                 return False
+
+
+def _acquires(body: s.Body) -> bool:
+    """Whether a body asks a lock of Python, whichever it is."""
+    calls = (n for n in walk(body) if isinstance(n, s.Call))
+    methods = (n.callee for n in calls if isinstance(n.callee, s.MethodCallee))
+    return any(callee.name == "acquire" for callee in methods)
 
 
 def _held(node: s.Statement, rest: s.Body) -> tuple[s.Body, bool]:

@@ -6,14 +6,18 @@ from functools import cached_property
 
 from tree_sitter import Node
 
+from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Program
 from rebsync.reverse.ir.python.lowering import python_program
+from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import Py
+from rebsync.source import Span
 
 
 class PyForm:
@@ -35,13 +39,32 @@ class PyForm:
     def _loops(self) -> ProgramLoops:
         return ProgramLoops(self._origins)
 
+    @cached_property
+    def _locks(self) -> HeldLocks:
+        return HeldLocks(self._origins)
+
     def ends(self, py: Py, loop: Node) -> bool:
         """Whether a loop ends, if what it goes through does, and what stands in it."""
         place = py.span(loop)
-        paths = (path for path, module in self._code.modules.items() if module.py is py)
-        return any(
-            self._loops.ends(name, place)
-            for path in paths
-            for name in self.program.functions
-            if name == path or name.startswith(f"{path}:")
-        )
+        return any(self._loops.ends(name, place) for name in self._functions(py))
+
+    def waits_for_itself(self, py: Py, statement: Node) -> bool:
+        """Whether what `with lock:` runs may enter the same lock again, and so wait for ever."""
+        place, is_read = py.span(statement), False
+        for name in self._functions(py):
+            withs = (n for n in walk(self.program.function(name).body) if isinstance(n, s.With))
+            if any(_is_in(n.place, place) for n in withs):
+                is_read = True
+                if any(_is_in(problem.place, place) for problem in self._locks.of(name)):
+                    return True
+        return not is_read
+
+    def _functions(self, py: Py) -> list[str]:
+        """The functions of a module."""
+        paths = [path for path, module in self._code.modules.items() if module.py is py]
+        names = self.program.functions
+        return [n for n in names for path in paths if n == path or n.startswith(f"{path}:")]
+
+
+def _is_in(place: Span, around: Span) -> bool:
+    return around.start <= place.start and place.end <= around.end
