@@ -81,9 +81,6 @@ class Conversion(Enum):
     """How a value becomes one of another type."""
 
     TRUNCATE = "truncate"  # a float to the whole number towards zero
-    FLOOR = "floor"
-    CEILING = "ceiling"
-    ROUND = "round"  # half to even
     WRAP = "wrap"  # a whole number modulo two to the bits of the type
     NARROW = "narrow"  # a float to one of fewer bits
     WIDEN = "widen"  # nothing is lost

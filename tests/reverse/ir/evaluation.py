@@ -82,9 +82,6 @@ UNARY: dict[Operator, Callable[[Value], Value]] = {
 }
 CONVERSIONS: dict[Conversion, Callable[[Value], Value]] = {
     Conversion.TRUNCATE: math.trunc,
-    Conversion.FLOOR: math.floor,
-    Conversion.CEILING: math.ceil,
-    Conversion.ROUND: round,
     Conversion.TRUTH: bool,
     Conversion.TEXT: str,
 }
