@@ -31,7 +31,7 @@ from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_asks import PyRosCall, asked_in
 from rebsync.reverse.python.py_callbacks import callbacks_of, filtered
-from rebsync.reverse.python.py_index import CLASS, FUNCTION, Scope, arguments_of
+from rebsync.reverse.python.py_index import CLASS, FUNCTION, PyCode, Scope, arguments_of
 from rebsync.reverse.python.py_quality import depth_of, latched_of, policies_of
 from rebsync.reverse.python.py_results import declared_together
 from rebsync.reverse.python.py_tree import field, named, text_of
@@ -51,8 +51,13 @@ _AROUND = frozenset({"parenthesized_expression", "await"})
 _CONTAINERS = frozenset({"dictionary", "pair", "list", "tuple"})
 
 
+def graph_of(code: PyCode) -> Graph:
+    """All that some files ask of ROS."""
+    return graph_with(PyValues(code))
+
+
 def graph_with(values: PyValues) -> Graph:
-    """All that some files ask of ROS, some of whose values may be known."""
+    """The same of files some of whose values may be known."""
     facts = _Facts(values)
     every = (f for asked in asked_in(values) for f in facts.of(asked))
     return Graph(tuple(without_unused(every, [m.py for m in values.code.modules.values()])))
