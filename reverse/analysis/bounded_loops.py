@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
-from rebsync.reverse.analysis.finite_numbers import FiniteNumbers, Limits, type_range
+from rebsync.intervals import Interval, of_unary
+from rebsync.reverse.analysis.finite_numbers import FiniteNumbers, Limits, values_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -88,16 +89,14 @@ class LoopEnds:
             return _is_iterator(loop, counter)
         step = self._step(loop, counter)
         width, limits = self._width(counter), self.numbers.limits(bound, self.function)
-        if step is None or width is None or limits is None:
+        if not step or width is None or limits is None:
             return False
         if operator is Operator.UNEQUAL:
             return _is_passed(width, limits, step)
-        if operator in _UP and step > 0:
-            return _is_reached(width, operator is Operator.LESS, limits.greatest, step)
-        if operator in _DOWN and step < 0:
-            least = None if limits.least is None else -limits.least
-            return _is_reached(width, operator is Operator.GREATER, least, -step, is_down=True)
-        return False
+        if operator not in (_UP if step > 0 else _DOWN):
+            return False
+        is_strict = operator in (Operator.LESS, Operator.GREATER)
+        return _is_reached(width, is_strict, limits.within, step)
 
     def _is_asked(self, loop: s.Loop, bound: e.Expression) -> bool:
         """Whether what each round computes anew of a bound is the size or end of a container."""
@@ -160,30 +159,28 @@ def _tests(loop: s.Loop) -> Iterator[e.Expression]:
                 pass
 
 
-def _is_reached(
-    width: t.Integer, is_strict: bool, bound: int | None, step: int, *, is_down: bool = False
-) -> bool:
+def _is_reached(width: t.Integer, is_strict: bool, bound: Interval | None, step: int) -> bool:
     """Whether a counter of a width gets to a bound before it wraps."""
     if width.bits is None:
         return True
     if bound is None:
         return False
-    lowest, highest = type_range(width)
-    last = -lowest if is_down else highest
-    if bound + step - is_strict <= last:
+    whole = values_of(width)
+    if step < 0:
+        whole, bound, step = of_unary("-", whole), of_unary("-", bound), -step
+    if bound.high + step - is_strict <= whole.high:
         return True
     # What a number of `int` or more does beyond its last one, C++ leaves undefined.
-    return is_strict and width.signed and width.bits >= 32 and bound <= last
+    return is_strict and width.signed and width.bits >= 32 and bound.high <= whole.high
 
 
 def _is_passed(width: t.Integer, limits: Limits, step: int) -> bool:
     """Whether a counter that takes each number of its type comes by all that a bound may be."""
     if width.bits is None or width.bits > 32 or abs(step) != 1:
         return False
-    if limits.least is None or limits.greatest is None or not limits.is_whole:
+    if limits.within is None or not limits.is_whole:
         return False
-    lowest, highest = type_range(width)
-    return lowest <= limits.least and limits.greatest <= highest
+    return values_of(width).includes(limits.within)
 
 
 def _before_its_step(loop: s.Loop, value: e.Expression) -> e.Expression:

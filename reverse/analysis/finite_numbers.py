@@ -6,7 +6,9 @@ By all that is ever stored under a name, and by the types that C++ declares.
 from __future__ import annotations
 
 import math
+from functools import reduce
 
+from rebsync.intervals import TRUTH, Interval, exactly, of_unary, signed, unsigned
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.stores import (
@@ -26,7 +28,7 @@ from rebsync.reverse.libraries.outcome_rules import Tells
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 
 # A size is no greater than the memory: counters of 32 bits get to any, and some way further.
-_LARGEST_SIZE = (1 << 31) - (1 << 16)
+_SIZES = Interval(0, (1 << 31) - (1 << 16))
 _WHOLE = frozenset(
     {
         *(Operator.ADD, Operator.SUBTRACT, Operator.MULTIPLY, Operator.FLOOR_DIVIDE),
@@ -46,10 +48,9 @@ _CHOOSING = frozenset({"builtins.abs", "builtins.min", "builtins.max"})
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """A finite number, no less than the one and no more than the other, where these are known."""
+    """A finite number, which is within an interval where one is known."""
 
-    least: int | None = None
-    greatest: int | None = None
+    within: Interval | None = None
     is_whole: bool = True
 
 
@@ -70,11 +71,11 @@ class FiniteNumbers:
     def _limits(self, value: e.Expression, function: str, within: frozenset[Key]) -> Limits | None:
         match value:
             case e.Literal(int() as number):
-                return Limits(number, number)
+                return Limits(exactly(number))
             case e.Literal(float() as number):
                 if not math.isfinite(number):
                     return None
-                return Limits(math.floor(number), math.ceil(number), False)
+                return Limits(Interval(math.floor(number), math.ceil(number)), False)
             case e.Convert(_, operand, type_):
                 return _converted(self._limits(operand, function, within), operand, type_)
             case e.Unary(Operator.NEGATE, operand, t.Unknown()):
@@ -93,7 +94,7 @@ class FiniteNumbers:
             case _:
                 of_type = _of_type(getattr(value, "type", t.UNKNOWN))
                 stored = self._stored(value, function, within)
-                has_limits = stored is not None and stored.greatest is not None
+                has_limits = stored is not None and stored.within is not None
                 return stored if of_type is None or has_limits else of_type
 
     def _stored(self, value: e.Expression, function: str, within: frozenset[Key]) -> Limits | None:
@@ -142,7 +143,7 @@ class FiniteNumbers:
             case _:
                 return None if call.target is None else _of_type(call.target.type)
         if is_size:
-            return Limits(0, _LARGEST_SIZE)
+            return Limits(_SIZES)
         if name in _GIVING_WHOLE or (name == "builtins.round" and len(call.arguments) == 1):
             return _ANY_WHOLE
         if name in _CHOOSING and len(values) == len(call.arguments):
@@ -155,42 +156,39 @@ class FiniteNumbers:
 def _of_type(type_: t.Type, operator: Operator | None = None) -> Limits | None:
     """The limits that a type has; of a difference without a sign, none that are ever reached."""
     if isinstance(type_, t.Truth):
-        return Limits(0, 1)
+        return Limits(TRUTH)
     if not isinstance(type_, t.Integer):
         return None
     if type_.bits is None:
         return _ANY_WHOLE
     if operator is Operator.SUBTRACT and type_.bits == 64 and not type_.signed:
         return None
-    return Limits(*type_range(type_))
+    return Limits(values_of(type_))
 
 
-def type_range(type_: t.Integer) -> tuple[int, int]:
-    """The least and the greatest number of a type with bounds."""
+def values_of(type_: t.Integer) -> Interval:
+    """The numbers of a type with bounds."""
     assert type_.bits is not None
-    highest = (1 << (type_.bits - type_.signed)) - 1
-    return (-highest - 1 if type_.signed else 0), highest
+    return signed(type_.bits - 1) if type_.signed else unsigned(type_.bits)
 
 
 def _converted(limits: Limits | None, operand: e.Expression, type_: t.Type) -> Limits | None:
     of_type = _of_type(type_)
     if of_type is None:
         return limits if isinstance(type_, t.Float) else None
-    if limits is None or of_type.least is None or of_type.greatest is None:
+    if limits is None or limits.within is None or of_type.within is None:
         return of_type
-    if limits.least is None or limits.greatest is None:
-        return of_type
-    if of_type.least <= limits.least and limits.greatest <= of_type.greatest:
+    if of_type.within.includes(limits.within):
         return limits
     # A negative number that becomes one of 64 bits without a sign is beyond all counting.
     is_huge = isinstance(type_, t.Integer) and type_.bits == 64 and not type_.signed
-    return None if is_huge and limits.least < 0 else of_type
+    return None if is_huge and limits.within.low < 0 else of_type
 
 
 def _negated(limits: Limits | None) -> Limits | None:
-    if limits is None or limits.least is None or limits.greatest is None:
+    if limits is None or limits.within is None:
         return limits
-    return Limits(-limits.greatest, -limits.least, limits.is_whole)
+    return Limits(of_unary("-", limits.within), limits.is_whole)
 
 
 def _either(*limits: Limits | None) -> Limits | None:
@@ -198,10 +196,6 @@ def _either(*limits: Limits | None) -> Limits | None:
     known = [each for each in limits if each is not None]
     if not known or len(known) < len(limits):
         return None
-    least = [each.least for each in known if each.least is not None]
-    greatest = [each.greatest for each in known if each.greatest is not None]
-    return Limits(
-        min(least) if len(least) == len(known) else None,
-        max(greatest) if len(greatest) == len(known) else None,
-        all(each.is_whole for each in known),
-    )
+    bounds = [each.within for each in known if each.within is not None]
+    within = reduce(Interval.join, bounds) if len(bounds) == len(known) else None
+    return Limits(within, all(each.is_whole for each in known))
