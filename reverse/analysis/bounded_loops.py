@@ -5,7 +5,7 @@ Everything else may not end.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
 
 from rebsync.intervals import Interval, of_unary
@@ -17,6 +17,7 @@ from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.routines import Language
 
+_NAMED = e.Local | e.Captured | e.Global | e.Attribute
 _UP = (Operator.LESS, Operator.LESS_EQUAL)
 _DOWN = (Operator.GREATER, Operator.GREATER_EQUAL)
 _MIRRORED = {
@@ -85,6 +86,8 @@ class LoopEnds:
             return False
         if self.is_written(loop, bound) or not self._is_asked(loop, bound):
             return False
+        if self._is_handed_on(loop, {n for n in walk(bound) if isinstance(n, _NAMED)}):
+            return False
         if operator is Operator.UNEQUAL and isinstance(_bare(bound), e.Temporary):
             return _is_iterator(loop, counter)
         step = self._step(loop, counter)
@@ -98,6 +101,19 @@ class LoopEnds:
         is_strict = operator in (Operator.LESS, Operator.GREATER)
         return _is_reached(width, is_strict, limits.within, step)
 
+    def _is_handed_on(self, loop: s.Loop, names: Collection[Node]) -> bool:
+        """Whether others may store in variables: by a reference, or by `stream >> n`."""
+        for node in walk(loop):
+            match node:
+                case e.AddressOf(target) if target in names and id(node) not in self.lent:
+                    return True
+                case s.Evaluate(value) | s.If(value) | s.Loop(value):
+                    if any(taken in names for taken in _taken_in(value)):
+                        return True
+                case _:
+                    pass
+        return False
+
     def _is_asked(self, loop: s.Loop, bound: e.Expression) -> bool:
         """Whether what each round computes anew of a bound is the size or end of a container."""
         parts = {n for n in walk(bound) if isinstance(n, e.Temporary)}
@@ -108,8 +124,7 @@ class LoopEnds:
     def _step(self, loop: s.Loop, counter: e.Local) -> int | None:
         """What is added to a counter in each round, where nothing else is stored in it."""
         stores = [n for n in walk(loop) if _stores_in(n, counter)]
-        uses = (n for n in walk(loop) if isinstance(n, e.AddressOf) and n.target == counter)
-        if len(stores) != 1 or any(id(n) not in self.lent for n in uses):
+        if len(stores) != 1 or self._is_handed_on(loop, (counter,)):
             return None
         store = stores[0]
         skips = any(isinstance(n, s.Continue) for n in walk(loop.body))
@@ -157,6 +172,21 @@ def _tests(loop: s.Loop) -> Iterator[e.Expression]:
                     yield replace(held, operator=opposite)
             case _:
                 pass
+
+
+def _taken_in(value: e.Expression) -> Iterator[e.Expression]:
+    """What a statement or test like `stream >> a >> b` stores in, perhaps."""
+    match value:
+        case e.And(left, right) | e.Or(left, right):
+            yield from _taken_in(left)
+            yield from _taken_in(right)
+        case e.Unary(_, operand) | e.Convert(_, operand):
+            yield from _taken_in(operand)
+        case e.Binary(Operator.SHIFT_RIGHT | Operator.BIT_AND, left, right, _, True):
+            yield right
+            yield from _taken_in(left)
+        case _:
+            pass
 
 
 def _is_reached(width: t.Integer, is_strict: bool, bound: Interval | None, step: int) -> bool:

@@ -31,6 +31,17 @@ void onRefilled() {
     waiting_.push_back(1);
   }
 }
+void onStreamed() {
+  std::string text;
+  for (size_t i = 0; i < text.size(); ++i) stream_ >> i;
+}
+void onLambda() {
+  for (int i = 0; i < 3; ++i) {
+    auto again = [&i]() { i = 0; };
+    again();
+  }
+}
 std::vector<int> values_;
 std::deque<int> waiting_;
 Sensor sensor_;
+std::istringstream stream_;
