@@ -13,7 +13,7 @@ from dataclasses import replace
 from rebsync.checker.trace import TraceStep
 from rebsync.model import Model
 from rebsync.records import dataclass
-from rebsync.reverse.findings import COUNTS_ON, IN_THREADS, Finding, Grade
+from rebsync.reverse.findings import COUNTS_ON, IN_THREADS, NOT_SENT, Finding, Grade
 from rebsync.roundtrip.conform.components.assembly import Assembly
 from rebsync.roundtrip.conform.components.component import Component
 from rebsync.roundtrip.conform.components.diagnosis import TopicDiagnosis
@@ -70,6 +70,11 @@ def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
             continue
         doubt = assembly.doubts.get(component.name, "")
         judged.append(_Judge(component, found, closed.extracted.model, bounds, doubt).of())
+        notes += (
+            f"not recorded, and so not compared: {f.text} ({_place(f)})"
+            for f in found
+            if NOT_SENT in f.why
+        )
     notes += (note for each in judged for note in each.notes)
     deviations = [each.deviation for each in judged if each.deviation is not None]
     deviations += assembly.deviations
@@ -112,18 +117,21 @@ def _about(findings: Sequence[Finding], class_: str, model: Model) -> list[Findi
 def _is_exact_here(finding: Finding) -> bool:
     """Whether a finding does not make the model do more than the code in a recorded run.
 
-    Of what runs in threads the model does less; and no recording is so long that a variable that
-    counts on gets to the end of the model's numbers.
+    Of what runs in threads the model does less; no recording is so long that a variable that
+    counts on gets to the end of the model's numbers; and what is published on a topic that was not
+    recorded changes nothing of what the node does.
     """
-    return IN_THREADS in finding.why or COUNTS_ON in finding.why
+    return any(why in finding.why for why in (IN_THREADS, COUNTS_ON, NOT_SENT))
 
 
 def _named(findings: Sequence[Finding]) -> str:
-    shown = [
-        f"{f.why} ({f.source.path}:{f.source.position(f.span.start).line})" for f in findings[:_FEW]
-    ]
+    shown = [f"{f.why} ({_place(f)})" for f in findings[:_FEW]]
     more = len(findings) - _FEW
     return ", ".join([*shown, f"and {more} more"] if more > 0 else shown)
+
+
+def _place(finding: Finding) -> str:
+    return f"{finding.source.path}:{finding.source.position(finding.span.start).line}"
 
 
 @dataclass(frozen=True, slots=True)
