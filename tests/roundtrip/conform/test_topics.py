@@ -297,6 +297,34 @@ def test_faults_beside_a_latched_topic_are_found(fault: str, topic: str, tmp_pat
     assert (found.deviation.kind, found.deviation.rebec) == (kind, "driver"), found.deviation
 
 
+@pytest.mark.parametrize("number", [3, 5, 9])
+@pytest.mark.parametrize("is_taken_out", [True, False])
+def test_an_input_that_was_lost_is_told(is_taken_out: bool, number: int, tmp_path: Path) -> None:
+    log = read(BUMPERBOT)
+    inputs = [n for n, m in enumerate(log) if m["topic"] == "/bumper"]
+    hits = [n for n in inputs if log[n]["data"]["data"] and is_answered(log, n) is is_taken_out]
+    misses = [n for n in inputs if not log[n]["data"]["data"]]
+    at = hits[number] if is_taken_out else misses[number]
+    # The recorder has not got it; or it has one that the node has not got.
+    changed = [] if is_taken_out else [log[at] | {"data": {"data": True}}]
+    path = write([*log[:at], *changed, *log[at + 1 :]], tmp_path / "run.jsonl")
+    found, _ = compared(str(PACKAGES / "bumperbot"), [str(path)], FROM_START)
+    if found.deviation is None:  # one more changes nothing while it goes back
+        assert not is_taken_out
+        assert found.verdict == "conforms"
+        return
+    assert (found.deviation.kind, found.deviation.rebec) == ("lost message", "driver")
+    assert "onBumper" in found.deviation.message
+    told = log[0]["stamp"] + found.deviation.time * 0.001
+    assert abs(told - log[at]["stamp"]) < 0.1, found.deviation
+
+
+def is_answered(log: Log, at: int) -> bool:
+    """Whether the node changes its mode by an input."""
+    later = [m for m in log if 0 <= m["stamp"] - log[at]["stamp"] < 0.05]
+    return any(m["topic"] == "/mode" and m["data"]["data"] == 1 for m in later)
+
+
 def lamp(*messages: tuple[float, str, bool | int]) -> Log:
     """A run of a lamp and its switch, which keeps what it told last (rclpy)."""
     nodes = {"/press": "/thumb", "/on": "/switch", "/light": "/lamp"}
