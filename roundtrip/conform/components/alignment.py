@@ -146,7 +146,7 @@ class Alignment:
         """The change after which what follows fits, or fits for longest.
 
         An input is looked for where no messages that the node publishes are.
-        None: no change helps, or nothing at all follows, and the model publishes more than once.
+        None: no change helps, or nothing follows, and the model publishes more than once.
         """
         is_over = not any(map(self._left, range(len(self._begin.outputs))))
         tried: list[_Repaired] = [self._begin]
@@ -167,7 +167,16 @@ class Alignment:
         def rank(repaired: _Repaired) -> tuple[float, int]:
             return -self._moment(repaired.reached), _PREFERRED.index(repaired.cause.kind)
 
-        return min(tried, key=rank).cause if tried else None
+        best = min(tried, key=rank, default=None)
+        return best.cause if best is not None and not self._is_silent(best) else None
+
+    def _is_silent(self, repaired: _Repaired) -> bool:
+        """Whether a message is put in, after which the model goes on, and the node does not."""
+        each = repaired.cause.expected
+        if repaired.fits or repaired.cause.kind != "lost message" or each is None:
+            return False
+        until = each.high + self._search.component.timing.slack
+        return all(not all_ or all_[-1].stamp <= until for all_ in self._begin.outputs)
 
     def _lost_input(self) -> LostInput | None:
         search = self._on(self._begin.outputs)

@@ -297,7 +297,22 @@ def test_faults_beside_a_latched_topic_are_found(fault: str, topic: str, tmp_pat
     assert (found.deviation.kind, found.deviation.rebec) == (kind, "driver"), found.deviation
 
 
-@pytest.mark.parametrize("number", [3, 5, 9])
+@pytest.mark.parametrize("node", ["/driver", "/odometer"])
+def test_a_node_that_ends_within_a_body_is_silent(node: str, tmp_path: Path) -> None:
+    """Its last message may be recorded before another one of the same body, which is lost."""
+    log = read(BUMPERBOT)
+    topic = {"/driver": "/mode", "/odometer": "/backwards"}[node]
+    own = [n for n, m in enumerate(log) if m["topic"] == topic]
+    for at in own[10:40:7]:
+        path = write(silent(log, at), tmp_path / "run.jsonl")
+        found, _ = compared(str(PACKAGES / "bumperbot"), [str(path)], FROM_START)
+        assert found.deviation is not None
+        assert (found.deviation.kind, found.deviation.rebec) == ("silent", node[1:]), found
+        told = log[0]["stamp"] + found.deviation.time * 0.001
+        assert abs(told - log[at]["stamp"]) < 0.7, found.deviation
+
+
+@pytest.mark.parametrize("number", [2, 4, 6])
 @pytest.mark.parametrize("is_taken_out", [True, False])
 def test_an_input_that_was_lost_is_told(is_taken_out: bool, number: int, tmp_path: Path) -> None:
     log = read(BUMPERBOT)
