@@ -167,8 +167,8 @@ class Alignment:
         def rank(repaired: _Repaired) -> tuple[float, int]:
             return -self._moment(repaired.reached), _PREFERRED.index(repaired.cause.kind)
 
-        best = min(tried, key=rank, default=None)
-        return best.cause if best is not None and not self._is_silent(best) else None
+        found = min(tried, key=rank, default=None)
+        return found.cause if found is not None and not self._is_silent(found) else None
 
     def _is_silent(self, repaired: _Repaired) -> bool:
         """Whether a message is put in, after which the model goes on, and the node does not."""

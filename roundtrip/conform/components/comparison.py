@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import inf
 
-from rebsync.checker.trace import TraceStep
 from rebsync.model import Model
 from rebsync.records import dataclass
 from rebsync.reverse.findings import COUNTS_ON, IN_THREADS, NOT_SENT, Finding, Grade
@@ -18,6 +18,7 @@ from rebsync.roundtrip.conform.components.assembly import Assembly
 from rebsync.roundtrip.conform.components.component import Component
 from rebsync.roundtrip.conform.components.diagnosis import TopicDiagnosis
 from rebsync.roundtrip.conform.components.environment import Closed
+from rebsync.roundtrip.conform.components.hypotheses import Hypothesis
 from rebsync.roundtrip.conform.components.inclusion import Inclusion, InclusionSearch
 from rebsync.roundtrip.conform.components.intervals import intervals
 from rebsync.roundtrip.conform.components.middle import middle, served_before
@@ -52,7 +53,7 @@ class Judged:
     open: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     intervals: tuple[TopicInterval, ...] = ()
-    run: tuple[TraceStep, ...] = ()
+    way: tuple[Component, Sequence[Hypothesis]] | None = None
 
 
 def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
@@ -83,6 +84,7 @@ def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
     first = min(deviations, key=_stamp, default=None)
     if first is None and not open_ and not compared:
         open_.append("nothing that the nodes publish is in the recording")
+    until = first.time if first is not None else inf
     verdict = "deviates" if first is not None else "undetermined" if open_ else "conforms"
     if first is not None:
         notes += open_
@@ -97,7 +99,7 @@ def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
         notes=tuple(dict.fromkeys(notes)),
         widest=max((each.widest for each in judged), default=1),
         intervals=tuple(interval for each in judged for interval in each.intervals),
-        run=merged([each.run for each in judged]),
+        run=merged([steps_of(*each.way, until) for each in judged if each.way is not None]),
     )
 
 
@@ -176,11 +178,11 @@ class _Judge:
         why = f"{name} fits, but its model may do otherwise than it: {_named(over)}"
         compared = sum(map(len, self.component.outputs))
         took: tuple[TopicInterval, ...] = ()
-        run: tuple[TraceStep, ...] = ()
+        way: tuple[Component, Sequence[Hypothesis]] | None = None
         if search.keeps and found.last is not None:
-            way = search.way_to(found.last)
-            took, run = intervals(self.component, way), steps_of(self.component, way)
-        return Judged(compared, found.widest, None, (why,) if over else (), (), took, run)
+            way = self.component, search.way_to(found.last)
+            took = intervals(*way)
+        return Judged(compared, found.widest, None, (why,) if over else (), (), took, way)
 
     def _refused(self, search: InclusionSearch, found: Inclusion) -> Judged:
         name = self.component.name
@@ -193,8 +195,8 @@ class _Judge:
             return self._open(search, found, f"{name} does not fit, but {self.doubt}")
         if found.raced:
             return self._open(search, found, f"{name} does not fit, but {_BESIDE}")
-        run = steps_of(self.component, search.way_to(found.furthest[-1]))
-        return Judged(_compared(found), found.widest, self._deviation(search, found), run=run)
+        way = self.component, search.way_to(found.furthest[-1])
+        return Judged(_compared(found), found.widest, self._deviation(search, found), way=way)
 
     def _open(self, search: InclusionSearch, found: Inclusion, why: str) -> Judged:
         """Undetermined; the deviation is told nevertheless."""

@@ -334,6 +334,27 @@ def test_an_input_that_was_lost_is_told(is_taken_out: bool, number: int, tmp_pat
     assert abs(told - log[at]["stamp"]) < 0.1, found.deviation
 
 
+def test_the_run_that_is_shown_ends_where_it_deviates(tmp_path: Path) -> None:
+    log = read(BUMPERBOT)
+    own = [n for n, m in enumerate(log) if m["topic"] == "/mode"]
+    path = write(dropped(log, own[20]), tmp_path / "run.jsonl")
+    measuring = TopicBounds(None, True, None, True)
+    found, _ = compared(str(PACKAGES / "bumperbot"), [str(path)], measuring)
+    assert found.deviation is not None
+    times = [step.time for step in found.run]
+    assert {step.rebec for step in found.run} >= {"driver", "odometer"}
+    assert found.deviation.time - 1000 < times[-1] <= found.deviation.time
+
+
+def test_the_unit_of_bounds_is_told_where_it_is_no_second(tmp_path: Path) -> None:
+    properties = tmp_path / "soon.property"
+    formula = "AG(driver.out_mode_data == 1 -> AF(time <= 3, driver.out_mode_data == 2))"
+    properties.write_text(f"property {{ TCTL {{ Soon: {formula}; }} }}")
+    found, _ = compared(str(PACKAGES / "bumperbot"), [str(BUMPERBOT)], FROM_START, str(properties))
+    assert [(p.name, p.verdict) for p in found.properties] == [("Soon", "open")]
+    assert "a bound of time in the properties counts in units of 0.5 s" in found.notes
+
+
 def is_answered(log: Log, at: int) -> bool:
     """Whether the node changes its mode by an input."""
     later = [m for m in log if 0 <= m["stamp"] - log[at]["stamp"] < 0.05]
