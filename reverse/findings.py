@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 
 IN_THREADS = "in threads of their own"  # callbacks, in a finding: the model has fewer runs
+NOT_SENT = "it is not sent in the model"  # a topic, in a finding: nobody gets what is published
 COUNTS_ON = "counts on without end"  # a variable, in a finding: only very long runs differ
 
 

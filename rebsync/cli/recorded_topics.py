@@ -101,7 +101,12 @@ class OpenPackage:
         length = assembly.end * scale.unit if len(recordings.paths) == 1 else 0.0
         times = Timespan(begin, begin + length)
         evaluated = properties.evaluated(events, times, scale.unit, slack)
-        return replace(found, properties=evaluated)
+        notes = found.notes
+        if properties.unit != 1:
+            notes += (
+                f"a bound of time in the properties counts in units of {properties.unit:g} s",
+            )
+        return replace(found, properties=evaluated, notes=notes)
 
 
 def compared(

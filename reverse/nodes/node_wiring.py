@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 
 from rebsync.records import dataclass
+from rebsync.reverse.findings import NOT_SENT
 from rebsync.reverse.graph import (
     NodeFact,
     ParameterFact,
@@ -274,7 +275,7 @@ def unfed(wiring: Wiring) -> Iterator[tuple[Instance, Server, SubscriptionFact]]
 
 def nobody_subscribes(topic: str) -> str:
     """Why what is published to a topic is not in the model."""
-    return f'nobody in these files subscribes to "{topic}": it is not sent in the model'
+    return f'nobody in these files subscribes to "{topic}": {NOT_SENT}'
 
 
 def nobody_publishes(topic: str) -> str:

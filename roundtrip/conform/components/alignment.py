@@ -20,6 +20,7 @@ from rebsync.roundtrip.conform.components.bodies import Publication
 from rebsync.roundtrip.conform.components.component import Component, Output
 from rebsync.roundtrip.conform.components.hypotheses import Candidate, Hypothesis
 from rebsync.roundtrip.conform.components.inclusion import InclusionSearch
+from rebsync.roundtrip.conform.components.lost_inputs import LostInput, lost_input
 from rebsync.roundtrip.conform.conformance import Kind
 
 _AHEAD = 8  # messages of each topic that have to fit after a change
@@ -141,10 +142,11 @@ class Alignment:
         own = tuple(number - n for number, n in zip(matched, before, strict=True))
         self._begin = _Repaired((), outputs, [each._replace(matched=own) for each in last])
 
-    def cause(self) -> ChannelFault | None:
+    def cause(self) -> ChannelFault | LostInput | None:
         """The change after which what follows fits, or fits for longest.
 
-        None: no change helps, or nothing at all follows, and the model publishes more than once.
+        An input is looked for where no messages that the node publishes are.
+        None: no change helps, or nothing follows, and the model publishes more than once.
         """
         is_over = not any(map(self._left, range(len(self._begin.outputs))))
         tried: list[_Repaired] = [self._begin]
@@ -158,11 +160,30 @@ class Alignment:
         else:
             if is_over:
                 return None
+            lost = self._lost_input()
+            if lost is not None:
+                return lost
 
         def rank(repaired: _Repaired) -> tuple[float, int]:
             return -self._moment(repaired.reached), _PREFERRED.index(repaired.cause.kind)
 
-        return min(tried, key=rank).cause if tried else None
+        found = min(tried, key=rank, default=None)
+        return found.cause if found is not None and not self._is_silent(found) else None
+
+    def _is_silent(self, repaired: _Repaired) -> bool:
+        """Whether a message is put in, after which the model goes on, and the node does not."""
+        each = repaired.cause.expected
+        if repaired.fits or repaired.cause.kind != "lost message" or each is None:
+            return False
+        until = each.high + self._search.component.timing.slack
+        return all(not all_ or all_[-1].stamp <= until for all_ in self._begin.outputs)
+
+    def _lost_input(self) -> LostInput | None:
+        search = self._on(self._begin.outputs)
+        matched = self._begin.ends[0].matched
+        both = zip(self._begin.outputs, matched, strict=True)
+        next_ = [outputs[number].stamp for outputs, number in both if number < len(outputs)]
+        return lost_input(search, self._begin.ends, min(next_))
 
     def _moment(self, time: float) -> float:
         """The same for times that differ by less than things may be late."""

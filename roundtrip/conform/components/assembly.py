@@ -14,6 +14,7 @@ from rebsync.checker.program import Program
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.components.bodies import ComponentBodies
 from rebsync.roundtrip.conform.components.component import (
+    CONNECTS,
     UNORDERED,
     Cells,
     Component,
@@ -182,6 +183,8 @@ class _Assembler:
         timing = Timing(self.scale.unit, self.scale.slack, self.begin, self.end, first)
         numbers = self._servers(environment)
         pairs = conflicts(class_)
+        both = zip(heard, outputs, strict=True)
+        kept = tuple(self._is_old(link, all_, first) for link, all_ in both)
         return Component(
             self.program,
             rebec,
@@ -191,6 +194,7 @@ class _Assembler:
             tuple(self._topic(link) for link in heard),
             tuple(outputs),
             {numbers[link]: k for k, link in enumerate(heard)},
+            kept,
             frozenset((servers[a], servers[b]) for a, b in pairs if {a, b} <= servers.keys()),
             is_bounded=self.closed.depth > 0,
         )
@@ -272,6 +276,11 @@ class _Assembler:
                 strangers.clear()
                 self._strange(interface, topic, each)
 
+    def _is_old(self, link: str, outputs: Sequence[Output], first: float) -> bool:
+        """Whether the first message may be one that was kept until the recorder connected."""
+        keeps = self._topic(link) in self.closed.keeping
+        return keeps and bool(outputs) and outputs[0].stamp <= first + CONNECTS
+
     def _strange(self, interface: Interface, topic: str, heard: Heard) -> None:
         """Somebody else publishes on a topic of a rebec."""
         message = f"{heard.publisher} publishes on {topic}, as {interface.rebec} does"
@@ -296,15 +305,22 @@ class _Assembler:
         places = [of_link[n] for n in received.places]
         inside = sum(received.link in i.published for i in self.interfaces)
         cells_of = self._reader(server)
+        # Who publishes from outside may keep messages or not.
+        keeps = topic in self.closed.keeping or not inside
+        is_kept = keeps and topic in self.closed.getting
         lanes: dict[str, int] = {}
         for each, near in _near(_by_stamp(heard), slack):
             cells = cells_of([each.values[n] for n in places])
-            lane = UNORDERED
-            if each.publisher or inside == 1:
-                if each.publisher not in lanes:
-                    lanes[each.publisher] = self._lane(topic, len(lanes))
-                lane = lanes[each.publisher]
-            yield Input(each.stamp, server, cells, lane, 0 < depth < near)
+            is_first = each.publisher not in lanes
+            if is_first:
+                lanes[each.publisher] = self._lane(topic, len(lanes))
+            lane = lanes[each.publisher] if each.publisher or inside == 1 else UNORDERED
+            earliest = self._kept_since(each.stamp) if is_first and keeps else each.stamp - slack
+            yield Input(each.stamp, server, cells, lane, 0 < depth < near, earliest, is_kept)
+
+    def _kept_since(self, stamp: float) -> float:
+        """When a message may have been published that the recorder got as it connected."""
+        return stamp - CONNECTS if stamp > self.begin + CONNECTS else -inf
 
     def _lane(self, topic: str, number: int) -> int:
         return sorted(self._links).index(topic) * 1000 + number

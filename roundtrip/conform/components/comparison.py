@@ -9,15 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import inf
 
-from rebsync.checker.trace import TraceStep
 from rebsync.model import Model
 from rebsync.records import dataclass
-from rebsync.reverse.findings import COUNTS_ON, IN_THREADS, Finding, Grade
+from rebsync.reverse.findings import COUNTS_ON, IN_THREADS, NOT_SENT, Finding, Grade
 from rebsync.roundtrip.conform.components.assembly import Assembly
 from rebsync.roundtrip.conform.components.component import Component
 from rebsync.roundtrip.conform.components.diagnosis import TopicDiagnosis
 from rebsync.roundtrip.conform.components.environment import Closed
+from rebsync.roundtrip.conform.components.hypotheses import Hypothesis
 from rebsync.roundtrip.conform.components.inclusion import Inclusion, InclusionSearch
 from rebsync.roundtrip.conform.components.intervals import intervals
 from rebsync.roundtrip.conform.components.middle import middle, served_before
@@ -52,7 +53,7 @@ class Judged:
     open: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     intervals: tuple[TopicInterval, ...] = ()
-    run: tuple[TraceStep, ...] = ()
+    way: tuple[Component, Sequence[Hypothesis]] | None = None
 
 
 def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
@@ -70,6 +71,11 @@ def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
             continue
         doubt = assembly.doubts.get(component.name, "")
         judged.append(_Judge(component, found, closed.extracted.model, bounds, doubt).of())
+        notes += (
+            f"not recorded, and so not compared: {f.text} ({_place(f)})"
+            for f in found
+            if NOT_SENT in f.why
+        )
     notes += (note for each in judged for note in each.notes)
     deviations = [each.deviation for each in judged if each.deviation is not None]
     deviations += assembly.deviations
@@ -78,6 +84,7 @@ def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
     first = min(deviations, key=_stamp, default=None)
     if first is None and not open_ and not compared:
         open_.append("nothing that the nodes publish is in the recording")
+    until = first.time if first is not None else inf
     verdict = "deviates" if first is not None else "undetermined" if open_ else "conforms"
     if first is not None:
         notes += open_
@@ -92,7 +99,7 @@ def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
         notes=tuple(dict.fromkeys(notes)),
         widest=max((each.widest for each in judged), default=1),
         intervals=tuple(interval for each in judged for interval in each.intervals),
-        run=merged([each.run for each in judged]),
+        run=merged([steps_of(*each.way, until) for each in judged if each.way is not None]),
     )
 
 
@@ -112,18 +119,21 @@ def _about(findings: Sequence[Finding], class_: str, model: Model) -> list[Findi
 def _is_exact_here(finding: Finding) -> bool:
     """Whether a finding does not make the model do more than the code in a recorded run.
 
-    Of what runs in threads the model does less; and no recording is so long that a variable that
-    counts on gets to the end of the model's numbers.
+    Of what runs in threads the model does less; no recording is so long that a variable that
+    counts on gets to the end of the model's numbers; and what is published on a topic that was not
+    recorded changes nothing of what the node does.
     """
-    return IN_THREADS in finding.why or COUNTS_ON in finding.why
+    return any(why in finding.why for why in (IN_THREADS, COUNTS_ON, NOT_SENT))
 
 
 def _named(findings: Sequence[Finding]) -> str:
-    shown = [
-        f"{f.why} ({f.source.path}:{f.source.position(f.span.start).line})" for f in findings[:_FEW]
-    ]
+    shown = [f"{f.why} ({_place(f)})" for f in findings[:_FEW]]
     more = len(findings) - _FEW
     return ", ".join([*shown, f"and {more} more"] if more > 0 else shown)
+
+
+def _place(finding: Finding) -> str:
+    return f"{finding.source.path}:{finding.source.position(finding.span.start).line}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,11 +178,11 @@ class _Judge:
         why = f"{name} fits, but its model may do otherwise than it: {_named(over)}"
         compared = sum(map(len, self.component.outputs))
         took: tuple[TopicInterval, ...] = ()
-        run: tuple[TraceStep, ...] = ()
+        way: tuple[Component, Sequence[Hypothesis]] | None = None
         if search.keeps and found.last is not None:
-            way = search.way_to(found.last)
-            took, run = intervals(self.component, way), steps_of(self.component, way)
-        return Judged(compared, found.widest, None, (why,) if over else (), (), took, run)
+            way = self.component, search.way_to(found.last)
+            took = intervals(*way)
+        return Judged(compared, found.widest, None, (why,) if over else (), (), took, way)
 
     def _refused(self, search: InclusionSearch, found: Inclusion) -> Judged:
         name = self.component.name
@@ -185,8 +195,8 @@ class _Judge:
             return self._open(search, found, f"{name} does not fit, but {self.doubt}")
         if found.raced:
             return self._open(search, found, f"{name} does not fit, but {_BESIDE}")
-        run = steps_of(self.component, search.way_to(found.furthest[-1]))
-        return Judged(_compared(found), found.widest, self._deviation(search, found), run=run)
+        way = self.component, search.way_to(found.furthest[-1])
+        return Judged(_compared(found), found.widest, self._deviation(search, found), way=way)
 
     def _open(self, search: InclusionSearch, found: Inclusion, why: str) -> Judged:
         """Undetermined; the deviation is told nevertheless."""

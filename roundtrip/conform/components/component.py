@@ -12,6 +12,7 @@ from rebsync.roundtrip.conform.components.spool import Spool
 from rebsync.roundtrip.conform.recording import Place
 
 UNORDERED = -1  # the lane of messages whose publisher is not known
+CONNECTS = 2.0  # s after a node has shown itself in which its topics may not be connected yet
 
 Cells = tuple[Cell, ...]
 
@@ -19,7 +20,9 @@ Cells = tuple[Cell, ...]
 class Input(NamedTuple):
     """A recorded message that a rebec receives; those of a lane come in their order.
 
-    `may_drop`: so many came together that a queue of the code may have been full.
+    `may_drop`: so many came together that a queue of the code may have been full. It came at
+    `earliest`, in seconds; `is_kept`: its publisher may keep it for who connects later (latched
+    topics, durability "transient local"), so that the rebec may have got it later.
     """
 
     stamp: float
@@ -27,6 +30,8 @@ class Input(NamedTuple):
     cells: Cells
     lane: int
     may_drop: bool
+    earliest: float
+    is_kept: bool
 
 
 class Output(NamedTuple):
@@ -62,7 +67,8 @@ class Component:
 
     `inputs` go by stamps; `outputs` are those of each topic in `topics`, which are known by the
     environment's servers. `conflicts` are pairs of servers whose bodies may disturb each other
-    where they run in threads. `is_bounded`: a queue of the code may become full.
+    where they run in threads. `is_bounded`: a queue of the code may become full. `kept` says of
+    each topic if the first message may be an old one, which the recorder got when it connected.
     """
 
     program: Program
@@ -73,6 +79,7 @@ class Component:
     topics: tuple[str, ...]
     outputs: tuple[Sequence[Output], ...]
     by_server: dict[int, int]
+    kept: tuple[bool, ...]
     conflicts: frozenset[tuple[int, int]] = frozenset()
     in_threads: bool = False
     is_bounded: bool = True

@@ -15,6 +15,7 @@ from rebsync.roundtrip.conform.components.alignment import (
 from rebsync.roundtrip.conform.components.component import Component, Output
 from rebsync.roundtrip.conform.components.inclusion import Inclusion, InclusionSearch
 from rebsync.roundtrip.conform.components.interface import shown
+from rebsync.roundtrip.conform.components.lost_inputs import LostInput
 from rebsync.roundtrip.conform.conformance import Allowed, CodePlace, Deviation, Kind
 from rebsync.source import SourceSpan
 
@@ -42,19 +43,38 @@ class TopicDiagnosis:
         alike = [each for each in found.furthest if each.matched == best.matched]
         change = Alignment(self.search, alike).cause()
         next_ = sorted({e for last in alike for e in expected(self.search, last)}, key=by_time)
-        kind, why, output, at = self._reason(change, next_[0].due if next_ else best.low)
         allowed = tuple(dict.fromkeys(map(self._allowed, next_)))[:_FEW]
+        if isinstance(change, LostInput):
+            return self._of_input(change, allowed)
+        kind, why, output, at = self._reason(change, next_[0].due if next_ else best.low)
         topic = self.component.topics[change.topic] if change is not None else "its topics"
         when = f" at {output.stamp:.3f} s" if output is not None else ""
         shown = f"{self.component.name} publishes {_shown(output)} on {topic}{when}: {why}"
         message = shown if output is not None else f"{self.component.name} on {topic}: {why}"
-        time = round((at - self.component.timing.begin) / self.component.timing.unit)
+        time = self._time(at)
         place = output.place if output is not None else None
         code = self._code(change, {each.server for each in allowed})
         name = self.component.name
         return Deviation(
             kind, name, time, message, None, 0, allowed, code=code, message_place=place
         )
+
+    def _of_input(self, lost: LostInput, allowed: tuple[Allowed, ...]) -> Deviation:
+        """A message that the node has not got, or has got and it is not in the recording."""
+        program, name = self.component.program, self.component.name
+        stamp, server, cells, *_ = lost.input
+        values, callback = shown(program, server, cells), program.servers[server].name
+        if lost.is_recorded:
+            why = f"does not do what it does after {values} at {stamp:.3f} s: it has not got it"
+        else:
+            why = f"does at {stamp:.3f} s what it does after {values}, and none was recorded then"
+        message, code = f"{name} on {callback}: it {why}", self._code(None, {callback})
+        time = self._time(stamp)
+        return Deviation("lost message", name, time, message, None, 0, allowed, code=code)
+
+    def _time(self, stamp: float) -> int:
+        """A stamp in units of the model since the recording began."""
+        return round((stamp - self.component.timing.begin) / self.component.timing.unit)
 
     def _code(self, change: ChannelFault | None, next_: set[str]) -> CodePlace | None:
         """Where in the code the callback is that a message comes from.
@@ -112,9 +132,8 @@ class TopicDiagnosis:
         return shown(self.component.program, each.sent.server, each.sent.cells)
 
     def _allowed(self, each: Expected) -> Allowed:
-        program, timing = self.component.program, self.component.timing
-        values = self._values(each)
-        start = round((each.due - timing.begin) / timing.unit)
+        program, values = self.component.program, self._values(each)
+        start = self._time(each.due)
         topic = self.component.topics[each.topic]
         state = ((topic, f"{values}"),)
         server = program.servers[each.server].name if each.server >= 0 else "constructor"

@@ -54,6 +54,8 @@ class Link:
 class Closed:
     """A package read together with its environment; `links` by the names of its servers.
 
+    `keeping` are topics on which a node may keep its last messages for who connects later, and
+    `getting` those on which nodes get such.
     `is_clocked`: nodes may have gone by the clock of a topic.
     """
 
@@ -62,6 +64,8 @@ class Closed:
     links: Mapping[str, Link]
     depth: int  # the shortest queue of a topic; 0: none is bounded
     dropped: Mapping[str, tuple[str, ...]]  # by topic, the fields that no model has
+    keeping: frozenset[str]
+    getting: frozenset[str]
     is_clocked: bool
 
 
@@ -80,7 +84,12 @@ def closed(given: Chosen, topics: Sequence[str]) -> Closed:
     dropped = {link.topic: _dropped(types, link) for link in links.values()}
     people = replace(extracted, findings=of_people)
     is_clocked = "/clock" in topics
-    return Closed(people, files[SETTINGS], links, _depth(graph), dropped, is_clocked)
+    keeping, getting = (
+        frozenset(topic for topic in topics if _keeps(kind, topic, graph))
+        for kind in (PublisherFact, SubscriptionFact)
+    )
+    depth = _depth(graph)
+    return Closed(people, files[SETTINGS], links, depth, dropped, keeping, getting, is_clocked)
 
 
 def _is_ros_2(files: Mapping[str, Source]) -> bool:
@@ -93,19 +102,39 @@ def _links(topics: Sequence[str], graph: Graph, types: MessageTypes) -> Iterator
     facts = [f for f in graph.facts if isinstance(f, PublisherFact | SubscriptionFact)]
     every = {f.type for f in facts if isinstance(f.type, str)}
     for topic in topics:
-        last = topic.rpartition("/")[2]
         same = {
             f.type
             for f in facts
-            if isinstance(f.type, str)
-            and isinstance(f.topic, str)
-            and f.topic.rpartition("/")[2].lstrip("~") == last
+            if isinstance(f.type, str) and isinstance(f.topic, str) and _is_named(f.topic, topic)
         }
         for type_ in sorted(same or every):
             fields = types.fields(type_)
             if fields is not None:
                 kept = {path: of for path, of in fields.items() if of is not None}
                 yield Link(topic, type_, tuple(kept), tuple(map(_zero, kept.values())))
+
+
+def _keeps(kind: type[PublisherFact] | type[SubscriptionFact], topic: str, graph: Graph) -> bool:
+    """Whether an end that may be the topic's may keep messages, or get such that were kept.
+
+    In ROS 2 both ends have to ask for it; in ROS 1 the publisher does.
+    """
+    facts = (f for f in graph.facts if isinstance(f, kind))
+    of_topic = (f for f in facts if not isinstance(f.topic, str) or _is_named(f.topic, topic))
+    return any(_may_keep(fact) for fact in of_topic)
+
+
+def _may_keep(fact: PublisherFact | SubscriptionFact) -> bool:
+    if isinstance(fact, PublisherFact) and fact.latched is not False:
+        return True
+    if fact.policies is None:
+        return isinstance(fact, SubscriptionFact)
+    return fact.policies.durability != "volatile"
+
+
+def _is_named(name: str, topic: str) -> bool:
+    """Whether a name in the code may be a topic, in some namespace."""
+    return name.rpartition("/")[2].lstrip("~") == topic.rpartition("/")[2]
 
 
 def _zero(type_: Type) -> str:

@@ -22,6 +22,7 @@ from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.components.bodies import BodyRun, Publication
 from rebsync.roundtrip.conform.components.component import (
+    CONNECTS,
     UNORDERED,
     Component,
     Input,
@@ -37,7 +38,6 @@ from rebsync.roundtrip.conform.components.hypotheses import (
 from rebsync.roundtrip.conform.components.interface import is_same
 from rebsync.roundtrip.conform.components.spool import Spool
 
-CONNECTS = 2.0  # s after a node has shown itself in which its topics may not be connected yet
 BEFORE = 60.0  # s before a recording in which nodes may have begun
 _KEPT = 64  # hypotheses that came furthest: the first and the last ones
 
@@ -78,6 +78,7 @@ class InclusionSearch:
         self._settled = Spool[Hypothesis]()  # the way up to where only one was possible
         self.failures: dict[Failure, None] = {}
         self._timing = component.timing
+        self._ahead = max(component.timing.slack, CONNECTS)  # kept ones may come so much before
         self._received = len(component.inputs)
         self._recorded = tuple(map(len, component.outputs))
         # What caused a message just before the end may have been recorded after it, so not at all.
@@ -213,15 +214,16 @@ class InclusionSearch:
                 found.append(Candidate(each.server, each.cells, low, limit, each))
         lanes: set[int] = set()
         for number, each_in in enumerate(self.component.inputs.since(base), base):
-            stamp, server, cells, lane, _ = each_in
-            if stamp - slack > limit:
+            stamp, server, cells, lane, _, first, _ = each_in
+            if stamp - self._ahead > limit:
                 break
             if number in taken or lane in lanes:
                 continue
             if lane != UNORDERED:
                 lanes.add(lane)
-            low = max(begin, stamp - slack)
-            found.append(Candidate(server, cells, low, limit, None, number, each_in))
+            if first <= limit:
+                low = max(begin, first)
+                found.append(Candidate(server, cells, low, limit, None, number, each_in))
         return found
 
     def _upper(self, before: Hypothesis, low: float, high: float) -> float:
@@ -235,9 +237,13 @@ class InclusionSearch:
         for each in before.pending:
             latest = min(latest, self._upper(before, each.low, each.high))
         if before.base < self._received:
-            stamp = self.component.inputs[before.base].stamp
-            latest = min(latest, self._upper(before, stamp, stamp))
+            due = self._due(self.component.inputs[before.base])
+            latest = min(latest, self._upper(before, due, due))
         return latest
+
+    def _due(self, each: Input) -> float:
+        """When an input comes at the latest; those that are kept may when the node connects."""
+        return max(each.stamp, self._timing.first + CONNECTS) if each.is_kept else each.stamp
 
     def _next_output(self, before: Hypothesis) -> float:
         stamp = inf
@@ -252,6 +258,8 @@ class InclusionSearch:
         """Whether an input may not have come: it was not connected yet, or a queue was full."""
         if each.may_drop or each.stamp <= self.served_before:
             return True
+        if each.earliest < self.served_before - CONNECTS:
+            return True  # it is from before the recording, and so may the node have got it
         if self.component.is_bounded and before.free[0] >= each.stamp:
             return True
         is_new = each.lane == UNORDERED or each.lane not in before.connected
@@ -286,7 +294,8 @@ class InclusionSearch:
             output = self.component.outputs[topic][number]
             stamp = output.stamp - elapsed
             if self.is_output(output, sent):
-                first, last = max(low, stamp - timing.slack), min(high, stamp)
+                is_old = not number and self.component.kept[topic]
+                first, last = low if is_old else max(low, stamp - timing.slack), min(high, stamp)
                 if first <= last:
                     now = (*matched[:topic], number + 1, *matched[topic + 1 :])
                     found.append((first, last, now))

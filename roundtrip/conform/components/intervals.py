@@ -25,7 +25,7 @@ def intervals(component: Component, run: Sequence[Hypothesis]) -> tuple[TopicInt
         for topic, stamp in (
             (k, component.outputs[k][was].stamp) for k, (was, now) in changed if now > was
         ):
-            if after.last < 0:
+            if after.last < 0 or (component.kept[topic] and not before.matched[topic]):
                 continue
             name = component.program.servers[after.last].name
             if inputs:

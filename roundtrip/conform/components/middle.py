@@ -53,9 +53,19 @@ def middle(component: Component, most: int) -> Middle:
     except EndlessBody:
         return Middle((), False)
     until = served_before(component.timing)
-    passed = tuple(sum(o.stamp <= until for o in outputs) for outputs in component.outputs)
-    starts = tuple(_start(component, place, passed) for place in seen)
+    starts = tuple(_start(component, place, n) for n in _passed(component, until) for place in seen)
     return Middle(starts, is_whole or _is_all(component, seen))
+
+
+def _passed(component: Component, until: float) -> Iterator[tuple[int, ...]]:
+    """How many messages of each topic were published up to a time; a kept one may be older."""
+    counts = (sum(each.stamp <= until for each in outputs) for outputs in component.outputs)
+    return product(
+        *(
+            (0, 1) if is_kept and not count else (count,)
+            for count, is_kept in zip(counts, component.kept, strict=True)
+        )
+    )
 
 
 def _is_all(component: Component, places: set[_Place]) -> bool:

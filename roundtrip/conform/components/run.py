@@ -17,14 +17,18 @@ from rebsync.roundtrip.conform.components.interface import shown
 SHOWN = 40  # steps
 
 
-def steps_of(component: Component, run: Sequence[Hypothesis]) -> tuple[TraceStep, ...]:
-    """The last steps of a run in which something was published; times are those of the model."""
+def steps_of(
+    component: Component, run: Sequence[Hypothesis], until: float
+) -> tuple[TraceStep, ...]:
+    """The last steps of a run up to a time in which something was published; times are those of
+    the model."""
     found = deque(
         (
             step
             for before, after in pairwise(run)
             if before.matched != after.matched and after.last >= 0
             for step in _step(component, before, after)
+            if step.time <= until
         ),
         maxlen=SHOWN,
     )

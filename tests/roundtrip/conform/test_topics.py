@@ -183,9 +183,14 @@ def test_faults_are_told_apart_wherever_they_are(seed: int, fault: str, tmp_path
 REAL = Path(__file__).parent / "recordings" / "thermostat.jsonl"
 
 
+def read(path: Path) -> Log:
+    """The messages of a log."""
+    return [json.loads(line) for line in path.read_text().splitlines()]
+
+
 def real() -> Log:
     """The messages of that run."""
-    return [json.loads(line) for line in REAL.read_text().splitlines()]
+    return read(REAL)
 
 
 @pytest.mark.parametrize("is_bag", [False, True])
@@ -248,6 +253,143 @@ def test_what_messages_took_is_measured(tmp_path: Path) -> None:
     delays = took["thermostat", "measured", "/heat", "delay"]
     assert len(delays) == len(own)
     assert max(delays) == pytest.approx(late - cause)
+
+
+# --- messages that are kept for who connects later
+
+BUMPERBOT = Path(__file__).parent / "recordings" / "bumperbot.jsonl"  # roscpp; /mode is latched
+
+
+def connected_late(log: Log, topic: str, begin: float, by: float) -> Log:
+    """What a recorder shows that began then, and connected to a latched topic later."""
+    own = [m for m in log if m["topic"] == topic]
+    old = [m for m in own if m["stamp"] <= begin + by][-1] | {"stamp": begin + by}
+    others = [m for m in log if m["topic"] != topic and m["stamp"] >= begin]
+    found = [old, *others, *(m for m in own if m["stamp"] > begin + by)]
+    return sorted(found, key=lambda m: m["stamp"])
+
+
+@pytest.mark.parametrize("by", [0.05, 0.6, 1.4])
+@pytest.mark.parametrize("begin", [0.0, 3.1, 12.2, 18.0, 40.7])
+def test_the_first_message_of_a_latched_topic_is_an_old_one(
+    begin: float, by: float, tmp_path: Path
+) -> None:
+    log = read(BUMPERBOT)
+    late = connected_late(log, "/mode", log[0]["stamp"] + begin, by)
+    driver = [m for m in late if m["node"] in ("/driver", "/tester")]  # the other one counts up
+    path = write(driver, tmp_path / "run.jsonl")
+    found, _ = compared(str(PACKAGES / "bumperbot"), [str(path)], ANYWHERE)
+    assert (found.verdict, found.deviation) == ("conforms", None), found
+
+
+@pytest.mark.parametrize("topic", ["/cmd_vel", "/mode"])
+@pytest.mark.parametrize("fault", FAULTS)
+def test_faults_beside_a_latched_topic_are_found(fault: str, topic: str, tmp_path: Path) -> None:
+    log = read(BUMPERBOT)
+    make, kind = FAULTS[fault]
+    if fault in ("wrong value", "swapped") and topic == "/cmd_vel":
+        return  # of several fields
+    own = [n for n, message in enumerate(log) if message["topic"] == topic]
+    faulty = make(connected_late(log, "/mode", log[0]["stamp"], 0.6), own[len(own) // 2])
+    path = write(faulty, tmp_path / "run.jsonl")
+    found, _ = compared(str(PACKAGES / "bumperbot"), [str(path)], FROM_START)
+    assert found.deviation is not None, found
+    assert (found.deviation.kind, found.deviation.rebec) == (kind, "driver"), found.deviation
+
+
+@pytest.mark.parametrize("node", ["/driver", "/odometer"])
+def test_a_node_that_ends_within_a_body_is_silent(node: str, tmp_path: Path) -> None:
+    """Its last message may be recorded before another one of the same body, which is lost."""
+    log = read(BUMPERBOT)
+    topic = {"/driver": "/mode", "/odometer": "/backwards"}[node]
+    own = [n for n, m in enumerate(log) if m["topic"] == topic]
+    for at in own[10:40:7]:
+        path = write(silent(log, at), tmp_path / "run.jsonl")
+        found, _ = compared(str(PACKAGES / "bumperbot"), [str(path)], FROM_START)
+        assert found.deviation is not None
+        assert (found.deviation.kind, found.deviation.rebec) == ("silent", node[1:]), found
+        told = log[0]["stamp"] + found.deviation.time * 0.001
+        assert abs(told - log[at]["stamp"]) < 0.7, found.deviation
+
+
+@pytest.mark.parametrize("number", [2, 4, 6])
+@pytest.mark.parametrize("is_taken_out", [True, False])
+def test_an_input_that_was_lost_is_told(is_taken_out: bool, number: int, tmp_path: Path) -> None:
+    log = read(BUMPERBOT)
+    inputs = [n for n, m in enumerate(log) if m["topic"] == "/bumper"]
+    hits = [n for n in inputs if log[n]["data"]["data"] and is_answered(log, n) is is_taken_out]
+    misses = [n for n in inputs if not log[n]["data"]["data"]]
+    at = hits[number] if is_taken_out else misses[number]
+    # The recorder has not got it; or it has one that the node has not got.
+    changed = [] if is_taken_out else [log[at] | {"data": {"data": True}}]
+    path = write([*log[:at], *changed, *log[at + 1 :]], tmp_path / "run.jsonl")
+    found, _ = compared(str(PACKAGES / "bumperbot"), [str(path)], FROM_START)
+    if found.deviation is None:  # one more changes nothing while it goes back
+        assert not is_taken_out
+        assert found.verdict == "conforms"
+        return
+    assert (found.deviation.kind, found.deviation.rebec) == ("lost message", "driver")
+    assert "onBumper" in found.deviation.message
+    told = log[0]["stamp"] + found.deviation.time * 0.001
+    assert abs(told - log[at]["stamp"]) < 0.1, found.deviation
+
+
+def test_the_run_that_is_shown_ends_where_it_deviates(tmp_path: Path) -> None:
+    log = read(BUMPERBOT)
+    own = [n for n, m in enumerate(log) if m["topic"] == "/mode"]
+    path = write(dropped(log, own[20]), tmp_path / "run.jsonl")
+    measuring = TopicBounds(None, True, None, True)
+    found, _ = compared(str(PACKAGES / "bumperbot"), [str(path)], measuring)
+    assert found.deviation is not None
+    times = [step.time for step in found.run]
+    assert {step.rebec for step in found.run} >= {"driver", "odometer"}
+    assert found.deviation.time - 1000 < times[-1] <= found.deviation.time
+
+
+def test_the_unit_of_bounds_is_told_where_it_is_no_second(tmp_path: Path) -> None:
+    properties = tmp_path / "soon.property"
+    formula = "AG(driver.out_mode_data == 1 -> AF(time <= 3, driver.out_mode_data == 2))"
+    properties.write_text(f"property {{ TCTL {{ Soon: {formula}; }} }}")
+    found, _ = compared(str(PACKAGES / "bumperbot"), [str(BUMPERBOT)], FROM_START, str(properties))
+    assert [(p.name, p.verdict) for p in found.properties] == [("Soon", "open")]
+    assert "a bound of time in the properties counts in units of 0.5 s" in found.notes
+
+
+def is_answered(log: Log, at: int) -> bool:
+    """Whether the node changes its mode by an input."""
+    later = [m for m in log if 0 <= m["stamp"] - log[at]["stamp"] < 0.05]
+    return any(m["topic"] == "/mode" and m["data"]["data"] == 1 for m in later)
+
+
+def lamp(*messages: tuple[float, str, bool | int]) -> Log:
+    """A run of a lamp and its switch, which keeps what it told last (rclpy)."""
+    nodes = {"/press": "/thumb", "/on": "/switch", "/light": "/lamp"}
+    return [{"topic": t, "stamp": s, "node": nodes[t], "data": {"data": v}} for s, t, v in messages]
+
+
+LATER = (
+    *((112.0, "/press", True), (112.01, "/on", False), (112.02, "/light", 0)),
+    *((115.0, "/press", True), (115.01, "/on", True), (115.02, "/light", 100)),
+)
+BEFORE_IT = ((100.0, "/on", False), (103.0, "/press", True), (103.01, "/on", True))
+
+
+@pytest.mark.parametrize(
+    ("messages", "kind"),
+    [
+        ((*BEFORE_IT, (109.0, "/light", 100), *LATER), None),  # begun at 109 s
+        ((*BEFORE_IT, *LATER), None),  # and nobody has listened to it yet
+        ((*BEFORE_IT, (109.0, "/light", 60), *LATER), "wrong value"),
+        ((*BEFORE_IT, (109.0, "/light", 100), *LATER[:2], *LATER[3:]), "lost message"),
+    ],
+)
+def test_a_node_gets_what_was_published_before_it_began(
+    messages: tuple[tuple[float, str, bool | int], ...], kind: str | None, tmp_path: Path
+) -> None:
+    path = write(lamp(*messages), tmp_path / "run.jsonl")
+    found, _ = compared(str(PACKAGES / "lamp"), [str(path)], FROM_START)
+    assert (found.deviation.kind if found.deviation else None) == kind, found
+    assert found.verdict == ("deviates" if kind else "conforms"), found
 
 
 # --- what is not known
