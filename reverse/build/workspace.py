@@ -106,9 +106,7 @@ def _wrappers() -> tuple[re.Pattern[bytes], ...]:
     classes = "|".join(sorted({*cpp.own_classes(), *cpp.handles(), *nodes})).encode()
     in_python = "|".join(sorted(python.asking_names())).encode()
     return (
-        re.compile(
-            rb"\b(?:" + names + rb")\s*\(\s*(?:const\b|std::|rclcpp::|ros::)[\w:<> ]+[&*\s]\s*\w+"
-        ),
+        re.compile(rb"\b(?:" + names + rb")\s*\(\s*(?:const\b|\w+::)[\w:<> ]+[&*\s]\s*\w+"),
         re.compile(rb"\b(?:class|struct)\s+(?:" + classes + rb")\b"),
         re.compile(rb"\bdef\s+(?:" + in_python + rb")\s*\("),
     )
