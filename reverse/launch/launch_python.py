@@ -11,6 +11,7 @@ import ast
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 
+from rebsync.reverse.launch.described import misleading
 from rebsync.reverse.launch.launch_python_values import PythonValues, called, keywords
 from rebsync.reverse.launch.ros2_actions import (
     Action,
@@ -49,7 +50,11 @@ def actions_of(source: Source) -> tuple[Action, ...] | Unknown:
     except (SyntaxError, ValueError, RecursionError) as error:
         why = f"this is no Python that can be read: {error}"
         return Unknown("the launch file", why, source, Span(0, 0))
-    return tuple(_File(tree, PythonValues(source, bound_once(tree))).actions())
+    values = PythonValues(source, names := bound_once(tree))
+    why = "what `generate_launch_description` gives back need not have all that stands here"
+    found = (values.span(place).start for place in misleading(tree, names))
+    open_ = (Unlisted("the description", Span(at, at + len("return")), why) for at in found)
+    return (*open_, *_File(tree, values).actions())
 
 
 def bound_once(tree: ast.Module) -> Mapping[str, ast.expr]:

@@ -305,8 +305,8 @@ class PythonValues:
         """An expression as the file writes it, on one line."""
         return " ".join(self._source.slice(self.span(node)).split())
 
-    def span(self, node: ast.expr) -> Span:
-        """The place of an expression."""
+    def span(self, node: ast.expr | ast.stmt) -> Span:
+        """The place of an expression or a statement."""
         end_line, end_column = node.end_lineno or node.lineno, node.end_col_offset or 0
         return Span(self._at(node.lineno, node.col_offset), self._at(end_line, end_column))
 
