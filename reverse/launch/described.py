@@ -39,9 +39,11 @@ def misleading(tree: ast.Module, names: Mapping[str, ast.expr]) -> Iterator[_Pla
 
 
 def _given_back(
-    function: ast.FunctionDef, functions: Mapping[str, ast.FunctionDef], names: Mapping[str, ast.expr]
+    function: ast.FunctionDef,
+    functions: Mapping[str, ast.FunctionDef],
+    names: Mapping[str, ast.expr],
 ) -> _Place:
-    """The expression that a function gives back whatever happens, or the place that leaves it open."""
+    """The expression that a function gives back in any case, or the place that leaves it open."""
     asked = {function.name}
     while True:
         returns = [n for n in _in_scope(function) if isinstance(n, ast.Return)]
@@ -59,9 +61,7 @@ def _given_back(
                 return value
 
 
-def _beside(
-    tree: ast.Module, given: ast.Call, names: Mapping[str, ast.expr]
-) -> Iterator[ast.expr]:
+def _beside(tree: ast.Module, given: ast.Call, names: Mapping[str, ast.expr]) -> Iterator[ast.expr]:
     """Descriptions that are not the one that is given back, and what is added to such."""
     kept = {name for name, value in names.items() if value is given}
     for node in ast.walk(tree):

@@ -8,6 +8,7 @@ from itertools import chain
 
 from rebsync.reverse.files.compiled_text import LINE_COMMENT
 from rebsync.reverse.scaffold.fact import PLAYED, PROGRAM, Fact, numbered
+from rebsync.reverse.scaffold.state_messages import told_in_cpp
 from rebsync.reverse.scaffold.texts import joined, squeezed
 from rebsync.source import Source, Span
 
@@ -43,7 +44,8 @@ def facts_in_cpp(program: str, source: Source) -> Iterator[Fact]:
     """The facts in a file; `program` is the name of a program that has its `main` there."""
     text = _COMMENT.sub(lambda m: " " * len(m[0]), source.text)
     text = _BROKEN.sub(joined, text)
-    found = chain(_joints(source, text), _made(program, source, text), _in_ros2(source, text))
+    joints, told = _joints(source, text), told_in_cpp(source, text)
+    found = chain(joints, told, _made(program, source, text), _in_ros2(source, text))
     return numbered(found)
 
 

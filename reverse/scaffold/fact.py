@@ -13,6 +13,7 @@ from rebsync.source import Source, Span
 PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "space of parameters"
 PYTHON_SETTING = "setting of the packages of Python"
 CONSTANT, CLOCK = "type of the constant", "use_sim_time"
+TOLD, TOLD_TYPE = "state field", "type of the state field"
 NOT_GIVEN, OWN = "not given", "this package"
 _BEARING = {
     "mailbox": ("time_unit", "settle"),

@@ -16,7 +16,7 @@ from pathlib import Path
 from rebsync.names import uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
-from rebsync.reverse.scaffold.fact import PLAYED, PROGRAM, Fact, numbered
+from rebsync.reverse.scaffold.fact import PLAYED, PROGRAM, TOLD, Fact, numbered
 from rebsync.reverse.scaffold.python_trees import (
     MODULE,
     bindings,
@@ -115,11 +115,28 @@ class _Class:
             if function.name in ("__init__", "_wire"):
                 for statement in said(function.body):
                     yield from self._set_up(function, statement)
+            elif function.name == "_publish_state":
+                yield from self._told(function)
             elif receiving := list(_calls(function, "self._mailbox.receive")):
                 name = self.server(receiving[0].args[0]) if receiving[0].args else ""
                 yield self.fact("receiving", name, self._plain(function), function)
             elif sent := self._sent(function):
                 yield self.fact("sending", sent, self._plain(function), function)
+
+    def _told(self, function: ast.FunctionDef) -> Iterator[Fact]:
+        """What it puts into its state message, and by whom it has that published."""
+        names = {a.arg: "served" for a in function.args.args[1:]}
+        for statement in said(function.body):
+            match statement:
+                case ast.Assign([ast.Attribute(ast.Name(), name)], value):
+                    yield self.fact(TOLD, name, plain(value, names), statement)
+                case ast.Assign([ast.Name()], ast.Call(_, _, keywords)):
+                    for given in keywords:
+                        yield self.fact(TOLD, given.arg or "", plain(given.value, names), given)
+                case ast.Expr(ast.Call(ast.Attribute(by, "publish"))):
+                    yield self.fact(TOLD, "", f"published by {plain(by)}", statement)
+                case _:
+                    pass  # extraction lists it
 
     def _sent(self, function: ast.FunctionDef) -> str:
         """What a function sends, to whom; empty for one that does not send."""

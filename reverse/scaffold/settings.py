@@ -9,6 +9,7 @@ from pathlib import Path
 
 from rebsync.reverse.launch.parameters import YAML, read_parameters
 from rebsync.reverse.scaffold.fact import CONSTANT, OWN, PYTHON_SETTING, Fact, has_bearing
+from rebsync.reverse.scaffold.state_messages import facts_of_state_message, is_state_message
 from rebsync.source import Source, Span
 
 _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
@@ -28,14 +29,14 @@ _LINE = re.compile(r"^(?:\[([^\]\n]*)\].*|(?![#;])(.*\S))$", re.MULTILINE)
 _BUILDING = re.compile(
     r"options.*|entry_points|build(?!_scripts).*|install.*|develop|global|easy_install"
 )
-_STATE = re.compile(r"^string server\nstring arguments$", re.MULTILINE)
 _FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
 
 
 def facts_of_message(source: Source, package: str) -> Iterator[Fact]:
     message = Path(source.path).stem
-    if _STATE.search(source.text):
-        return  # what a node tells of itself, and no other takes
+    if is_state_message(source.text):
+        yield from facts_of_state_message(message, source)
+        return
     for m in _FIELD.finditer(source.text):
         type_ = m[1].removeprefix(f"{package}/")
         yield Fact("field", message, m[2], type_, source, Span(*m.span()))

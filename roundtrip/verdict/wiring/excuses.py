@@ -14,6 +14,8 @@ from rebsync.reverse.scaffold.fact import (
     PROGRAM,
     PYTHON_SETTING,
     SPACE,
+    TOLD,
+    TOLD_TYPE,
     TYPE,
     Fact,
     Facts,
@@ -29,7 +31,7 @@ from rebsync.roundtrip.diff.difference import (
     Renamed,
 )
 from rebsync.roundtrip.verdict.wiring.defaults import is_always_given
-from rebsync.roundtrip.verdict.wiring.fields import hand_on_alike, is_told_of
+from rebsync.roundtrip.verdict.wiring.fields import hand_on_alike, is_renamed, is_told_of
 from rebsync.roundtrip.verdict.wiring.names import (
     TOPICS,
     JoinedTopics,
@@ -90,6 +92,8 @@ class Excuses:
             return self._is_in_one_space
         if first.kind == "node" and first.name == CLOCK:
             return self._are_by_one_clock
+        if first.kind in (TOLD, TOLD_TYPE):
+            return self._is_told(first)
         if first.kind == "field":
             return is_told_of(first, self.base, self.today, self.of_code)
         if first.kind in ("receiving", "sending"):
@@ -145,6 +149,20 @@ class Excuses:
         }
         starts = {f.value for (k, *_), found in self.today.items() if k == TYPE for f in found}
         return bool(new & starts) and key[2] not in starts
+
+    def _is_told(self, field: Fact) -> bool:
+        """Whether a state message has a field that another version of its variable fills, or none.
+
+        A field that neither the message nor the code has is not told, which hides nothing: who
+        reads the message misses it.
+        """
+        kind, owner, name = field.key
+        other = TOLD_TYPE if kind == TOLD else TOLD
+        if field.key not in self.today:
+            return (other, owner, name) not in self.today and bool(name)
+        return kind == TOLD and is_renamed(
+            self.base[field.key], self.today[field.key], self.of_code
+        )
 
     def _follows(self, fact: Fact) -> bool:
         """Whether it is about what the code has changed on the whole."""

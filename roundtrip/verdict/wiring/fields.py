@@ -11,12 +11,13 @@ from collections.abc import Iterable
 
 from rebsync.names import field_names
 from rebsync.reverse.scaffold.fact import Fact, Facts
-from rebsync.roundtrip.diff.difference import Comparison, Removed
+from rebsync.roundtrip.diff.difference import Comparison, Removed, Renamed
 
 _POSTS = re.compile(r"self\._mailbox\.(?:post|receive)\(")
 _GIVEN = re.compile(r"text\((.*)\), lambda: (self\.[\w<>]+)\((.*)\)\)\Z")
 _NOTHING = re.compile(r"'', (self\.[\w<>]+)\)\Z")
 _VALUE = re.compile(r"_\d+(?:\.(\w+))?\Z")
+_WORD = re.compile(r"\w+")
 _FILLED = re.compile(r"_local\d+\.(\w+) = _\d+\Z")
 
 
@@ -66,6 +67,22 @@ def is_told_of(field: Fact, base: Facts, today: Facts, of_code: Comparison) -> b
     if field.key not in today and _goes_with_parameter(field, of_code):
         return True
     return _types(base, field.owner) == _types(today, field.owner)
+
+
+def is_renamed(before: Iterable[Fact], now: Iterable[Fact], of_code: Comparison) -> bool:
+    """Whether a state message is told the same state variable, which the code has renamed."""
+    old, new = ({_WORD.sub(_bare, fact.value) for fact in facts} for facts in (before, now))
+    names = {
+        d.element.path.rpartition(".")[2]: d.name.rpartition(".")[2]
+        for d in of_code.differences
+        if isinstance(d, Renamed) and d.element.kind == "statevar"
+    }
+    return {_WORD.sub(lambda m: names.get(m[0], m[0]), value) for value in old} == new
+
+
+def _bare(word: re.Match[str]) -> str:
+    """A name without the signs that tell that it is a member's."""
+    return word[0].strip("_")
 
 
 def _types(facts: Facts, message: str) -> list[str]:
