@@ -21,6 +21,7 @@ from rebsync.reverse.files.packages import BESIDE, CODE
 from rebsync.reverse.files.python_files import SETUP, is_launch, is_python
 from rebsync.reverse.findings import Finding, Findings, Grade
 from rebsync.reverse.generated.before_main import at_the_end, beside_main
+from rebsync.reverse.generated.noexcept_functions import ending_the_node
 from rebsync.reverse.generated.one_definition import defined_again
 from rebsync.reverse.generated.parameters import odd_arguments
 from rebsync.reverse.generated.ros1_classes import Classes
@@ -219,7 +220,7 @@ class _Reading:
             self.findings.all += defined_again(self.code, owner)
             self.findings.all += at_the_end(self.code, owner)
         if chosen:
-            self.findings.all += beside_main(self.code)
+            self.findings.all += (*beside_main(self.code), *ending_the_node(self.code))
         names = {owner.name for owner in chosen}
         for program in self.programs:
             self.findings.all += odd_arguments(self.code, program.main, names)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -45,14 +45,12 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import STREAMS
-from rebsync.reverse.syntax.cpp_calls import call_of, calls_in
+from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
 
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-
-_TRUTH = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
 
 
 # --- statements ---------------------------------------------------------------------------------
@@ -255,51 +253,6 @@ def _starts(reader: CppStatementReader, node: Node, timer: TimerOf) -> Iterator[
         why = "a timer that still runs is stopped by this; the model lets it go off as well"
         reader.findings.unreadable(reader.cpp.source, Unread(span, why), reader.within)
     yield m.ExpressionStatement(m.Call(m.Self(), timer.server, (), length, None, span), (), span)
-
-
-# --- exceptions ---------------------------------------------------------------------------------
-
-
-def tried(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
-    """`try`: what is outside may throw; what the model has does not.
-
-    So nothing has happened in the model where a handler starts, if all that may throw is first.
-    """
-    body, span = part(node, "body"), reader.cpp.span(node)
-    handlers = [c for c in named(node) if c.type == "catch_clause"]
-    statements = named(body)
-    risky = [touching(reader.cpp, reader.scope, s) is None or _unknown(s) for s in statements]
-    last = max((i for i, r in enumerate(risky) if r), default=-1)
-    if not all(risky[: last + 1]):
-        why = "an exception may leave this half done"
-        raise reader.unread(node, why, "do what may throw first, in a try of its own")
-    if handlers and any(c.name == "at" and not _is_literal(c.arguments) for c in calls_in(body)):
-        why = "this catches an index that is out of range, with which the model ends"
-        raise reader.unread(node, why, "test the index before")
-    inside = reader.branch(body)
-    if last < 0:
-        yield m.Block(inside.statements, (), span)
-        return
-    ways = [reader.branch(part(h, "body")) for h in handlers]
-    unread = Unknown(span, "the model cannot know whether this throws")
-    if not inside.statements and not any(w.statements for w in ways):
-        return
-    if not reader.scope.chooses:
-        raise Unread(span, f"{unread.why}, and only a message server can choose")
-    reader.findings.approximated(reader.cpp.source, span, unread.why, "", reader.within)
-    chosen: m.Statement = ways[-1] if ways else m.Block(())
-    for way in reversed(ways[:-1]):
-        chosen = m.If(_TRUTH, way, chosen)
-    yield m.If(_TRUTH, inside, chosen, (), span)
-
-
-def _is_literal(indices: Sequence[Node]) -> bool:
-    return all(i.type == "number_literal" for i in indices)
-
-
-def _unknown(node: Node) -> bool:
-    """Whether it declares something: reading it says whether the model has it."""
-    return node.type == "declaration"
 
 
 # --- switch -------------------------------------------------------------------------------------

@@ -24,6 +24,7 @@ from rebsync.reverse.bodies import (
     cpp_sequencing,
     cpp_special,
     cpp_texts,
+    cpp_trying,
     cpp_users,
 )
 from rebsync.reverse.bodies.building import cell, is_calm, is_effect
@@ -256,7 +257,7 @@ class CppStatements(CppStatementReader):
             case "switch_statement":
                 yield cpp_control.switched(self, node, annotations)
             case "try_statement":
-                yield from cpp_special.tried(self, node)
+                yield from cpp_trying.tried(self, node)
             case "return_statement":
                 yield from cpp_control.returned(self, node, annotations)
             case "throw_statement":

@@ -37,6 +37,7 @@ from rebsync.reverse.ir.cpp.statements import scope
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.ir.program import Function, FunctionKind, Parameter
+from rebsync.reverse.syntax.cpp_declarations import is_noexcept
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 from rebsync.source import NOWHERE, Span
 
@@ -100,21 +101,6 @@ def lower_function(world: World, symbol: FunctionSymbol) -> tuple[Function, list
         is_noexcept(code.node, implied=kind is FunctionKind.DESTRUCTOR),
     )
     return found, context.closures
-
-
-def is_noexcept(node: Node, implied: bool = False) -> bool:
-    """Whether what throws in a function ends the program ([except.spec])."""
-    declarator = node.child_by_field_name("declarator")
-    while declarator is not None and not declarator.type.endswith("function_declarator"):
-        declarator = declarator.child_by_field_name("declarator") or next(
-            (c for c in named(declarator) if c.type.endswith("declarator")), None
-        )
-    for part in named(declarator) if declarator is not None else ():
-        if part.type == "noexcept":
-            return not any(inner.type == "false" for inner in named(part))
-        if part.type == "throw_specifier":
-            return not named(part)
-    return implied
 
 
 def _kind(symbol: FunctionSymbol, owner: ClassSymbol | None) -> FunctionKind:

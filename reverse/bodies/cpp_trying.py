@@ -1,0 +1,100 @@
+"""`try` of C++: what is outside may throw; what the model has mostly does not."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.bodies.building import bare, is_calm
+from rebsync.reverse.bodies.cpp_effects import touching
+from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.syntax.cpp_calls import calls_in
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
+
+_MAILBOX = "mailbox_"  # a member of classes whose bodies the run-time part runs
+_TRUTH = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
+# The types of handlers that take what the run-time part throws.
+_OWN = re.compile(
+    r"\.\.\.|\bexception\b|\bViolation\b|\b(?:logic|runtime)_error\b|\bout_of_range\b"
+)
+
+
+def tried(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
+    """`try`: what is outside may throw; what the model has does not.
+
+    So nothing has happened in the model where a handler starts, if all that may throw is first.
+    """
+    body, span = part(node, "body"), reader.cpp.span(node)
+    handlers = [c for c in named(node) if c.type == "catch_clause"]
+    statements = named(body)
+    risky = [touching(reader.cpp, reader.scope, s) is None or _unknown(s) for s in statements]
+    last = max((i for i, r in enumerate(risky) if r), default=-1)
+    if not all(risky[: last + 1]):
+        why = "an exception may leave this half done"
+        raise reader.unread(node, why, "do what may throw first, in a try of its own")
+    if handlers and any(c.name == "at" and not _is_literal(c.arguments) for c in calls_in(body)):
+        why = "this catches an index that is out of range, with which the model ends"
+        raise reader.unread(node, why, "test the index before")
+    inside = reader.branch(body)
+    is_generated = _MAILBOX in reader.scope.members
+    if is_generated and any(map(_catches_own, handlers)) and _may_end(inside):
+        why = "what is caught here ends the body in the model"
+        raise reader.unread(node, why, "do what may fail outside of the try")
+    if last < 0:
+        yield m.Block(inside.statements, (), span)
+        return
+    ways = [reader.branch(part(h, "body")) for h in handlers]
+    unread = Unknown(span, "the model cannot know whether this throws")
+    if not inside.statements and not any(w.statements for w in ways):
+        return
+    if not reader.scope.chooses:
+        raise Unread(span, f"{unread.why}, and only a message server can choose")
+    reader.findings.approximated(reader.cpp.source, span, unread.why, "", reader.within)
+    chosen: m.Statement = ways[-1] if ways else m.Block(())
+    for way in reversed(ways[:-1]):
+        chosen = m.If(_TRUTH, way, chosen)
+    yield m.If(_TRUTH, inside, chosen, (), span)
+
+
+def _is_literal(indices: Sequence[Node]) -> bool:
+    return all(i.type == "number_literal" for i in indices)
+
+
+def _unknown(node: Node) -> bool:
+    """Whether it declares something: reading it says whether the model has it."""
+    return node.type == "declaration"
+
+
+def _catches_own(handler: Node) -> bool:
+    """Whether a handler is for what the run-time part throws, as far as its type tells."""
+    parameters = handler.child_by_field_name("parameters")
+    return parameters is None or _OWN.search(text_of(parameters)) is not None
+
+
+def _may_end(block: m.Block) -> bool:
+    """Whether something in it may throw by the run-time part: a time or a rebec that is none.
+
+    What a function of the class does is not looked into.
+    """
+    for node in m.walk(block):
+        match node:
+            case m.Call(None, "delay", (time,)):
+                if not isinstance(bare(time), m.IntLiteral):
+                    return True
+            case m.Call(None, "assertion"):
+                pass
+            case m.Call(None) if not is_calm(node):
+                return True
+            case m.Call(target) if isinstance(target, m.Paren | m.Cast | m.Index):
+                return True
+            case _:
+                pass
+    return False
