@@ -8,7 +8,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from rebsync.reverse.launch.parameters import YAML, read_parameters
-from rebsync.reverse.scaffold.fact import CONSTANT, OWN, PYTHON_SETTING, Fact, has_bearing
+from rebsync.reverse.scaffold.fact import (
+    CONSTANT,
+    NOT_GIVEN,
+    OWN,
+    PYTHON_SETTING,
+    Fact,
+    has_bearing,
+)
 from rebsync.reverse.scaffold.state_messages import facts_of_state_message, is_state_message
 from rebsync.source import Source, Span
 
@@ -25,6 +32,9 @@ _TYPES = {
 # How many metres a cell has, no model says, as long as it has some.
 _METRES = "metres"
 _FOLDER = re.compile(r"^(script_dir|install_scripts)[ \t]*=[ \t]*(\S+)", re.MULTILINE)
+_REMARK = re.compile(r"<!--.*?-->", re.DOTALL)
+_BUILT_BY = re.compile(r"<build_type>\s*(\w+)\s*</build_type>")
+_CATKIN = re.compile(r"<buildtool_depend\b[^>]*>\s*(catkin)\s*</buildtool_depend>")
 _LINE = re.compile(r"^(?:\[([^\]\n]*)\].*|(?![#;])(.*\S))$", re.MULTILINE)
 _BUILDING = re.compile(
     r"options.*|entry_points|build(?!_scripts).*|install.*|develop|global|easy_install"
@@ -92,8 +102,16 @@ def facts_of_setup(source: Source) -> Iterator[Fact]:
 
 
 def facts_of_other_package(source: Source, package: str) -> Iterator[Fact]:
-    """The name of a package of messages beside the one of the nodes, `package`."""
+    """What a package is built by, and its name if it is not that of the nodes, `package`."""
     found = _PACKAGE.search(source.text)
+    if found is not None:
+        name = "of the nodes" if found[1] == package else "of messages"
+        text = _REMARK.sub(lambda m: " " * len(m[0]), source.text)
+        told = _BUILT_BY.search(text) or _CATKIN.search(text)
+        at = told or found
+        yield Fact(
+            "build tool", "", name, told[1] if told else NOT_GIVEN, source, Span(*at.span(1))
+        )
     if found is not None and package and found[1] != package:
         value = found[1].replace(package, OWN)
         yield Fact("name of the package", "", "messages", value, source, Span(*found.span(1)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING
@@ -29,7 +28,6 @@ if TYPE_CHECKING:
 
 _BUILD = "CMakeLists.txt"
 _READ = frozenset({_BUILD, MANIFEST, SETUP})
-_STATE = "State.msg"
 
 
 def missing_files(
@@ -39,7 +37,6 @@ def missing_files(
     return (
         *_files(record, now),
         *missing_definitions(now, [*_codes(now)]),
-        *_fields(package, record, now),
         *_packages(package, record, now),
         *shadowing(record, now),
         *included_instead(package, record, now),
@@ -114,30 +111,6 @@ def _read(path: str, name: str) -> Source:
         with suppress(RebsyncError):  # what cannot be read, extraction lists
             return read_source(path)
     return Source(path, "")
-
-
-def _fields(package: ManagedPackage, record: Record, now: PackageState) -> Iterator[Findings]:
-    """The fields that messages of state lost and that code still sets."""
-    for name in now.changed:
-        if not name.endswith(_STATE):
-            continue
-        from rebsync.reverse.build.messages import read_message
-
-        message = name.rpartition("/")[2].removesuffix(".msg")
-        for before, source in _sides(package, record, now, name):
-            old, new = (read_message(each, "", "").fields for each in (before, source))
-            lost = {f.name for f in old} - {f.name for f in new}
-            for field in sorted(lost):
-                if any(_sets(code, message, field) for _, code in _codes(now)):
-                    last = len(source.text.rstrip())
-                    span = Span(max(last - 1, 0), last)
-                    yield finding(source, span, f"the field {field} is gone, and code sets it")
-
-
-def _sets(code: Source, message: str, field: str) -> bool:
-    """Whether code fills a field of a message, which it then names."""
-    is_of = re.search(rf"\b{message}\b", code.text) is not None
-    return is_of and re.search(rf"\bmsg\s*\.\s*{field}\b", code.text) is not None
 
 
 def _packages(package: ManagedPackage, record: Record, now: PackageState) -> Iterator[Findings]:
