@@ -2,8 +2,8 @@
 
 In generated code an exception that leaves a body ends the body: the mailbox reports it and serves
 the next message, and so does the model with an index that is out of range or a time that is
-negative. Where a function around it is `noexcept` the node ends instead. So such a function has
-only what throws nothing.
+negative. Where a function around it is `noexcept` the node ends instead; so it does when it is told
+to stop during a delay, which an exception ends. So such a function has only what throws nothing.
 """
 
 from __future__ import annotations
@@ -23,9 +23,11 @@ from rebsync.reverse.syntax.cpp_tree import inside
 _WHY = "an exception that leaves this ends the node; in the model it ends the body only"
 _MAY_SAY = re.compile(r"\bnoexcept\b|\bthrow\s*\(\s*\)")
 _THROWING = ("throw_statement", "new_expression")
-# Calls that throw nothing: casts, what only looks at or moves values, and logging.
+# Calls that throw nothing: times of sends, sensors, whose functions are looked into, casts, what
+# only looks at or moves values, and logging.
 _QUIET = re.compile(
-    r"(?:std::)?(?:min|max|abs|move|forward|exchange|swap|size|empty|begin|end|cbegin|cend"
+    r"after\Z|deadline\Z|text\Z|seen\Z"
+    r"|(?:std::)?(?:min|max|abs|move|forward|exchange|swap|size|empty|begin|end|cbegin|cend"
     r"|isfinite|isnan|isinf|floor|ceil|round|sqrt|fabs)\Z"
     r"|(?:static|const|reinterpret)_cast\Z|narrow\Z|unused\Z"
     r"|(?:bool|char|int|float|double|(?:std::)?u?int(?:8|16|32|64)_t)\Z"
@@ -65,14 +67,29 @@ class _Throwing:
     def throwing(self, function: CppFunction, body: Node) -> Iterator[Node]:
         """The first places in a body that may throw, of each kind."""
         yield from inside(body, *_THROWING)
-        for call in self._code.calls_in(function.cpp, body):
+        for call in self._run_in(function, body):
             if self._may_throw(call, set()):
                 yield call.node
 
+    def _run_in(self, function: CppFunction, body: Node) -> Iterator[CppCall]:
+        """The calls in a body, but for those in what is posted, which the mailbox runs later."""
+        calls = self._code.calls_in(function.cpp, body)
+        later = [
+            range(a.start_byte, a.end_byte)
+            for call in calls
+            if call.name == "post" and call.on == "mailbox_"
+            for a in call.arguments
+            if a.type == "lambda_expression"
+        ]
+        yield from (c for c in calls if not any(c.node.start_byte in place for place in later))
+
     def _may_throw(self, call: CppCall, asked: set[str]) -> bool:
         reached = self._named.get(call.name, ()) if call.on in ("", "this") else ()
+        if call.on == "mailbox_":
+            return call.name == "delay"
         if not reached:
-            return _QUIET.match(call.name) is None
+            is_constant = all(a.type == "number_literal" for a in call.arguments)
+            return _QUIET.match(call.name) is None and not (call.name == "at" and is_constant)
         if call.name in asked:
             return False  # those that call each other throw what the others do
         asked.add(call.name)
@@ -85,5 +102,4 @@ class _Throwing:
         assert body is not None
         if inside(body, *_THROWING):
             return True
-        calls = self._code.calls_in(function.cpp, body)
-        return any(self._may_throw(call, asked) for call in calls)
+        return any(self._may_throw(call, asked) for call in self._run_in(function, body))

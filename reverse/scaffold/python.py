@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
@@ -126,15 +127,16 @@ class _Class:
     def _told(self, function: ast.FunctionDef) -> Iterator[Fact]:
         """What it puts into its state message, and by whom it has that published."""
         names = {a.arg: "served" for a in function.args.args[1:]}
+        named = replace(self, owner=_message_of(function).removesuffix("State"))
         for statement in said(function.body):
             match statement:
                 case ast.Assign([ast.Attribute(ast.Name(), name)], value):
-                    yield self.fact(TOLD, name, plain(value, names), statement)
+                    yield named.fact(TOLD, name, plain(value, names), statement)
                 case ast.Assign([ast.Name()], ast.Call(_, _, keywords)):
                     for given in keywords:
-                        yield self.fact(TOLD, given.arg or "", plain(given.value, names), given)
+                        yield named.fact(TOLD, given.arg or "", plain(given.value, names), given)
                 case ast.Expr(ast.Call(ast.Attribute(by, "publish"))):
-                    yield self.fact(TOLD, "", f"published by {plain(by)}", statement)
+                    yield named.fact(TOLD, "", f"published by {plain(by)}", statement)
                 case _:
                     pass  # extraction lists it
 
@@ -277,6 +279,17 @@ def _arguments(function: ast.FunctionDef) -> list[str]:
 
 
 # --- parts --------------------------------------------------------------------------------------
+
+
+def _message_of(function: ast.FunctionDef) -> str:
+    """The type of the message that a function makes first."""
+    for statement in function.body:
+        match statement:
+            case ast.Assign([ast.Name()], ast.Call(ast.Name(made) | ast.Attribute(_, made))):
+                return made
+            case _:
+                pass
+    return ""
 
 
 def _calls(node: ast.AST, name: str) -> Iterator[ast.Call]:

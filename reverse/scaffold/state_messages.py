@@ -13,16 +13,17 @@ from rebsync.reverse.scaffold.fact import TOLD, TOLD_TYPE, Fact
 from rebsync.reverse.scaffold.texts import squeezed
 from rebsync.source import Source, Span
 
+_SUFFIX = "State"
 _TELLING = re.compile(
     r"\b(\w+)\s*::\s*publishState\s*\([^)]*?\b(\w+)\s*\)\s*(?:override\s*)?\{([^{}]*)\}"
 )
+_MADE = re.compile(rf"\b(\w+){_SUFFIX}\s+\w+\s*[;({{=]")
 _STATEMENT = re.compile(r"[^;]*;")
 _SET = re.compile(r"\w+\s*\.\s*(\w+)\s*=(?!=)\s*(.*?)\s*;", re.DOTALL)
 _FLAT = re.compile(r"flatten\s*\(\s*(.*?)\s*,\s*\w+\s*\.\s*(\w+)\s*\)\s*;", re.DOTALL)
 _SENT = re.compile(r"(?:this\s*->\s*)?(\w+)\s*(?:\.|->)\s*publish\s*\(")
 _MESSAGE = re.compile(r"^string server\nstring arguments$", re.MULTILINE)
 _FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
-_SUFFIX = "State"
 
 
 def is_state_message(text: str) -> bool:
@@ -40,7 +41,9 @@ def facts_of_state_message(message: str, source: Source) -> Iterator[Fact]:
 def told_in_cpp(source: Source, text: str) -> Iterator[Fact]:
     """What a class of C++ puts into its state message; `text` is the source without remarks."""
     for telling in _TELLING.finditer(text):
-        owner, served, _ = telling.groups()
+        owner, served, body = telling.groups()
+        if (made := _MADE.search(body)) is not None:
+            owner = made[1]  # messages of ROS have no underscores in their names
         for m in _STATEMENT.finditer(text, *telling.span(3)):
             start = m.end() - len(m[0].lstrip())
             span, found = Span(start, m.end()), _told_by(m[0].strip(), served)

@@ -172,6 +172,8 @@ class Excuses:
             return fact.owner in self.groups or "env" in self.groups
         if fact.kind in ("remap", "node", "parameter") or fact.kind.endswith(" program"):
             return bool(self.groups - {"env"})
+        if fact.kind in (TOLD, TOLD_TYPE):
+            return fact.owner.lower() in {g.replace("_", "").lower() for g in self.groups}
         if fact.kind == "field":
             return any(fact.owner.startswith(group) for group in self.groups)
         return fact.owner in self.groups
