@@ -20,6 +20,8 @@ _OTHERS = re.compile(r"(?:.*/)?(?:setup|\w+_sensors|\w+\.launch)\.py\Z")
 PYTHON = re.compile(r"(?:.*\.py|(?:.*/)?scripts/\w+)\Z")
 _CLASS = re.compile(r"^# rebsync: (?:reactiveclass|interface) ", re.M)
 _READS = re.compile(r"(?:rospy\.get_param|declared|read_array|declare_array)\(")
+_MAKES = "rospy.init_node"
+_LEVELS = frozenset({"DEBUG", "INFO", "WARN", "ERROR", "FATAL"})
 _IMPORTS = (ast.Import, ast.ImportFrom)
 _TOLD = frozenset({"__version__", "__author__", "__license__", "__copyright__"})
 
@@ -81,7 +83,7 @@ def _parts(body: list[ast.stmt], own: frozenset[str]) -> Iterator[tuple[str, ast
         inner = [getattr(statement, name, []) for name in ("body", "orelse", "finalbody")]
         handlers = getattr(statement, "handlers", [])
         if not any(inner) and not handlers:
-            text = "a rebec" if _makes_rebec(statement) else ast.unparse(statement)
+            text = "a rebec" if _makes_rebec(statement) else ast.unparse(_quiet(statement))
             yield _without(text, own), statement
             continue
         yield _without(_head(statement), own), statement
@@ -94,6 +96,24 @@ def _parts(body: list[ast.stmt], own: frozenset[str]) -> Iterator[tuple[str, ast
                 yield name, statement
                 yield from _parts(each, own)
         yield "end", statement
+
+
+def _quiet(statement: ast.stmt) -> ast.stmt:
+    """A statement that makes a node, without the level from which on it logs."""
+    match statement:
+        case ast.Expr(ast.Call(function, given, keywords)) if ast.unparse(function) == _MAKES:
+            rest = [k for k in keywords if not (k.arg == "log_level" and _is_level(k.value))]
+            return ast.Expr(ast.Call(function, given, rest))
+        case _:
+            return statement
+
+
+def _is_level(value: ast.expr) -> bool:
+    match value:
+        case ast.Attribute(ast.Name("rospy"), level):
+            return level in _LEVELS
+        case _:
+            return False
 
 
 def _head(statement: ast.stmt) -> str:
