@@ -241,7 +241,7 @@ class Classes:
         """Whether a function that people added is none of the model, whatever calls it."""
         if self._served(owner, function) is not None or not has_mailbox(self.code, owner):
             return False
-        return only_logs(function) or stands_in(self.code, owner, function)
+        return only_logs(self.code, owner, function) or stands_in(self.code, owner, function)
 
     def _served(self, owner: CppClass, function: CppFunction) -> str | None:
         """The server whose messages a function serves, here or in a class above."""
@@ -375,7 +375,7 @@ class Classes:
                     functions[function.name] = called(self.code, function, self.types)
                     callable_.add(function.name)
                 else:
-                    only = only_logs(function) and self._is_by_hand(above, function)
+                    only = only_logs(self.code, above, function) and self._is_by_hand(above, function)
                     functions.setdefault(function.name, Ignored() if only else Around())
             callable_ |= roles.constants | set(roles.sends)
         for function in functions_beside(self.code, owner):

@@ -68,8 +68,15 @@ def stands_in(code: Code, owner: CppClass, function: CppFunction) -> bool:
     return refers or defaults or not has_plain_types(function)
 
 
-def only_logs(function: CppFunction) -> bool:
-    """Whether a function does nothing but to log: the model does not have it."""
+def only_logs(code: Code, owner: CppClass, function: CppFunction) -> bool:
+    """Whether a function does nothing but to log, as all of its name: the model has none of them.
+
+    Where the model has one of them, the compiler chooses among them by what they are given.
+    """
+    return all(_logs(f) for f in code.functions_of(owner) if f.name == function.name)
+
+
+def _logs(function: CppFunction) -> bool:
     void = function.result is not None and text_of(function.result) == "void"
     known = function.markers or function.pure or function.body is None
     logs = next(calls_in(function.body), None) is not None
