@@ -79,6 +79,8 @@ def _actions(source: Source) -> Iterator[Fact]:
         if _called(call) not in _ACTIONS:
             continue
         name = given.get("name")
+        if isinstance(name, ast.Name):
+            name = names.get(name.id)
         node = str(name.value) if isinstance(name, ast.Constant) else ""
         span = _span(source, call)
         for key in _KEYWORDS:
