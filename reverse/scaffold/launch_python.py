@@ -14,6 +14,7 @@ from rebsync.reverse.scaffold.fact import (
     OWN,
     SHOWN,
     TYPE,
+    UNKNOWN,
     Fact,
     has_bearing,
     is_of_runtime,
@@ -40,7 +41,7 @@ def facts_of_python_launch(source: Source, package: str) -> Iterator[Fact]:
     for unknown in launch.unknowns:
         said = source.text[unknown.span.start : unknown.span.end]
         if not is_of_package(said, package):
-            yield Fact("unknown", "", unknown.what, unknown.why, source, unknown.span)
+            yield Fact(UNKNOWN, "", unknown.what, unknown.why, source, unknown.span)
     for node in launch.nodes:
         name = str(node.name)
         of = OWN if node.package == package else str(node.package)

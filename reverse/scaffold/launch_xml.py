@@ -16,6 +16,7 @@ from rebsync.reverse.scaffold.fact import (
     SHOWN,
     SPACE,
     TYPE,
+    UNKNOWN,
     Fact,
     has_bearing,
     speaks,
@@ -48,7 +49,7 @@ def facts_of_settings(source: Source, load: Load) -> Iterator[Fact]:
             yield Fact("setting", "", name, str(given.value), given.source, given.span)
     for unknown in launch.unknowns:
         if unknown.what == YAML and not unknown.source.path.endswith(PARAMETERS):
-            yield Fact("unknown", "", unknown.what, unknown.why, unknown.source, unknown.span)
+            yield Fact(UNKNOWN, "", unknown.what, unknown.why, unknown.source, unknown.span)
 
 
 def _nodes(element: XmlElement) -> Iterator[str]:

@@ -13,6 +13,7 @@ from rebsync.reverse.scaffold.fact import (
     NOT_GIVEN,
     OWN,
     PYTHON_SETTING,
+    UNKNOWN,
     Fact,
     has_bearing,
 )
@@ -56,7 +57,7 @@ def facts_of_parameters(source: Source) -> Iterator[Fact]:
     """What in the parameters has a bearing on what nodes do, but for the values of constants."""
     for unknown in read_parameters(source).unknowns:
         if unknown.what == YAML:
-            yield Fact("unknown", "", unknown.what, unknown.why, source, unknown.span)
+            yield Fact(UNKNOWN, "", unknown.what, unknown.why, source, unknown.span)
     section = ""
     for m in _ONE_NODE.finditer(source.text):
         yield Fact(

@@ -17,6 +17,7 @@ from rebsync.reverse.scaffold.fact import (
     TOLD,
     TOLD_TYPE,
     TYPE,
+    UNKNOWN,
     Fact,
     Facts,
 )
@@ -50,7 +51,7 @@ _JOINING = frozenset(
 _UNWANTED = frozenset(
     {
         *("setting", "compiler option", "step of the build", "command"),
-        *("environment", "launch file", "unknown", "parameters", PYTHON_SETTING),
+        *("environment", "launch file", UNKNOWN, "parameters", PYTHON_SETTING),
     }
 )
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})

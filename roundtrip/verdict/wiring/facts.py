@@ -13,6 +13,7 @@ from dataclasses import replace
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.records import dataclass
 from rebsync.reverse.scaffold.fact import (
+    UNKNOWN,
     Fact,
     Facts,
 )
@@ -124,6 +125,8 @@ def _odd(package: ManagedPackage, before: list[Fact], now: list[Fact]) -> Odd | 
     what = " ".join(filter(None, ("the", first.kind, first.name)))
     what += f" of {first.owner}" if first.owner else ""
     message = f"{what} {_change(first.kind, old, new)}"
+    if first.kind == UNKNOWN and new:
+        message = f"{first.name} is not known: {_shown(new - old)}"
     place = next((f for f in now if f.value not in old), now[0] if now else None)
     source = place.source if place else Source(f"{package.root}/{_inside(package, first)}", "")
     span = place.span if place else NOWHERE
