@@ -375,7 +375,8 @@ class Classes:
                     functions[function.name] = called(self.code, function, self.types)
                     callable_.add(function.name)
                 else:
-                    only = only_logs(self.code, above, function) and self._is_by_hand(above, function)
+                    only = only_logs(self.code, above, function)
+                    only = only and self._is_by_hand(above, function)
                     functions.setdefault(function.name, Ignored() if only else Around())
             callable_ |= roles.constants | set(roles.sends)
         for function in functions_beside(self.code, owner):
