@@ -40,7 +40,7 @@ class Contents:
 def _inside(root: str, path: str) -> str | None:
     """The path of a file from its package's directory; None where it does not begin with that."""
     if root == ".":
-        return path.removeprefix("./")
+        return None if path.startswith("/") else path.removeprefix("./")
     head = f"{root.rstrip('/')}/"
     return path.removeprefix(head) if path.startswith(head) else None
 

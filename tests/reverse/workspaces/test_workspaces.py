@@ -43,6 +43,16 @@ def test_alone_a_package_knows_nothing_of_others(
     assert status != 0, capsys.readouterr().out
 
 
+@pytest.mark.parametrize("named", [".", "src/robot.cpp", "../robot_pkg"])
+def test_a_package_finds_others_from_where_it_is(
+    named: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    root = next(c for c in CASES if c.name == "roscpp") / "robot_pkg"
+    monkeypatch.chdir(root)
+    assert main(["extract", named]) == 1
+    assert "onLevel(data);" in capsys.readouterr().out
+
+
 def test_facts_are_those_of_the_package(capsys: pytest.CaptureFixture[str]) -> None:
     root = next(c for c in CASES if c.name == "roscpp")
     assert main(["extract", str(root / "robot_pkg"), "--format", "json"]) == 1
