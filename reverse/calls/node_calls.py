@@ -70,8 +70,9 @@ def _of_method(
     if ask is None:
         return
     given = tuple(named(part(call, "arguments")))
-    type_ = values.types.type_of(cpp, target).rpartition("::")[2]
-    class_ = values.texts.class_near(type_, cpp) if type_ else None
+    scope, _, type_ = values.types.type_of(cpp, target).rpartition("::")
+    is_own = scope.rpartition("::")[2] not in calls.node_scopes  # `rclcpp::Node` is no own `Node`
+    class_ = values.texts.class_near(type_, cpp) if type_ and is_own else None
     if class_ is not None:
         meant = _may_be_node(values, class_, name)
     else:
@@ -123,8 +124,6 @@ def _says_enough(ask: Routine, given: tuple[Node, ...]) -> bool:
 
 def _node(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
     """`: Node("x")`, `rclcpp::Node::make_shared("x")`, `std::make_shared<rclcpp::Node>("x")`."""
-    if values.texts.code.all_classes.get(name):
-        return  # a class of that name of their own
     named_ = calls.nodes[name]
     scope, node, above = "", place, place.parent
     while above is not None and above.type == "qualified_identifier":
@@ -137,6 +136,8 @@ def _node(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> Ite
         node, above = above, above.parent
     if above is None:
         return
+    if not scope and values.texts.code.all_classes.get(name):
+        return  # a class of that name of their own
     if above.type == "field_initializer":
         class_ = values.texts.class_of(values.texts.function_around(cpp, place))
         if class_ is not None and name in (*class_.roots, *class_.bases):
