@@ -98,11 +98,12 @@ class Classes:
 
     def __post_init__(self) -> None:
         self.types = frozenset(self.code.classes)
+        self.form = CppForm(self.code)
         if all("Mailbox" not in cpp.source.text for cpp in self.code.files):
             self.roles = {name: Roles() for name in self.code.classes}
             return
         self.code = without_mixins(self.code)
-        self.form = CppForm(self.code)
+        self.form = CppForm(self.code)  # of what is left
         self.meanings = other_meanings(self.code)
         self.shown = shown_only(self.code) if self.alone else frozenset()
         classes = self.code.classes.values()

@@ -129,7 +129,7 @@ def test_applying_twice_changes_nothing_more(model: Path) -> None:
 def test_the_page_has_times_and_the_movement(model: Path) -> None:
     conform(model, "slow.jsonl", "--page", "page.html")
     page = (model.parent / "page.html").read_text(encoding="utf-8")
-    assert 'id="times"' in page and 'class="movement"' in page
+    assert 'id="times"' in page and 'class="movement ' in page
     scene = json.loads(re.findall(r'class="scene-data">(.*?)</script>', page)[0])
     first = next(robot for robot in scene["robots"] if robot["name"] == "first")
     # By its states: it stands in (1, 1) when its first body has ended, after 3.4 units.
