@@ -65,7 +65,7 @@ class MessageTypes:
         """The types that a package declares, and those that come with ROS."""
         own = {}
         constants: dict[str, int | str] = {}
-        rosidl = _of_rosidl(files)
+        rosidl, unclear = _of_rosidl(files), set[str]()
         for path, source in sorted(files.items()):
             found = _MESSAGE.search(f"/{path}")
             if found is not None:
@@ -75,9 +75,13 @@ class MessageTypes:
                 for constant in read.constants:
                     value = _kept(constant.value, rosidl)
                     for scope in ("", f"{owner}::", f"{owner}::msg::"):
-                        if value is not None:
-                            constants[f"{scope}{read.name}::{constant.name}"] = value
-        return MessageTypes(own, package, {}, constants, {})
+                        if value is None:
+                            continue
+                        name = f"{scope}{read.name}::{constant.name}"
+                        if constants.setdefault(name, value) != value:
+                            unclear.add(name)  # messages of two packages have one name
+        known = {name: value for name, value in constants.items() if name not in unclear}
+        return MessageTypes(own, package, {}, known, {})
 
     def constants(self) -> dict[str, int | str]:
         """The whole numbers and texts that messages of the package give names."""

@@ -1,7 +1,7 @@
-"""What a package asks of ROS in the files that it takes of other packages of the workspace.
+"""What a package uses of the files that it takes of other packages of the workspace.
 
-These declare more than the package uses. A class there is told by its name: where that is written
-only to declare and define the class, no object of it is made, and it asks for nothing.
+These declare more than the package uses. What its own files name is used, and what that names in
+its turn: classes with all their functions, free functions, and whatever a file does besides.
 """
 
 from __future__ import annotations
@@ -9,50 +9,84 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
+from tree_sitter import Node
+
 from rebsync.reverse.graph import Fact
-from rebsync.reverse.syntax.cpp_tree import Cpp
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+
+_WORD = re.compile(rb"[A-Za-z_]\w*")
+_CLASSES = frozenset({"class_specifier", "struct_specifier", "class_definition"})
+_DEFINED = _CLASSES | {"function_definition"}
+_AROUND = frozenset(
+    {
+        *("translation_unit", "module", "namespace_definition", "declaration_list"),
+        *("linkage_specification", "template_declaration", "decorated_definition"),
+        *("preproc_ifdef", "preproc_if", "preproc_else", "preproc_elif"),
+    }
+)
+
+
+def used_names(files: Sequence[Cpp]) -> frozenset[bytes]:
+    """The names that own files use, and those that what is used of other packages does."""
+    beside = [each for each in files if each.is_beside]
+    found = frozenset[bytes]().union(*(each.words for each in files if not each.is_beside))
+    if not beside:
+        return found
+    by_name: dict[bytes, list[Node]] = {}
+    names = set(found)
+    for each in beside:
+        for node in _parts(each.root):
+            if node.type in _DEFINED:
+                by_name.setdefault(_name(node), []).append(node)
+            else:
+                names |= _words(node)
+    waiting = [name for name in by_name if name in names]
+    while waiting:
+        for node in by_name.pop(waiting.pop(), ()):
+            fresh = _words(node) - names
+            names |= fresh
+            waiting += (name for name in fresh if name in by_name)
+    return frozenset(names)
 
 
 def without_unused(facts: Iterable[Fact], files: Sequence[Cpp]) -> Iterator[Fact]:
     """The facts but for those of classes and functions of other packages that nothing uses."""
-    used: dict[str, bool] = {}
+    used = used_names(files) if any(each.is_beside for each in files) else frozenset[bytes]()
     for fact in facts:
-        owner = fact.site.owner or ""
-        if fact.site.cpp.is_beside and owner not in used:
-            is_class = fact.site.function is None or fact.site.function.owner
-            used[owner] = (is_made if is_class else is_named)(owner, files)
-        if not fact.site.cpp.is_beside or used[owner]:
+        owner = fact.site.owner
+        if owner is None or not fact.site.cpp.is_beside or owner.encode() in used:
             yield fact
 
 
-def is_named(name: str, files: Iterable[Cpp]) -> bool:
-    """Whether the own files of a package name a function of another one, or several files do."""
-    found = [each for each in files if name.encode() in each.words]
-    return len(found) > 2 or any(not each.is_beside for each in found)
+def _parts(root: Node) -> Iterator[Node]:
+    """What a file consists of, definitions and the rest, within namespaces and conditions too."""
+    waiting = [root]
+    while waiting:
+        node = waiting.pop()
+        if node.type in _AROUND:
+            waiting += reversed(node.named_children)
+        else:
+            yield node
 
 
-def is_made(name: str, files: Iterable[Cpp]) -> bool:
-    """Whether objects of a class of another package may be made: its name stands for one."""
-    return any(_is_used_in(name, each) for each in files)
+def _name(node: Node) -> bytes:
+    """The name of a class, or of the class of a member function, or of a free function."""
+    if node.type in _CLASSES or node.child_by_field_name("name") is not None:
+        name = node.child_by_field_name("name")
+        return text_of(name).encode() if name is not None else b""
+    declarator = node.child_by_field_name("declarator")
+    while declarator is not None and declarator.type not in ("identifier", "qualified_identifier"):
+        inner = declarator.child_by_field_name("declarator")
+        declarator = inner if inner is not None else _first_name(declarator)
+    parts = text_of(declarator).split("::") if declarator is not None else [""]
+    return parts[-2 if len(parts) > 1 else 0].partition("<")[0].strip().encode()
 
 
-def _is_used_in(name: str, file: Cpp) -> bool:
-    word = name.encode()
-    if word not in file.words:
-        return False
-    if not file.is_beside:
-        return True
-    in_python = file.source.path.endswith(".py")
-    return (_in_python if in_python else _in_cpp)(word).search(file.data) is not None
+def _first_name(declarator: Node) -> Node | None:
+    """The name in a declarator that has it behind `&`."""
+    named = ("identifier", "qualified_identifier", "function_declarator", "operator_name")
+    return next((c for c in declarator.named_children if c.type in named), None)
 
 
-def _in_python(word: bytes) -> re.Pattern[bytes]:
-    """The name but for where its class begins."""
-    return re.compile(rb"(?<!class )\b" + word + rb"\b")
-
-
-def _in_cpp(word: bytes) -> re.Pattern[bytes]:
-    """The name but for where its class begins, and those of its constructors and members."""
-    plain = rb"(?<!class )(?<!struct )(?<![~\w])" + word + rb"\b(?!\s*(?:::|\(|\{))"
-    made = rb"(?:\bnew\b|\breturn\b|[=,(<?]|[)]\s*:)\s*(?:\w+::)*" + word + rb"\s*[({]"
-    return re.compile(made + rb"|" + plain)
+def _words(node: Node) -> set[bytes]:
+    return set(_WORD.findall(node.text or b""))

@@ -26,7 +26,7 @@ from rebsync.reverse.bodies.scope import (
     Variable,
 )
 from rebsync.reverse.bodies.touches import Touches
-from rebsync.reverse.calls.beside import is_made
+from rebsync.reverse.calls.beside import used_names
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_reach import called_by
@@ -79,8 +79,9 @@ class Helpers:
 
     def _all(self, code: Code) -> Iterator[Helper]:
         number = count()
+        used = used_names(code.files)
         for owner in code.classes.values():
-            if owner.cpp.is_beside and not is_made(owner.name, code.files):
+            if owner.cpp.is_beside and owner.name.encode() not in used:
                 continue
             for function in code.functions_of(owner) if owner.name not in self.units else ():
                 if function.body is not None:

@@ -11,6 +11,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.build.build_files import BuildFiles
 from rebsync.reverse.build.cmake import build_of
+from rebsync.reverse.calls.beside import used_names
 from rebsync.reverse.graph import Graph, NodeFact
 from rebsync.reverse.syntax.ancestors import ancestors, climb
 from rebsync.reverse.syntax.cpp_calls import call_of
@@ -108,6 +109,12 @@ class Objects:
     wanted: Collection[str]
     _seen: set[str] = field(default_factory=set)
     _named: dict[int, frozenset[str]] = field(default_factory=dict)
+    _names: frozenset[bytes] | None = None  # that are used, also in files of other packages
+
+    def _used(self) -> frozenset[bytes]:
+        if self._names is None:
+            self._names = used_names(self.code.files)
+        return self._names
 
     def made_by(self, program: Program) -> list[NodeObject]:
         """The objects that `main` makes, and those that functions and classes it uses make."""
@@ -118,7 +125,8 @@ class Objects:
         for (owner, name), functions in self.code.definitions.items():
             if not owner and name != "main":
                 for function in functions:
-                    if function.cpp.source.path in program.sources:
+                    is_own = function.cpp.source.path in program.sources
+                    if is_own or (function.cpp.is_beside and name.encode() in self._used()):
                         found += self._in(function, False)
         for name, variables in self.code.variables.items():
             for variable in (v for v in variables if program.has(v.cpp)):

@@ -41,6 +41,7 @@ from rebsync.reverse.nodes.node_taken import declares
 from rebsync.reverse.nodes.node_texts import leave_out
 from rebsync.reverse.nodes.node_times import Times
 from rebsync.reverse.nodes.node_units import Start, Unit, UnitFacts, Units
+from rebsync.reverse.nodes.node_unmade import list_beside, list_unmade
 from rebsync.reverse.nodes.node_unmodelled import note_unmodelled
 from rebsync.reverse.nodes.node_values import Instance, exact_seconds
 from rebsync.reverse.nodes.node_views import all_units
@@ -142,6 +143,9 @@ class NodeSystem:
             if self._is_wanted(unit):
                 listing.unit(unit, served[unit.name])
         listing.wiring(joined.wiring, [u for u in units if self._is_wanted(u)])
+        if self.only is None:
+            list_beside(self.graph, units, self.findings)
+            list_unmade(units, found.starts, self.code.files, self.findings)
         return Nodes(read, tuple(map(reader.rebec, found.rebecs)), bool(found.starts))
 
     def _is_wanted(self, unit: Unit) -> bool:

@@ -31,7 +31,7 @@ from rebsync.reverse.nodes.node_programs import NodeObject, Objects, Program
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 
-_CONNECTS = (PublisherFact, SubscriptionFact, TimerFact, ServiceFact)
+CONNECTS = (PublisherFact, SubscriptionFact, TimerFact, ServiceFact)
 
 
 @dataclass(frozen=True)
@@ -208,7 +208,7 @@ class Units:
 
     def _holder(self, fact: Fact) -> str | None:
         """The class that a fact belongs to, of whatever kind it is."""
-        if isinstance(fact, _CONNECTS):
+        if isinstance(fact, CONNECTS):
             return self.owner_of(fact)
         return fact.site.owner if fact.site.owner in self.code.classes else None
 
@@ -226,7 +226,7 @@ class Units:
         return self._owners[id(fact)]
 
     def _owner_of(self, fact: Fact) -> str | None:
-        if not isinstance(fact, _CONNECTS):
+        if not isinstance(fact, CONNECTS):
             return None
         by = fact.site.owner if fact.site.owner in self.code.classes else None
         if isinstance(fact, SubscriptionFact | TimerFact | ServiceFact):
@@ -262,7 +262,7 @@ class Units:
         if self._by_class is None:
             self._by_class = {}
             for number, fact in enumerate(self._facts()):
-                connects = isinstance(fact, _CONNECTS)
+                connects = isinstance(fact, CONNECTS)
                 owner = self.owner_of(fact) if connects else fact.site.owner
                 if owner is not None:
                     self._by_class.setdefault(owner, []).append((number, fact))
@@ -304,7 +304,7 @@ class Units:
 def _connects(fact: Fact) -> bool:
     """Whether a fact makes what it belongs to a node with servers or messages of its own."""
     single = isinstance(fact, SubscriptionFact) and fact.single
-    return isinstance(fact, _CONNECTS) and not single
+    return isinstance(fact, CONNECTS) and not single
 
 
 def bodies(unit: Unit) -> Iterator[tuple[Cpp, Node]]:
