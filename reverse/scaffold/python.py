@@ -128,15 +128,20 @@ class _Class:
         """What it puts into its state message, and by whom it has that published."""
         names = {a.arg: "served" for a in function.args.args[1:]}
         named = replace(self, owner=_message_of(function).removesuffix("State"))
+        late, is_made = "", False
         for statement in said(function.body):
             match statement:
                 case ast.Assign([ast.Attribute(ast.Name(), name)], value):
-                    yield named.fact(TOLD, name, plain(value, names), statement)
-                case ast.Assign([ast.Name()], ast.Call(_, _, keywords)):
+                    yield named.fact(TOLD, name, f"{plain(value, names)}{late}", statement)
+                case ast.Assign([ast.Name()], ast.Call(_, _, keywords)) if not is_made:
+                    is_made = True
                     for given in keywords:
                         yield named.fact(TOLD, given.arg or "", plain(given.value, names), given)
                 case ast.Expr(ast.Call(ast.Attribute(by, "publish"))):
                     yield named.fact(TOLD, "", f"published by {plain(by)}", statement)
+                    late = " once it is published"
+                case ast.Assign() | ast.AugAssign() | ast.AnnAssign():
+                    yield named.fact(TOLD, "", f"{plain(statement, names)}{late}", statement)
                 case _:
                     pass  # extraction lists it
 

@@ -19,7 +19,8 @@ _TELLING = re.compile(
 )
 _MADE = re.compile(rf"\b(\w+){_SUFFIX}\s+\w+\s*[;({{=]")
 _STATEMENT = re.compile(r"[^;]*;")
-_SET = re.compile(r"\w+\s*\.\s*(\w+)\s*=(?!=)\s*(.*?)\s*;", re.DOTALL)
+_SET = re.compile(r"\w+\s*\.\s*(\w+)\s*([^=]*?)\s*([-+*/%&|^<>]*=)(?!=)\s*(.*?)\s*;", re.DOTALL)
+_DECLARED = re.compile(r"(?:const\s+)?[\w:<>]+[\s&*]+(\w+)\s*(?:=|\{|\(|;)")
 _FLAT = re.compile(r"flatten\s*\(\s*(.*?)\s*,\s*\w+\s*\.\s*(\w+)\s*\)\s*;", re.DOTALL)
 _SENT = re.compile(r"(?:this\s*->\s*)?(\w+)\s*(?:\.|->)\s*publish\s*\(")
 _MESSAGE = re.compile(r"^string server\nstring arguments$", re.MULTILINE)
@@ -44,11 +45,15 @@ def told_in_cpp(source: Source, text: str) -> Iterator[Fact]:
         owner, served, body = telling.groups()
         if (made := _MADE.search(body)) is not None:
             owner = made[1]  # messages of ROS have no underscores in their names
+        is_sent = False
         for m in _STATEMENT.finditer(text, *telling.span(3)):
             start = m.end() - len(m[0].lstrip())
             span, found = Span(start, m.end()), _told_by(m[0].strip(), served)
             if found is not None:
-                yield Fact(TOLD, owner, *found, source, span)
+                name, value = found
+                late = " once it is published" if is_sent else ""
+                yield Fact(TOLD, owner, name, f"{value}{late}", source, span)
+                is_sent |= value.startswith("published")
 
 
 def _told_by(statement: str, served: str) -> tuple[str, str] | None:
@@ -57,8 +62,13 @@ def _told_by(statement: str, served: str) -> tuple[str, str] | None:
         return flat[2], f"flatten({_value(flat[1], served)})"
     if (sent := _SENT.match(statement)) is not None:
         return "", f"published by {sent[1]}"
-    found = _SET.fullmatch(statement)
-    return (found[1], _value(found[2], served)) if found is not None else None
+    if (found := _SET.fullmatch(statement)) is not None:
+        name, part, operator, value = found.groups()
+        how = "" if (part, operator) == ("", "=") else f"{part} {operator} "
+        return name, f"{how}{_value(value, served)}"
+    declared = _DECLARED.match(statement)  # which may hide a state variable
+    is_message = _MADE.match(statement) is not None
+    return ("", f"local {declared[1]}") if declared is not None and not is_message else None
 
 
 def _value(text: str, served: str) -> str:
