@@ -21,9 +21,10 @@ if TYPE_CHECKING:
 
 _MAILBOX = "mailbox_"  # a member of classes whose bodies the run-time part runs
 _TRUTH = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
-# The types of handlers that take what the run-time part throws.
-_OWN = re.compile(
-    r"\.\.\.|\bexception\b|\bViolation\b|\b(?:logic|runtime)_error\b|\bout_of_range\b"
+# The types of handlers that take nothing of what the run-time part throws; others may.
+_OTHERS = re.compile(
+    r"\(\s*(?:const\s+)?std\s*::\s*(?:bad_\w+|invalid_argument|length_error|domain_error|range_error"
+    r"|overflow_error|underflow_error|system_error|regex_error|future_error)\b"
 )
 
 
@@ -74,9 +75,9 @@ def _unknown(node: Node) -> bool:
 
 
 def _catches_own(handler: Node) -> bool:
-    """Whether a handler is for what the run-time part throws, as far as its type tells."""
+    """Whether a handler may be for what the run-time part throws."""
     parameters = handler.child_by_field_name("parameters")
-    return parameters is None or _OWN.search(text_of(parameters)) is not None
+    return parameters is None or _OTHERS.match(text_of(parameters)) is None
 
 
 def _may_end(block: m.Block) -> bool:
