@@ -24,6 +24,15 @@ from rebsync.reverse.syntax.cpp_tree import Cpp
 from rebsync.source import NOWHERE, Span
 
 _LOCKS = re.compile(rb"(?<![cCbB])lock")
+# Locks that are none of the guards by their names: functions, and guards by another name.
+_OTHERWISE = re.compile(
+    rb"\bstd\s*::\s*(?:try_)?lock\s*\(|\bpthread_\w*(?:lock|wait)\w*\s*\(|\bsem_\w*wait\s*\("
+)
+_RENAMED = re.compile(
+    rb"\busing\s+(\w+)\s*=[^;]*\b(?:lock_guard|unique_lock|scoped_lock|shared_lock)\b"
+    rb"|\btypedef\b[^;]*\b(?:lock_guard|unique_lock|scoped_lock|shared_lock)\b[^;]*?(\w+)\s*;"
+)
+_WORD = re.compile(rb"\w+")
 _UNKNOWN = "what this locks is not known"
 _FUNCTIONS = frozenset({"function_definition", "lambda_expression"})
 
@@ -57,6 +66,12 @@ class CppForm:
         symbols = self._lowering.world.symbols.functions.values()
         return {f.code.node.id: f for f in symbols if f.code.body is not None}
 
+    @cached_property
+    def _guards(self) -> frozenset[bytes]:
+        """Other names of guards."""
+        found = (m for cpp in self._code.files for m in _RENAMED.finditer(cpp.data))
+        return frozenset(m[1] or m[2] for m in found)
+
     def ends(self, cpp: Cpp, loop: Node) -> bool:
         """Whether a loop in a function ends, if what stands in it does."""
         name = self._around(loop)
@@ -75,8 +90,11 @@ class CppForm:
 
     def odd_locks(self, functions: Iterable[CppFunction]) -> Iterator[tuple[Cpp, Span, str]]:
         """The places in functions where a thread may wait for itself, for ever."""
-        locking = (f for f in functions if f.body is not None and _LOCKS.search(f.body.text or b""))
-        for function in locking:
+        found_in = [(f, f.body.text or b"") for f in functions if f.body is not None]
+        for function, text in found_in:
+            if _OTHERWISE.search(text) or not self._guards.isdisjoint(_WORD.findall(text)):
+                yield function.cpp, function.cpp.span(function.node), _UNKNOWN
+        for function in (f for f, text in found_in if _LOCKS.search(text)):
             symbol = self._functions.get(function.node.id)
             if symbol is None:
                 yield function.cpp, function.cpp.span(function.node), _UNKNOWN
