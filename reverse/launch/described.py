@@ -30,12 +30,32 @@ def misleading(tree: ast.Module, names: Mapping[str, ast.expr]) -> Iterator[_Pla
     if len(bound) > 1 or not isinstance(bound[0], ast.FunctionDef) or bound[0] not in tree.body:
         yield bound[-1]
         return
+    yield from bound[0].decorator_list
+    yield from (n for n in _in_scope(bound[0]) if isinstance(n, ast.Raise))
+    yield from _renamed(tree)
     functions = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
     given = _given_back(bound[0], functions, names)
     if not isinstance(given, ast.Call) or called(given) != "LaunchDescription":
         yield given
         return
     yield from _beside(tree, given, names)
+
+
+def _renamed(tree: ast.Module) -> Iterator[ast.stmt]:
+    """Where the name of a class of launch files, by which it is known, means something else."""
+    made = {called(n) for n in ast.walk(tree) if isinstance(n, ast.Call)}
+    for node in ast.walk(tree):
+        match node:
+            case ast.ImportFrom(names=aliases):
+                others = {a.asname for a in aliases if a.asname not in (None, a.name)}
+            case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
+                others = {name}
+            case ast.Assign():
+                others = set(_bound_by(node))
+            case _:
+                continue
+        if any(name is not None and name[:1].isupper() and name in made for name in others):
+            yield node
 
 
 def _given_back(
