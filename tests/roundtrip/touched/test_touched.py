@@ -29,7 +29,7 @@ KNOWN = (
     ("tests/forward/cases/names.rebeca", "mixed-others"),
     ("tests/new/cases/fleet.rebeca", "mixed"),
     ("tests/new/cases/fleet.rebeca", "mixed-others"),
-    ("tests/reverse/nodes/cases/remade/expected.rebeca", "mixed-others"),
+    ("tests/roundtrip/touched/timers.rebeca", "mixed-others"),
 )
 
 
