@@ -74,7 +74,8 @@ class TopicDiagnosis:
 
     def _time(self, stamp: float) -> int:
         """A stamp in units of the model since the recording began."""
-        return round((stamp - self.component.timing.begin) / self.component.timing.unit)
+        timing = self.component.timing  # what began before the recording is told at its beginning
+        return max(round((stamp - timing.begin) / timing.unit), 0)
 
     def _code(self, change: ChannelFault | None, next_: set[str]) -> CodePlace | None:
         """Where in the code the callback is that a message comes from.
