@@ -43,6 +43,29 @@ def test_alone_a_package_knows_nothing_of_others(
     assert status != 0, capsys.readouterr().out
 
 
+_LIBRARY = "add_library(base_pkg src/base.cpp)"
+_EDITS = {
+    "not named in package.xml": ("robot_pkg/package.xml", "<depend>base_pkg</depend>", ""),
+    "a target that is not known": (
+        "base_pkg/CMakeLists.txt",
+        _LIBRARY,
+        f"if(WITH_OTHER)\n  add_library(base_pkg src/other.cpp)\nelse()\n  {_LIBRARY}\nendif()",
+    ),
+}
+
+
+@pytest.mark.parametrize("edit", _EDITS)
+def test_nothing_is_taken_where_the_build_may_take_another(edit: str, tmp_path: Path) -> None:
+    root = next(c for c in CASES if c.name == "roscpp")
+    shutil.copytree(root, tmp_path / "ws")
+    path, old, new = _EDITS[edit]
+    text = (tmp_path / "ws" / path).read_text(encoding="utf-8")
+    assert old in text
+    (tmp_path / "ws" / path).write_text(text.replace(old, new), encoding="utf-8")
+    assert "class Robot" in model_of(root)
+    assert "class Robot" not in model_of(tmp_path / "ws")
+
+
 @pytest.mark.parametrize("named", [".", "src/robot.cpp", "../robot_pkg"])
 def test_a_package_finds_others_from_where_it_is(
     named: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -13,9 +13,8 @@ static void makeOther() {
   pub = nh.advertise<std_msgs::Int32>("alarm", 10);
   static ros::Subscriber sub = nh.subscribe("level", 10, onLevel);
 }
-void startOther() {
-  makeOther();
-}
+static void prepare() { makeOther(); }
+void startOther() { prepare(); }
 void publishValue(ros::Publisher& pub, int value) {
   std_msgs::Int32 m;
   m.data = value;
