@@ -69,7 +69,8 @@ def _of_template(node: Node) -> Type | None:
 
 def arguments_of(type_: Node, name: str) -> Sequence[Node]:
     """The types that `std::name<...>` has in its angle brackets; nothing of other types."""
-    if type_.type == "qualified_identifier" and text_of(part(type_, "scope")) == "std":
+    scope = type_.child_by_field_name("scope")  # `::name` has none
+    if type_.type == "qualified_identifier" and scope is not None and text_of(scope) == "std":
         type_ = part(type_, "name")
         if type_.type == "template_type" and text_of(part(type_, "name")) == name:
             return named(part(type_, "arguments"))
