@@ -69,3 +69,15 @@ def example(
     driver = build_driver(package, headers, directory / "build")
     expected = json.loads((_EXPECTED / f"{name}.json").read_text())
     return Example(name, expected, run(package, driver, directory, expected["until"] + 0.5))
+
+
+def test_the_first_move_is_kept_however_late_the_drive_starts(
+    headers: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = package_of("experiment1_unsafe", tmp_path)
+    make_messages([package], headers)
+    driver = build_driver(package, headers, tmp_path / "build")
+    expected = json.loads((_EXPECTED / "experiment1_unsafe.json").read_text())
+    monkeypatch.setenv("REVERSED_THREADS", "1")
+    recording = run(package, driver, tmp_path, 10.5)
+    test_velocities_take_every_robot_to_its_cells(Example("late", expected, recording))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from pathlib import Path
 from typing import Any, cast
 
@@ -10,6 +12,8 @@ import pytest
 from tests.ros1.probes import Player, play
 from tests.ros1.run import Clock
 from tests.ros1.test_drive import (
+    near,
+    pose_at,
     robot,
     test_a_differential_robot_never_slides,
     test_a_differential_robot_turns_first_and_the_short_way,
@@ -24,6 +28,8 @@ from tests.ros1.test_drive import (
 )
 from tests.ros2py.messages import Message
 from tests.ros2py.world import Publisher
+
+_PATIENCE = 5.0  # s of the real clock
 
 __all__ = [
     "test_a_differential_robot_never_slides",
@@ -58,3 +64,31 @@ def test_a_robot_whose_velocity_does_not_go_out_stops(
     *_, last = (v for v in recording.velocities("a") if v.stamp < 1)
     assert len(told) == 5
     assert last.x == 0
+
+
+def test_the_first_move_is_kept_however_late_the_drive_starts(
+    probe: Player, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    start, moved = threading.Thread.start, []
+
+    def starts_late(thread: threading.Thread) -> None:
+        run = cast(Any, thread)._target
+        drive = getattr(run, "__self__", None)
+        if type(drive).__name__ != "Drive":
+            return start(thread)
+
+        def late() -> None:
+            limit = time.monotonic() + _PATIENCE
+            while not drive._driving and time.monotonic() < limit:
+                time.sleep(0.001)
+            moved.append(drive._driving)
+            run()
+
+        cast(Any, thread)._target = late
+        return start(thread)
+
+    monkeypatch.setattr(threading.Thread, "start", starts_late)
+    rebecs = {"a": robot(("move 1 0", "delay 4"))}
+    recording = play(probe, tmp_path, rebecs, Clock(until=8, quiet=8))
+    assert moved == [True]
+    assert near(pose_at(recording, "a", 4.1, 0), 1, 0)

@@ -7,11 +7,15 @@
 // `ask SECONDS ID NAME FIELD=VALUE...` or `cancel SECONDS ID NAME` for clients of services and actions, and
 // `foreign TOPIC` for a subscription of a tool that asks for what was sent before it; and UNTIL is
 // the time of the end in seconds. With a STEP the clock of ROS is that of a simulation, which tells
-// of each of its steps. What happens goes to standard output, one line each.
+// of each of its steps. What happens goes to standard output, one line each. With REVERSED_THREADS in
+// the environment threads begin in the reverse of the order in which they are made, as far as they do
+// not wait for one another.
+#include <dlfcn.h>
 #include <pthread.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
@@ -167,6 +171,30 @@ bool endsEarly(const std::vector<Process>& processes) {
   return true;
 }
 
+// How much longer a thread is busy before it begins than the one that is made after it.
+constexpr int64_t kApart = 50000000;  // ns
+constexpr int64_t kMostThreads = 12;
+
+struct Beginning {
+  void* (*run)(void*);
+  void* argument;
+  int64_t pause;
+};
+
+int64_t realTime() {
+  timespec now{};
+  syscall(SYS_clock_gettime, CLOCK_MONOTONIC, &now);
+  return int64_t{now.tv_sec} * 1000000000 + now.tv_nsec;
+}
+
+// It does not sleep: a thread that sleeps seems to wait for a time of the run.
+void* beginLate(void* given) {
+  const std::unique_ptr<Beginning> beginning(static_cast<Beginning*>(given));
+  const int64_t end = realTime() + beginning->pause;
+  while (realTime() < end) std::this_thread::yield();
+  return beginning->run(beginning->argument);
+}
+
 }  // namespace
 
 // --- the time of the run, in place of the machine's ---------------------------------------------
@@ -191,6 +219,17 @@ int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, cl
   pthread_cond_wait(condition, mutex);
   middleware.forget_sleeper(sleeper);
   return middleware.now() >= due ? ETIMEDOUT : 0;
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*),
+    void* argument) noexcept {
+  static const auto create =
+      reinterpret_cast<decltype(&pthread_create)>(dlsym(RTLD_NEXT, "pthread_create"));
+  static const bool reversed = std::getenv("REVERSED_THREADS") != nullptr;
+  static std::atomic<int64_t> made{0};
+  if (!reversed) return create(thread, attributes, run, argument);
+  const int64_t after = std::max<int64_t>(0, kMostThreads - ++made);
+  return create(thread, attributes, beginLate, new Beginning{run, argument, after * kApart});
 }
 
 }  // extern "C"
