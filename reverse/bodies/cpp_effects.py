@@ -185,7 +185,10 @@ class Effects:
         self._found_out(node, name)
 
     def _declaration(self, node: Node) -> None:
-        type_ = text_of(part(node, "type"))
+        written = node.child_by_field_name("type")
+        if written is None:
+            raise self._touches(node, "this declares something without a type")
+        type_ = text_of(written)
         takes = known_functions.type_takes_values(type_)
         if self.scope.meaning(type_) is not None and type_ not in self._inner:
             raise self._touches(node, "this looks like a declaration, but starts with a variable")

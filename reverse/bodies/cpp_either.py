@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _MOST = 5  # references behind such a one
+_KEPT = frozenset({"static", "thread_local"})
 
 
 def behind(
@@ -53,9 +54,9 @@ def behind(
 def _reference(node: Node) -> DeclaratorParts | None:
     """The only name that a declaration gives, if it is a reference."""
     declarators = node.children_by_field_name("declarator") if node.type == "declaration" else []
-    if len(declarators) != 1 or {"static", "thread_local"} & set(specifiers_of(node)):
+    type_ = node.child_by_field_name("type")
+    if type_ is None or len(declarators) != 1 or _KEPT & set(specifiers_of(node)):
         return None
-    type_ = part(node, "type")
     declared = taken_apart(declarators[0], type_, text_of(type_), False)
     return declared if declared.kind == "reference_declarator" else None
 

@@ -136,3 +136,26 @@ def test_a_constant_that_no_integer_holds_takes_no_time() -> None:
     start = process_time()
     extract({"n.cpp": Source("n.cpp", text)})
     assert process_time() - start < 10
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "~Node();",
+        "operator bool();",
+        "explicit Node(int a = 1, double b = 2);",
+        "for (const auto& v : b) {} auto&& [b, c] = std::make_tuple(c); count_ = b;",
+    ],
+)
+def test_what_only_the_grammar_takes_for_a_declaration_is_listed(statement: str) -> None:
+    source = Source("n.cpp", NODE.format(statement=statement))
+    found = extract({"n.cpp": source})
+    assert 8 in [source.position(f.span.start).line for f in found.findings]
+
+
+def test_a_member_of_a_type_of_the_global_namespace_is_read() -> None:
+    code = NODE.format(statement="").replace(
+        "int count_ = 0;", "::pair<int, int> p_; int count_ = 0;"
+    )
+    found = extract({"n.cpp": Source("n.cpp", code)})
+    assert [c.name for c in found.model.classes] == ["Node"]

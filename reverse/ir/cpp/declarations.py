@@ -61,7 +61,9 @@ def declarators(node: Node) -> list[Node]:
 
 def declare(context: Context, node: Node, declarator: Node) -> None:
     """One variable with its first value."""
-    type_node = part(node, "type")
+    type_node = node.child_by_field_name("type")
+    if type_node is None:
+        raise Unlowered("a declaration without a type")
     value: Node | None = None
     if declarator.type == "init_declarator":
         value = part(declarator, "value")
@@ -297,7 +299,7 @@ def bind_parts(context: Context, binding: Node, whole: Value, place: Span) -> No
             element = whole.type.element
             found = e.Index(whole.expression, at, element, False, False, False, place)
             context.bind(name, Value(found, whole.type.element, is_lvalue=True))
-        elif fields is None:
+        elif fields is None or number >= len(fields):
             found_unknown = e.Attribute(whole.expression, str(number), t.UNKNOWN, True, place)
             context.bind(name, Value(found_unknown, t.UNKNOWN, is_lvalue=True))
         else:
