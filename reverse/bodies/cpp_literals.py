@@ -9,12 +9,11 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_calls import string_of
+from rebsync.reverse.syntax.cpp_numerals import numeral
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.terminal import with_escapes
 
-_INTEGER = re.compile(r"(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)(?:[uU]?[lL]{0,2}|[lL]{1,2}[uU])\Z")
-_FLOAT = re.compile(r"((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)([fFlL]?)\Z")
-
+_HEX = ("0x", "0X")  # the model has no such fractions
 _MOST = (1 << 31) - 1  # that an `int` holds
 _ESCAPE = re.compile(r"\\(?:[0-7xuUN]|.)", re.DOTALL)
 _QUOTES = {'\\"': 34, "\\?": 63}
@@ -75,15 +74,12 @@ def _number(text: str, cpp: Cpp, node: Node) -> m.Expression:
     span = cpp.span(node)
     if text[0] in "+-":  # the parser takes a sign before a digit as part of the number
         return m.Unary(text[0], _number(text[1:].lstrip(), cpp, node), span)
-    whole = _INTEGER.match(text)
-    if whole is not None:
-        digits = whole[1]
-        octal = len(digits) > 1 and digits.isdecimal() and digits.startswith("0")
-        return m.IntLiteral(int(digits, 8 if octal else 0), span)
-    real = _FLOAT.match(text)
-    if real is None:
+    found = numeral(text)
+    if found is None or (found.whole is None and found.digits.startswith(_HEX)):
         raise Unread(span, f'the model has no number "{text}"')
-    return m.FloatLiteral(model_float(real[1], real[2]), span)
+    if found.whole is not None:
+        return m.IntLiteral(found.whole, span)
+    return m.FloatLiteral(model_float(found.digits, found.suffix), span)
 
 
 def lower(value: int) -> int:

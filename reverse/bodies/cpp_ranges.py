@@ -26,6 +26,7 @@ from rebsync.reverse.bodies.cpp_places import HELD, resolve
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.scope import Called, Inline, Lambda, Meaning, Record, Scope, Variable
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.cpp_numerals import numeral
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import is_boolean
@@ -33,7 +34,6 @@ from rebsync.static.types import is_boolean
 COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!="})
 LOGICAL = frozenset({"&&", "||", "and", "or", "not", "!"})
 INT_BITS = 31  # without the sign
-_DIGITS = re.compile(r"(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)([uUlLzZ]*)\Z")
 _SIZES = frozenset({"size", "length", "max_size", "capacity", "count", "strlen", "distance"})
 NAMES_WIDE = re.compile(r"unsigned|long|size|uint|int64|32_t|64_t")
 _SAME = frozenset({"std::move", "std::abs", "abs", "narrow", "widen"})
@@ -70,7 +70,7 @@ def range_of(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
     """What an integer can be; None for other values, and those that nobody knows."""
     match node.type:
         case "number_literal":
-            return _literal(text_of(node).replace("'", ""))
+            return _literal(text_of(node))
         case "char_literal" | "true" | "false":
             return _int(unsigned(8))
         case "sizeof_expression":
@@ -104,16 +104,14 @@ def range_of(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
 
 
 def _literal(text: str) -> Ranged | None:
-    found = _DIGITS.match(text.lstrip("+-"))
-    if found is None:
+    found = numeral(text)
+    if found is None or found.whole is None:
         return None
-    digits, suffix = found[1], found[2].lower()
-    octal = len(digits) > 1 and digits.isdecimal() and digits.startswith("0")
-    value = int(digits, 8 if octal else 0)
+    suffix, value = found.suffix.lower(), abs(found.whole)
     bits = (64 if "l" in suffix else 32) if "u" in suffix else (63 if "l" in suffix else INT_BITS)
-    steps = (bits, *(b for b in (32, 63, 64) if b > bits and (b == 63 or not digits.isdecimal())))
+    steps = (bits, *(b for b in (32, 63, 64) if b > bits and (b == 63 or not found.is_decimal)))
     bits = next((b for b in steps if value < 1 << b), 64)
-    return Ranged(bits, exactly(-value if text.startswith("-") else value))
+    return Ranged(bits, exactly(found.whole))
 
 
 def _of_type(kept: Carried) -> Ranged | None:

@@ -119,7 +119,8 @@ def _declared(code: Code, node: Node) -> Iterator[tuple[Node, str]]:
         return
     is_plain = all(_is_plain_value(code, d.child_by_field_name("value")) for d in declarators)
     pointer = all(_inner(d).type == "pointer_declarator" for d in declarators)
-    if not is_plain or not (pointer or _is_plain_type(code, part(node, "type"))):
+    type_ = node.child_by_field_name("type")
+    if not is_plain or not (pointer or (type_ is not None and _is_plain_type(code, type_))):
         yield node, _INITIALISED
 
 

@@ -12,6 +12,7 @@ from rebsync.intervals import INTEGERS
 from rebsync.package import Value
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.launch.parameters import Parameter
+from rebsync.reverse.syntax.cpp_numerals import numeral
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 from rebsync.static.values import converted
 
@@ -43,8 +44,8 @@ def constant(node: Node) -> Value | None:
         case "true" | "false":
             return text == "true"
         case "number_literal":
-            plain = text.rstrip("fFlLuU") if not text.lower().startswith("0x") else text
-            return float(plain) if any(c in plain for c in ".eE") else int(plain, 0)
+            number = numeral(text)
+            return number.value if number is not None else None
         case "initializer_list":
             values = named(node)
             if len(values) == 1 and values[0].type == "initializer_list":

@@ -8,15 +8,15 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, string_of
-from rebsync.reverse.syntax.cpp_declarations import whole_number
 from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.syntax.cpp_numerals import whole_number
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 
 
 def number_of(code: Code, cpp: Cpp, node: Node) -> int | None:
     """A whole number, or that of a constant."""
     found = code.constant(cpp, text_of(node))
-    return whole_number(found[1] if found is not None else node)
+    return whole_number(text_of(found[1] if found is not None else node))
 
 
 def server_of(code: Code, cpp: Cpp, constant: str) -> str | None:

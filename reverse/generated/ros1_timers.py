@@ -23,6 +23,7 @@ from rebsync.reverse.generated.ros1_roles import Roles, call_in
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_numerals import numeral
 from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
 
 MAKES = frozenset(
@@ -265,9 +266,9 @@ def _time(timer: Timer, scope: Scope) -> m.Expression:
     cpp, node = timer.function.cpp, timer.seconds
     literal = _LITERAL.match(text_of(node))
     if node.type == "number_literal" or literal is not None:
-        number = literal[1].replace("'", "") if literal else text_of(node).rstrip("fFlLuU")
-        units = Fraction(number) * timer.scale / scope.unit
-        if units.denominator != 1:
+        number = numeral(literal[1] if literal else text_of(node))
+        units = number.exact * timer.scale / scope.unit if number is not None else None
+        if units is None or units.denominator != 1:
             why = f"{text_of(node)} s is no multiple of the model's unit of time"
             raise Unread(cpp.span(node), why, "change `time_unit`")
         return m.IntLiteral(int(units), cpp.span(node))

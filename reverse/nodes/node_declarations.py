@@ -11,6 +11,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.cpp_pointers import is_null, is_tested
 from rebsync.reverse.bodies.scope import Stores
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_numerals import whole_number
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 
 
@@ -34,11 +35,9 @@ def declarations(code: Code, function: CppFunction) -> Iterator[Node]:
 
 
 def number_of(code: Code, cpp: Cpp, node: Node) -> int | None:
-    text = text_of(node)
-    if text.isdecimal():
-        return int(text)
-    found = code.constants_for(cpp).get(text)
-    return int(text_of(found[1])) if found is not None and text_of(found[1]).isdecimal() else None
+    """A whole number, or that of a constant."""
+    found = code.constants_for(cpp).get(text_of(node))
+    return whole_number(text_of(found[1] if found is not None else node))
 
 
 def stored_in_optional(there: m.Name, held: m.Name, value: Node) -> tuple[Stores, ...]:

@@ -14,7 +14,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, chosen, negated, selected
 from rebsync.reverse.python.model_idioms import grouped, is_plain, truth, type_of
 from rebsync.reverse.python.model_types import call_parts
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import field, named, text_of, whole_number_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
@@ -88,12 +88,15 @@ def _looked_up(
     is_known = table.type == "dictionary" and len(pairs) == len(named(table)) <= _MOST
     if not is_known or not is_plain(key) or not all(v.type in _NAMES for v in values):
         return None
-    if not all(k.type == "integer" for k, _ in pairs):
+    numbers = [whole_number_of(k) for k, _ in pairs]
+    if None in numbers:
         return None
     asked, otherwise = reader.read(key), reader.read(default)
     if reader.kind(asked) != m.Type("int"):
         return None
-    numbered = {int(text_of(k), 0): reader.read(value) for k, value in pairs}  # the last counts
+    read = [reader.read(value) for _, value in pairs]
+    # of two values of one number the last counts
+    numbered = {n: r for n, r in zip(numbers, read, strict=True) if n is not None}
     return grouped(node, selected(asked, numbered, otherwise))
 
 
@@ -105,7 +108,7 @@ def drawn(
     if holder != "random" or reader.names.imported.get("random") != "random":
         return None
     span = reader.py.span(node)
-    ends = [int(text_of(a)) for a in arguments if a.type == "integer" and text_of(a).isdigit()]
+    ends = [n for n in map(whole_number_of, arguments) if n is not None]
     match name, arguments, ends:
         case "choice", [given], _ if given.type in ("list", "tuple") and is_plain_list(given):
             return m.Choice(tuple(map(reader.read, named(given))), span)
@@ -217,15 +220,16 @@ def rows(reader: ModelExpressionReader, node: Node, width: int) -> list[tuple[m.
     """What a loop gives its variables, round by round."""
     called = text_of(field(node, "function")) if node.type == "call" else ""
     arguments = named(field(node, "arguments")) if called else []
-    if called == "range" and width == 1 and all(a.type == "integer" for a in arguments):
-        numbers = range(*(int(text_of(a), 0) for a in arguments))
+    whole = [n for n in map(whole_number_of, arguments) if n is not None]
+    is_known = 1 <= len(whole) == len(arguments) <= 3 and whole[2:] != [0]
+    if called == "range" and width == 1 and is_known:
+        numbers = range(*whole)
         if len(numbers) <= _MOST:
             return [(m.IntLiteral(n),) for n in numbers]
     if called == "enumerate" and width == 2 and 1 <= len(arguments) <= 2:
         values = _certain(reader, arguments[0], called)
-        first = arguments[1] if len(arguments) > 1 else None
-        if first is None or first.type == "integer":
-            start = int(text_of(first), 0) if first is not None else 0
+        start = whole_number_of(arguments[1]) if len(arguments) > 1 else 0
+        if start is not None:
             return [(m.IntLiteral(i), value) for i, value in enumerate(values, start)]
     if called == "zip" and width == len(arguments):
         each = [_certain(reader, a, called) for a in arguments]

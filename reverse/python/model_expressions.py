@@ -25,7 +25,7 @@ from rebsync.reverse.python.model_types import (
     only_breaks_lines,
     string_value,
 )
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import field, named, number_of, text_of, whole_number_of
 from rebsync.terminal import with_escapes
 
 _CASTS = {
@@ -59,9 +59,9 @@ class Expressions(ModelExpressionReader):
         """An expression. Unread: the model has none for it."""
         span = self.py.span(node)
         match node.type:
-            case "integer":
-                return m.IntLiteral(int(text_of(node), 0), span)
-            case "float":
+            case "integer" if (whole := whole_number_of(node)) is not None:
+                return m.IntLiteral(whole, span)
+            case "float" if number_of(node) is not None:
                 return float_literal(text_of(node), span)
             case "true" | "false":
                 return m.BoolLiteral(node.type == "true", span)

@@ -15,7 +15,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_logs import own_method
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import field, named, number_of, text_of
 
 _DIVIDING = frozenset({"/", "//", "%"})
 _TEXTS = frozenset({"string", "concatenated_string"})
@@ -110,8 +110,8 @@ def _is_division(node: Node) -> bool:
 
 
 def _is_other_than_zero(node: Node) -> bool:
-    is_number = node.type in ("integer", "float")
-    return is_number and any(digit in text_of(node) for digit in "123456789")
+    number = number_of(node) if node.type in ("integer", "float") else None
+    return number is not None and number != 0
 
 
 def _is_element(expressions: ModelExpressionReader, node: Node) -> bool:

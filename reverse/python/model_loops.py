@@ -14,7 +14,7 @@ from rebsync.reverse.bodies.building import binary, selected
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_types import call_parts
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of, whole_number_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
@@ -122,9 +122,9 @@ def _backwards(reader: ModelStatementReader, node: Node, name: str, inner: Node)
         if builtins.array_elements(reader.expressions, inner) is not None:
             raise reader.expressions.unread(node, builtins.NO_LENGTH.format("reversed"))
         raise reader.expressions.unread(node, "the model has no such loop")
-    if not all(a.type == "integer" for a in arguments):
+    ends = [n for n in map(whole_number_of, arguments) if n is not None]
+    if len(ends) != len(arguments):
         raise reader.expressions.unread(node, "say with numbers how often this is done")
-    ends = [int(text_of(a), 0) for a in arguments]
     low, high = (0, *ends) if len(ends) == 1 else (ends[0], ends[1])
     place, index = m.Name(reader.local(name)), reader.local(name)
     body = _counting(reader, node, name)

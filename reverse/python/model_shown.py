@@ -16,7 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_OF_NODE, PUBLISHER_OF_ROS_1
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.py_index import PyCode, Scope
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of, whole_number_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
 
 _INTEGERS = frozenset({"byte", "int", "short"})
@@ -63,7 +63,8 @@ class Shown:
         if self.type == "String":
             return self._is_text(value)
         if value.type in _LITERALS[self.type]:
-            return value.type != "integer" or int(text_of(value), 0) <= _GREATEST
+            whole = whole_number_of(value)
+            return value.type != "integer" or (whole is not None and whole <= _GREATEST)
         return self._is_of(value, _VALUES[self.type])
 
     def _is_of(self, value: Node, types: frozenset[str]) -> bool:

@@ -29,10 +29,12 @@ _WHOLE = "say what is stored here element by element"
 
 def chained(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """`a = b = e`. Unread: e may be another value the second time."""
-    lefts, value = [field(node, "left")], field(node, "right")
-    while value.type == "assignment":
+    lefts, value = [field(node, "left")], node.child_by_field_name("right")
+    while value is not None and value.type == "assignment":
         lefts.append(field(value, "left"))
-        value = field(value, "right")
+        value = value.child_by_field_name("right")
+    if value is None:
+        raise reader.expressions.unread(node, "nothing is stored here: give it a value")
     stored = {idioms.base_of(left) for left in lefts}
     if not idioms.is_plain(value) or not stored.isdisjoint(idioms.names_in(value)):
         raise reader.expressions.unread(node, "store this in one variable after the other")

@@ -167,6 +167,12 @@ def number_of(node: Node) -> int | float | None:
     return value if abs(value) < TOO_LARGE else None
 
 
+def whole_number_of(node: Node) -> int | None:
+    """The whole number that a literal says; None where it is no such literal, or imaginary."""
+    number = number_of(node) if node.type == "integer" else None
+    return number if isinstance(number, int) else None
+
+
 def nodes_in(node: Node) -> Iterator[Node]:
     """A node and all that are in it, in the order of the text."""
     waiting = [node]

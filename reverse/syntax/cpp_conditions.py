@@ -13,6 +13,7 @@ from functools import lru_cache
 from rebsync.records import dataclass
 from rebsync.reverse.files.compiled_text import LINE_COMMENT
 from rebsync.reverse.libraries.cpp import versions
+from rebsync.reverse.syntax.cpp_numerals import whole_number
 
 _KNOWN: dict[str, int | None] = {
     **dict.fromkeys(("__linux__", "__linux", "linux", "__unix__", "__unix", "unix", "__GNUC__")),
@@ -170,7 +171,7 @@ class _DirectiveReader:
                 self.undefined.add(name)
         else:
             self.undefined.discard(name)
-            self.values[name] = _number(value.strip())
+            self.values[name] = whole_number(value)
 
     def _holds(self, word: str, rest: str) -> bool | None:
         if word == "if":
@@ -263,7 +264,7 @@ class _Condition:
 
     def _plain(self, token: str) -> int | None:
         if token[0].isdigit():
-            return _number(token)
+            return whole_number(token)
         if token in self.reader.values:
             return self.reader.values[token]
         return 0 if token in self.reader.undefined else None
@@ -291,14 +292,6 @@ def _compare(operator: str, left: int, right: int) -> bool:
         "<=": left <= right,
         ">=": left >= right,
     }[operator]
-
-
-def _number(text: str) -> int | None:
-    plain = text.replace("'", "").rstrip("uUlL")
-    try:
-        return int(plain, 8 if re.fullmatch(r"0\d+", plain) else 0)
-    except ValueError:
-        return None
 
 
 def _int(value: bool | None) -> int | None:

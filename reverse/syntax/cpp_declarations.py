@@ -210,15 +210,6 @@ def members_of(body: Node) -> Iterator[Node]:
             yield member
 
 
-def whole_number(node: Node) -> int | None:
-    """A whole number, or a minus before one."""
-    text = text_of(node).replace(" ", "").replace("'", "").rstrip("uUlL")
-    try:
-        return int(text, 0)
-    except ValueError:
-        return None
-
-
 def other_fields(cpp: Cpp, node: Node, declared: Declared) -> Iterator[CppField]:
     """The pointers, references and arrays of a declaration of members."""
     for declarator, value in declared:

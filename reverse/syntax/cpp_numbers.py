@@ -8,7 +8,8 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.cpp_declarations import CppEnumerator, whole_number
+from rebsync.reverse.syntax.cpp_declarations import CppEnumerator
+from rebsync.reverse.syntax.cpp_numerals import whole_number
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 
 # The values of names; None for one that is not known.
@@ -33,7 +34,7 @@ def constant_number(node: Node, lookup: Lookup) -> int | None:
     """The number that an expression gives; None where it is not known, or no `int` holds it."""
     match node.type:
         case "number_literal":
-            return whole_number(node)
+            return whole_number(text_of(node))
         case "char_literal" if len(text_of(node)) == 3:
             return ord(text_of(node)[1])
         case "true" | "false":

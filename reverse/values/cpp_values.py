@@ -6,7 +6,6 @@ give. Where the files do not tell, the value is unknown, with the reason.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import field
 from typing import TypeVar
@@ -16,6 +15,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.graph import FromParameter
 from rebsync.reverse.syntax.cpp_calls import string_of
+from rebsync.reverse.syntax.cpp_numerals import numeral
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 from rebsync.reverse.values.cpp_flow import Texts, nearness
@@ -313,25 +313,11 @@ def _with_root(frame: Frame, root: Frame) -> Frame:
 
 
 def _number(node: Node, values: Values, frame: Frame) -> Value:
-    text = text_of(node).replace("'", "").lower()
-    plain = text if text.startswith("0x") else text.rstrip("ful")
-    try:
-        found = _literal(plain, text.endswith("f"))
-    except (ValueError, OverflowError):
-        found = math.inf
+    found = numeral(text_of(node))
     # what no type of C++ holds is no constant either
-    return found if abs(found) < math.inf else values.unknown(f"the number {text}", node, frame)
-
-
-def _literal(plain: str, is_float: bool) -> int | float:
-    if not plain.startswith("0x") and any(c in plain for c in ".e"):
-        return float(plain)
-    if len(plain) > 1 and plain.startswith("0") and plain.isdigit():
-        return int(plain, 8)
-    value = int(plain, 0)
-    if value >= 1 << 64:
-        raise OverflowError
-    return float(value) if is_float and plain.isdigit() else value
+    if found is None or (found.whole or 0) >= 1 << 64:
+        return values.unknown(f"the number {text_of(node)}", node, frame)
+    return found.value
 
 
 def _in_parentheses(value: Value) -> Value:

@@ -73,7 +73,7 @@ def test_the_first_move_is_kept_however_late_the_drive_starts(
 
     def starts_late(thread: threading.Thread) -> None:
         run = cast(Any, thread)._target
-        drive = getattr(run, "__self__", None)
+        drive: Any = getattr(run, "__self__", None)
         if type(drive).__name__ != "Drive":
             return start(thread)
 

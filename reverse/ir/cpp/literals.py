@@ -8,6 +8,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.conversions import holds
 from rebsync.reverse.ir.cpp.types import CHAR, FLOAT, INT, LONG, SIZE, STRING, UNSIGNED
+from rebsync.reverse.syntax.cpp_numerals import numeral
 from rebsync.source import Span
 from rebsync.static.constants import single
 
@@ -16,41 +17,30 @@ _ESCAPES = {
     **{"\\": "\\", "'": "'", '"': '"', "?": "?"},
 }
 _ESCAPE = re.compile(r"\\(x[0-9a-fA-F]+|[0-7]{1,3}|.)", re.DOTALL)
-_IS_FLOAT = re.compile(r"(?!0[xX]).*[.eE]|0[xX].*[.pP]")
 _RAW = re.compile(r'(?:u8)?R"([^(]*)\((.*)\)\1"\Z', re.DOTALL)
 
 
 def number(text: str, place: Span) -> e.Literal | None:
     """A number; None where no type of ours has it."""
-    plain = text.replace("'", "")
-    if _IS_FLOAT.match(plain):
-        return _floating(text, plain, place)
-    digits = plain.rstrip("uUlLzZ")
-    suffix = plain[len(digits) :].lower()
-    try:
-        value = int(digits, 8 if re.fullmatch(r"0[0-7]+", digits) else 0)
-    except ValueError:
+    found = numeral(text)
+    if found is None:
         return None
-    is_decimal = digits[0] != "0" or digits == "0"
+    suffix, value = found.suffix.lower(), found.whole
+    if value is None:
+        return _floating(found.value, suffix, text, place)
     for type_ in (INT, UNSIGNED, LONG, SIZE):
         is_wide = type_.bits == 64
         if ("l" in suffix and not is_wide) or ("u" in suffix and type_.signed):
             continue
-        if not type_.signed and is_decimal and "u" not in suffix:
+        if not type_.signed and found.is_decimal and "u" not in suffix:
             continue
         if holds(type_, value):
             return e.Literal(value, type_, text, place)
     return None
 
 
-def _floating(text: str, plain: str, place: Span) -> e.Literal | None:
-    suffix = plain[-1].lower() if plain[-1] in "fFlL" and not plain.lower().startswith("0x") else ""
-    digits = plain[: len(plain) - len(suffix)]
+def _floating(value: float, suffix: str, text: str, place: Span) -> e.Literal | None:
     if suffix == "l":
-        return None
-    try:
-        value = float.fromhex(digits) if digits.lower().startswith("0x") else float(digits)
-    except ValueError:
         return None
     if suffix == "f":
         return e.Literal(single(value), FLOAT, text, place)

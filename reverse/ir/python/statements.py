@@ -98,10 +98,10 @@ def _assignment(ctx: Lowering, node: Node) -> None:
     if value is None:
         _declare(ctx, node)
         return
-    while value.type == "assignment":
+    while value is not None and value.type == "assignment":
         targets.append(field(value, "left"))
-        value = field(value, "right")
-    if value.type == "augmented_assignment":
+        value = value.child_by_field_name("right")
+    if value is None or value.type == "augmented_assignment":
         raise NoLowering("an assignment of an assignment", node)
     mark = len(ctx.out)
     assign_all(ctx, targets, value, node)
