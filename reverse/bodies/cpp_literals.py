@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import re
-
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_numerals import numeral
+from rebsync.reverse.syntax.cpp_texts import unescaped
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.terminal import with_escapes
 
 _HEX = ("0x", "0X")  # the model has no such fractions
 _MOST = (1 << 31) - 1  # that an `int` holds
-_ESCAPE = re.compile(r"\\(?:[0-7xuUN]|.)", re.DOTALL)
-_QUOTES = {'\\"': 34, "\\?": 63}
 _AROUND = frozenset({"binary_expression", "unary_expression", "cast_expression"})
-_ESCAPES = {"\\n": 10, "\\t": 9, "\\r": 13, "\\0": 0, "\\\\": 92, "\\'": 39, "\\e": 27}
 
 
 def literal(cpp: Cpp, node: Node) -> m.Expression:
@@ -51,23 +47,14 @@ def literal(cpp: Cpp, node: Node) -> m.Expression:
 def text_in(node: Node) -> str | None:
     """The text that a literal stands for; None where it is not known."""
     whole = string_of(node)
-    if whole is None or "\0" in whole:
-        return None
-    plain = _ESCAPE.sub(_escaped, whole)
-    return None if "\0" in plain else plain
-
-
-def _escaped(match: re.Match[str]) -> str:
-    code = _ESCAPES.get(match[0], _QUOTES.get(match[0], 0))
-    return chr(code)
+    plain = unescaped(whole) if whole is not None else None
+    return None if plain is None or "\0" in plain else plain
 
 
 def _character(text: str) -> int | None:
     """The number that a character stands for."""
-    inner = text[1:-1]
-    if len(inner) == 1 and inner.isascii():
-        return ord(inner)
-    return _ESCAPES.get(inner)
+    inner = unescaped(text[1:-1])
+    return ord(inner) if inner is not None and len(inner) == 1 and inner.isascii() else None
 
 
 def _number(text: str, cpp: Cpp, node: Node) -> m.Expression:

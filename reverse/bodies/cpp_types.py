@@ -12,6 +12,7 @@ from rebsync.model import Type
 from rebsync.names import uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_CLASSES
+from rebsync.reverse.syntax.cpp_numerals import whole_number
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.texts import TEXT
 
@@ -57,10 +58,10 @@ def _of_template(node: Node) -> Type | None:
     match text_of(part(node, "name")), len(arguments):
         case "array", 2:
             inner = type_of(arguments[0])
-            length = text_of(arguments[1])
-            if inner is None or not length.isdecimal():
+            length = whole_number(text_of(arguments[1]))
+            if inner is None or length is None:
                 return None
-            return Type(inner.name, (int(length), *inner.dimensions))
+            return Type(inner.name, (length, *inner.dimensions))
         case "Rebec", 1:
             return Type(class_name(text_of(arguments[0])))
         case _:

@@ -35,6 +35,7 @@ from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_declarations import parameters_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, CppParameter
+from rebsync.reverse.syntax.cpp_numerals import whole_number
 from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
 from rebsync.static.constants import constant
 
@@ -344,4 +345,4 @@ def call_in(body: Node) -> tuple[str, list[Node]] | None:
 def _is_deep(depth: Node) -> bool:
     """Whether so deep a queue loses nothing before the mailbox takes it in."""
     text = text_of(depth)
-    return text == "kQueueSize" or (text.isdecimal() and int(text) >= _DEEP)
+    return text == "kQueueSize" or (whole_number(text) or 0) >= _DEEP

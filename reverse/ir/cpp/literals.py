@@ -9,14 +9,10 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.conversions import holds
 from rebsync.reverse.ir.cpp.types import CHAR, FLOAT, INT, LONG, SIZE, STRING, UNSIGNED
 from rebsync.reverse.syntax.cpp_numerals import numeral
+from rebsync.reverse.syntax.cpp_texts import unescaped
 from rebsync.source import Span
 from rebsync.static.constants import single
 
-_ESCAPES = {
-    **{"n": "\n", "t": "\t", "r": "\r", "0": "\0", "a": "\a", "b": "\b", "f": "\f", "v": "\v"},
-    **{"\\": "\\", "'": "'", '"': '"', "?": "?"},
-}
-_ESCAPE = re.compile(r"\\(x[0-9a-fA-F]+|[0-7]{1,3}|.)", re.DOTALL)
 _RAW = re.compile(r'(?:u8)?R"([^(]*)\((.*)\)\1"\Z', re.DOTALL)
 
 
@@ -63,20 +59,3 @@ def string(text: str, place: Span) -> e.Literal | None:
     quoted = text.removeprefix("u8")
     inner = unescaped(quoted[1:-1]) if quoted.startswith('"') else None
     return None if inner is None else e.Literal(inner, STRING, text, place)
-
-
-def unescaped(text: str) -> str | None:
-    """What escapes stand for; None for one that is not known."""
-    try:
-        return _ESCAPE.sub(_escape, text.replace("\\\n", ""))
-    except (KeyError, ValueError):
-        return None
-
-
-def _escape(match: re.Match[str]) -> str:
-    inner = match[1]
-    if inner[0] == "x":
-        return chr(int(inner[1:], 16))
-    if inner[0] in "01234567":
-        return chr(int(inner, 8))
-    return _ESCAPES[inner]

@@ -1,4 +1,4 @@
-"""Numbers as C++ writes them, against a compiler's answers."""
+"""Numbers and texts as C++ writes them, against a compiler's answers."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from rebsync.reverse.syntax.cpp_numerals import numeral, whole_number
+from rebsync.reverse.syntax.cpp_texts import unescaped
 
 WHOLE = {
     "0": 0,
@@ -34,6 +35,23 @@ REAL = {
     "0xAp-1": Fraction(5),
     "1.0e1L": Fraction(10),
 }
+TEXTS = {
+    r"a\n\t\r\a\b\f\v": "a\n\t\r\a\b\f\v",
+    r"\x41\101\'\"\?\\": "AA'\"?\\",
+    r"\0": "\0",
+    r"\u00e9\U0001F600": "\u00e9\U0001f600",
+    "two \\\nlines": "two lines",
+}
+UNKNOWN = (r"\xe9", r"\377", r"\q", r"\u12", r"\N{DIGIT ONE}")
+_SAME = """
+template <unsigned N>
+constexpr bool same(const char (&text)[N], const unsigned char (&bytes)[N - 1]) {
+  for (unsigned i = 0; i + 1 < N; ++i) {
+    if (static_cast<unsigned char>(text[i]) != bytes[i]) return false;
+  }
+  return true;
+}
+"""
 NONE = ("", "08", "0x", "0b2", "5f", "1j", "1.2.3", "0x1.8", "1e999", "abc", "1llu2", "--1")
 
 
@@ -54,6 +72,16 @@ def test_what_is_no_number(text: str) -> None:
     assert numeral(text) is None
 
 
+@pytest.mark.parametrize("text", TEXTS)
+def test_texts(text: str) -> None:
+    assert unescaped(text) == TEXTS[text]
+
+
+@pytest.mark.parametrize("text", UNKNOWN)
+def test_texts_that_are_not_known(text: str) -> None:
+    assert unescaped(text) is None
+
+
 def test_a_compiler_agrees(tmp_path: Path) -> None:
     """Literals without a sign, of which a program asserts the values."""
     wholes = [
@@ -63,7 +91,11 @@ def test_a_compiler_agrees(tmp_path: Path) -> None:
         f"static_assert({text} == {value.numerator}.0 / {value.denominator});"
         for text, value in REAL.items()
     ]
-    file = tmp_path / "numbers.cpp"
-    file.write_text("\n".join([*wholes, *reals]) + "\n")
+    texts = [
+        f'static_assert(same("{text}", {{{", ".join(map(str, meant.encode()))}}}));'
+        for text, meant in TEXTS.items()
+    ]
+    file = tmp_path / "literals.cpp"
+    file.write_text("\n".join([_SAME, *wholes, *reals, *texts]) + "\n")
     done = subprocess.run(["g++", "-std=c++17", "-fsyntax-only", str(file)], capture_output=True)
     assert done.returncode == 0, done.stderr.decode()
