@@ -26,6 +26,11 @@ _FORMATS = {
     "double": "float64",
     "boolean": "boolean",
 }
+_ZEROS = {
+    **dict.fromkeys(("byte", "short", "int"), "0"),
+    **dict.fromkeys(("float", "double"), "0.0"),
+    "boolean": "False",
+}
 
 
 def class_type(name: str) -> str:
@@ -56,6 +61,15 @@ def unset_value(type_: Type) -> str:
     if type_.dimensions:
         return f"array({plain_type(type_)}, {', '.join(map(str, type_.dimensions))})"
     return f"{plain_type(type_)}()"
+
+
+def first_value(type_: Type) -> str:
+    """What a state variable holds at first: `0`, `0.0`, `False`, `Rebec()`, an array of these.
+
+    A local that is not set is `int()` instead, which the reader tells from one that is set to 0.
+    """
+    zero = _ZEROS.get(type_.name)
+    return unset_value(type_) if type_.dimensions or zero is None else zero
 
 
 def from_message(value: str, type_: Type) -> str:

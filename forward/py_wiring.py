@@ -9,7 +9,7 @@ from rebsync.forward.lineage import base_of
 from rebsync.forward.py_class import PyClass, annotation_markers
 from rebsync.forward.py_layout import call_lines, indented
 from rebsync.forward.py_messages import own_subscriptions, to_message
-from rebsync.forward.py_types import py_type, unset_value
+from rebsync.forward.py_types import first_value, py_type
 from rebsync.model import Type
 from rebsync.names import graph_name
 from rebsync.package import ConstructorOf, GlobalParameter, Offer
@@ -150,8 +150,8 @@ def _members(c: PyClass, words: PyWords) -> list[str]:
     for member in c.node.members:
         lines += (f"# rebsync: {a}" for a in annotation_markers(member.annotations))
         typed = f"self.{names.members[member.name]}: {py_type(member.type)}"
-        unset = unset_value(member.type)
-        lines.append(f"{typed} = {unset}  # rebsync: statevar {member.path}")
+        value = first_value(member.type)
+        lines.append(f"{typed} = {value}  # rebsync: statevar {member.path}")
     for known in c.node.known:
         lines += (f"# rebsync: {a}" for a in annotation_markers(known.annotations))
         value = words.known(f"knownrebecs/{graph_name(known.name)}")

@@ -109,6 +109,8 @@ def is_default(expression: m.Expression) -> bool:
     match bare(expression):
         case m.IntLiteral(0) | m.BoolLiteral(False):
             return True
+        case m.FloatLiteral(text):
+            return float(text) == 0
         case _:
             return False
 

@@ -14,10 +14,10 @@ from rebsync.intervals import Interval
 from rebsync.names import carry, original, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES, OFFERS, RUNTIME_TOPICS
-from rebsync.reverse.bodies.building import is_default
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.own_parameters import Stored, with_own
+from rebsync.reverse.python import model_first_values as first_values
 from rebsync.reverse.python.class_creation import list_creation
 from rebsync.reverse.python.model_bodies import ModelBodies
 from rebsync.reverse.python.model_overloads import families
@@ -359,8 +359,8 @@ class ModelClasses:
         name = class_name(owner.name)
         roles = self._of(owner)
         found = [f for f in roles.functions.values() if _is_constructor(f.name)]
+        first = self._first(owner, name)
         for function in found:
-            first = self._initial(owner, function, name)
             body = self._bodies.body(owner, function, name)
             if first and body is not None:
                 body = replace(body, statements=(*first, *body.statements))
@@ -371,19 +371,17 @@ class ModelClasses:
                 annotations_above(function.py, function.node),
                 function.py.span(function.node),
             )
-        if not found and roles.initial:
-            first = self._initial(owner, roles.functions["__init__"], name)
+        if first and not found:
             yield m.Constructor(name, (), m.Block(first), (), owner.py.span(owner.node))
 
-    def _initial(self, owner: Scope, function: Scope, within: str) -> tuple[m.Statement, ...]:
+    def _first(self, owner: Scope, within: str) -> tuple[m.Statement, ...]:
         """What variables hold before the constructor of the model runs."""
-        reader, roles = self._bodies.reader(owner, function, within).expressions, self._of(owner)
-        given = ((roles.state[name][0], reader.read(value), value) for name, value in roles.initial)
-        return tuple(
-            m.ExpressionStatement(m.Assign("=", m.Name(name), read), span=owner.py.span(value))
-            for name, read, value in given
-            if not is_default(read)
-        )
+        roles = self._of(owner)
+        if not roles.initial:
+            return ()
+        reader = self._bodies.reader(owner, roles.initial[0][2], within).expressions
+        found = first_values.stores(roles.initial, roles.state, reader, self.findings, within)
+        return tuple(found)
 
 
 def _is_marked(owner: Scope) -> bool:

@@ -85,7 +85,7 @@ class PyRoles:
     owner: Scope
     functions: dict[str, Scope] = with_default(default_factory=dict)
     state: dict[str, tuple[str, m.Type, Node]] = with_default(default_factory=dict)
-    initial: list[tuple[str, Node]] = with_default(default_factory=list)
+    initial: list[tuple[str, Node, Scope]] = with_default(default_factory=list)
     known: dict[str, tuple[str, m.Type, Node]] = with_default(default_factory=dict)
     env: dict[str, EnvUse] = with_default(default_factory=dict)
     publishers: dict[str, tuple[str | None, str, str]] = with_default(default_factory=dict)
@@ -206,6 +206,7 @@ def _priority(arguments: list[Node]) -> Iterator[m.Annotation]:
 
 
 def _wired(roles: PyRoles, function: Scope) -> None:
+    roles.constructed = False  # also of `_wire`, which `__init__` calls before
     for statement in body_of(function):
         inner = named(statement)[0] if statement.type == "expression_statement" else None
         if inner is not None and inner.type == "call":
@@ -288,7 +289,7 @@ def _variable(
     if is_unset(value) or literal_type(value) is not None:
         roles.state[attribute] = name, type_, statement
         if not (is_unset(value) or roles.constructed):
-            roles.initial.append((attribute, value))
+            roles.initial.append((attribute, value, function))
     elif read is not None and read.is_own and read.key.startswith("knownrebecs/"):
         known = original(read.key.partition("/")[2])
         roles.known[attribute] = known, type_, statement

@@ -149,3 +149,15 @@ def test_a_constant_that_another_hides_is_told() -> None:
         files[path] = files[path].replace(head, f"{head}    LOWEST = {value}\n")
         found = extract({p: Source(p, text) for p, text in files.items()}).findings
         assert [f.text for f in found] == ["LOWEST = 3"] * (name == "truck")
+
+
+def test_first_values_that_descendants_share_are_told() -> None:
+    """A rebec runs one constructor of the model, so that none of a class above can hold them."""
+    files = case_files(CASES / "inheritance.rebeca", "ros1-py")
+    for name, old in (("vehicle", "_fuel: int = 0"), ("car", "_trips: int = 0")):
+        path, text = f"src/inheritance/{name}.py", files[f"src/inheritance/{name}.py"]
+        assert old in text
+        for value, listed in (("4", ["4"]), ("int()", [])):
+            changed = {**files, path: text.replace(old, old.replace("0", value))}
+            found = extract({p: Source(p, t) for p, t in changed.items()}).findings
+            assert [f.text for f in found] == listed

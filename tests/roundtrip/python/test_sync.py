@@ -43,9 +43,8 @@ OF_CODE = {
         ["      if (pos[0] == 2) {", "        return;", "      }"],
     ),
     "state variable": (
-        "        self._data: int = int()  # rebsync: statevar R1.data\n",
-        "        self._data: int = int()  # rebsync: statevar R1.data\n"
-        "        self._tries: int = int()\n",
+        "        self._data: int = 0  # rebsync: statevar R1.data\n",
+        "        self._data: int = 0  # rebsync: statevar R1.data\n        self._tries: int = 0\n",
         [],
         ["    int tries;"],
     ),
