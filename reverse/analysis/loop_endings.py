@@ -6,7 +6,7 @@ Whether the statements within a loop end is asked of each of them by itself.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, cached_property
 
 from rebsync.reverse.analysis.bounded_loops import LoopEnds
 from rebsync.reverse.analysis.element_counts import ElementCounts
@@ -18,10 +18,13 @@ from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.size_changes import SizeChanges
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.source import Span
+
+_VALUES = t.Integer | t.Float | t.Truth | t.Enumeration | t.Text
 
 
 class LoopEndings:
@@ -65,8 +68,15 @@ class LoopEndings:
         own = {
             n.target.name for n in stepped if isinstance(n.target, e.Local) and uses.count(n) == 1
         }
-        names = self._function.captured - own - self._only_lent(every)
+        names = self._function.captured - own - self._only_lent(every) | self._unread
         return any(isinstance(n, e.Local) and n.name in names for n in walk(loop.test))
+
+    @cached_property
+    def _unread(self) -> frozenset[str]:
+        """The variables that something names which has no lowering: it may keep references."""
+        unread = [n for n in walk(self._function) if isinstance(n, s.Unsupported)]
+        named = (p for n in unread for each in (*n.reads, *n.writes) for p in walk(each))
+        return frozenset(p.name for p in named if isinstance(p, e.Local))
 
     def _only_lent(self, every: list[e.AddressOf]) -> frozenset[str]:
         """The variables that nothing shares but calls that get them."""
@@ -82,15 +92,27 @@ def _lent(notes: ProblemNotes, function: Function) -> Iterator[int]:
 
     Functions of libraries that no table knows are trusted to leave numbers as they are that they
     get by their names, and not by an address (`f(i)`, and not `f(&i)`): for references that calls
-    make themselves, and that have their places.
+    make themselves, and that have their places. What a call gives may keep them, if that is kept.
     """
     for call in walk(function):
         if not isinstance(call, s.Call) or not _is_trusted(notes, call.callee):
+            continue
+        if _may_be_kept(call, function):
             continue
         for argument in call.arguments:
             value = argument.value
             if isinstance(value, e.AddressOf) and value.place == call.place:
                 yield id(value)
+
+
+def _may_be_kept(call: s.Call, function: Function) -> bool:
+    """Whether a variable or member gets what a call gives, and that is no number or text."""
+    if call.target is None or isinstance(call.target.type, _VALUES):
+        return False
+    if not isinstance(call.target, e.Temporary):
+        return True
+    stores = (n for n in walk(function) if isinstance(n, s.Assign | s.Declare))
+    return any(call.target in walk(n.value) for n in stores if n.value is not None)
 
 
 def _is_trusted(notes: ProblemNotes, callee: s.Callee) -> bool:
