@@ -10,6 +10,7 @@ from functools import cache, cached_property
 
 from rebsync.reverse.analysis.bounded_loops import LoopEnds
 from rebsync.reverse.analysis.element_counts import ElementCounts
+from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.finite_numbers import FiniteNumbers
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
@@ -30,7 +31,10 @@ _VALUES = t.Integer | t.Float | t.Truth | t.Enumeration | t.Text
 class LoopEndings:
     """The loops of one function."""
 
-    def __init__(self, notes: ProblemNotes, sizes: OutcomeSizes) -> None:
+    def __init__(
+        self, notes: ProblemNotes, sizes: OutcomeSizes, iterators: EndlessIterators
+    ) -> None:
+        self._iterators = iterators
         self._function = notes.function
         self._origins = notes.origins
         self._sizes = sizes
@@ -46,7 +50,9 @@ class LoopEndings:
         if self._does_anything(loop):
             return False
         match loop:
-            case s.ForEach():
+            case s.ForEach(_, iterable):
+                if self._iterators.may_be(iterable, self._function.name):
+                    return False
                 return not (self._changes.in_for_each(loop) or self._changes.is_own(loop))
             case s.Loop():
                 is_bounded = self._bounded.ends(loop) or self._sizes.is_emptied(loop)
@@ -135,6 +141,7 @@ class ProgramLoops:
         self._program = origins.graph.program
         self._origins = origins
         self._counts = ElementCounts(origins)
+        self._iterators = EndlessIterators(origins)
         self.ends = cache(self._ends)
 
     def _ends(self, name: str, place: Span) -> bool:
@@ -143,5 +150,7 @@ class ProgramLoops:
         loops = [n for n in walk(function.body) if isinstance(n, s.Loop | s.ForEach)]
         found = [loop for loop in loops if loop.place == place]
         notes = ProblemNotes(function, self._origins, self._counts, lambda _: False, {})
-        endings = LoopEndings(notes, OutcomeSizes(notes, OutcomeExpressions(notes)))
+        endings = LoopEndings(
+            notes, OutcomeSizes(notes, OutcomeExpressions(notes)), self._iterators
+        )
         return bool(found) and all(map(endings.ends, found))
