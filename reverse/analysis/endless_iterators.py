@@ -39,7 +39,7 @@ class EndlessIterators:
         return self._is_python and self._may_be(value, function, set())
 
     def gone_through(self, function: Function) -> Iterator[s.Statement | e.Expression]:
-        """What in a body goes through such a value to its end, loops of statements apart."""
+        """What in a body goes through such a value to its end, or as far as a `break`."""
         if not self._is_python:
             return
         for node in walk(function.body):
@@ -57,7 +57,7 @@ class EndlessIterators:
                     yield from (a.value for a in arguments if not a.stars)
             case s.Unpack(_, value) | s.Yield(_, value, True) | s.CompoundAssign(_, _, value):
                 yield value
-            case s.Assign(e.Index(_, e.Slice()), value):
+            case s.Assign(e.Index(_, e.Slice()), value) | s.ForEach(_, value):
                 yield value
             case e.Build(_, elements):
                 yield from (p.operand for p in elements if isinstance(p, e.Spread))
@@ -152,12 +152,13 @@ class EndlessIterators:
             nodes = list(walk(function.body))
             if function.kind is FunctionKind.GENERATOR:
                 found = any(isinstance(n, s.Loop) for n in nodes)
-                values = [n.iterable for n in nodes if isinstance(n, s.ForEach)]
-                values += [n.value for n in nodes if isinstance(n, s.Yield) and n.delegates]
+                over = (n.iterable for n in nodes if isinstance(n, s.ForEach))
+                handed = (n.value for n in nodes if isinstance(n, s.Yield) and n.delegates)
+                values = [*over, *handed]
             else:
-                found, values = False, [n.value for n in nodes if isinstance(n, s.Return)]
-            held = (v for v in values if v is not None)
-            self._returned[name] = found or any(self._may_be(v, name, set()) for v in held)
+                returned = (n.value for n in nodes if isinstance(n, s.Return))
+                found, values = False, [v for v in returned if v is not None]
+            self._returned[name] = found or any(self._may_be(v, name, set()) for v in values)
         return self._returned[name]
 
     @cached_property
