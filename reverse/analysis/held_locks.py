@@ -185,7 +185,8 @@ def _held(node: s.Statement, rest: s.Body) -> tuple[s.Body, bool]:
     if isinstance(node, s.Construct):
         return rest, _outlives(node.target, rest)
     if not isinstance(node.callee, s.LibraryCallee):
-        return rest, True
+        is_given = _is_or_has_guard(node.target.type) if node.target is not None else False
+        return rest, not is_given or _outlives(node.target, rest)
     if not _is_by_hand(node.callee.name):
         return rest, _outlives(node.target, rest)
     unlock = node.callee.name.rpartition("::")[0] + "::unlock"

@@ -98,18 +98,23 @@ class CppForm:
 
     @cached_property
     def _unclear(self) -> frozenset[bytes]:
-        """The names of functions and classes that lock something in a way that has no form."""
-        every = self._functions.values()
+        """The names of guards whose constructors lock something in a way that has no form."""
+        every = [f for f in self._functions.values() if self._is_constructor(f)]
         unread = (f for f in every if f.is_template and _LOCKS.search(self._text(f)))
         otherwise = (f for f in every if _OTHERWISE.search(f.code.node.text or b""))
         return self._guards.union(f.simple.encode() for each in (unread, otherwise) for f in each)
+
+    def _is_constructor(self, function: FunctionSymbol) -> bool:
+        owner = self._lowering.world.symbols.classes.get(function.owner or "")
+        return owner is not None and function in owner.constructors
 
     def _text(self, function: FunctionSymbol) -> bytes:
         """The text of a function; of a constructor that of its class too, which says of members."""
         text = function.code.node.text or b""
         owner = self._lowering.world.symbols.classes.get(function.owner or "")
-        is_constructor = owner is not None and function in owner.constructors
-        return text + (owner.node.text or b"") if owner is not None and is_constructor else text
+        if owner is None or not self._is_constructor(function):
+            return text
+        return text + (owner.node.text or b"")
 
     def ends(self, cpp: Cpp, loop: Node) -> bool:
         """Whether a loop in a function ends, if what stands in it does."""
