@@ -22,6 +22,7 @@ from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcome_rules import Size, Tells
 
 _LIMIT = 8  # sizes from here on are one
+_OF_OBJECT = frozenset({"builtins.getattr"})  # they give methods of their first argument
 
 
 class ElementCounts:
@@ -202,8 +203,10 @@ class ElementCounts:
         """Whether a call gets a container by which it may become known elsewhere."""
         for node in walk(self.graph.program.function(function)):
             match node:
-                case s.Call(_, s.LibraryCallee(), arguments):
-                    passed = arguments[1:]  # what is put into the first one
+                case s.Call(_, s.LibraryCallee(name), arguments):
+                    # Others are put into the first one, unless a method of that is handed on.
+                    first = [a for a in arguments[:1] if isinstance(a.value, e.Attribute)]
+                    passed = (*(arguments if name in _OF_OBJECT else first), *arguments[1:])
                 case s.Call(_, s.MethodCallee(_, name, None), arguments):
                     is_own = bool(self.origins.methods_of_any(name))
                     grows = self.table.method(None, name).size in (Size.GROWS, Size.MORE)
@@ -252,9 +255,11 @@ def _has(value: object, key: e.Literal) -> bool:
 
 
 def _parts(value: object) -> Iterator[object]:
-    """A value, and what a container that it makes has in it."""
+    """A value, and what it has in it: a container its elements, a method its object."""
     yield value
     match value:
+        case e.Attribute(of):
+            yield of
         case e.Build(_, elements):
             for element in elements:
                 yield from _parts(element)

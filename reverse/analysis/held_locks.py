@@ -2,7 +2,9 @@
 
 What locks a mutex for a block (`std::lock_guard` and its kin, `with`) holds it to the end of the
 block; `m.lock();` holds to `m.unlock();` in the same block, if nothing between leaves it. Nothing
-in there, and nothing that it calls, may lock the same one, unless it is recursive.
+in there, and nothing that it calls, may lock the same one, unless it is recursive. A function that
+leaves a mutex locked locks it for who calls it: objects of classes whose constructors do so are
+guards too.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ from rebsync.reverse.analysis.stores import CallResult, Key, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.program import Function
+from rebsync.reverse.ir.program import Function, FunctionKind
 from rebsync.reverse.ir.walk import STATEMENTS, Node, walk
 
 _GUARDS = frozenset({"lock_guard", "unique_lock", "scoped_lock", "shared_lock"})
@@ -47,20 +49,25 @@ class HeldLocks:
         self.origins = origins
         self.stores = origins.graph.stores
         self._counts = ElementCounts(origins)
+        self._left: dict[str, Mutexes] = {}
 
     def check(self, function: Function, notes: ProblemNotes) -> None:
         """Notes where a function may lock what it has locked."""
         for used in walk(function.body):
             if isinstance(used, e.LibraryReference) and _is_guard(used.name):
                 notes.problem(used, _LONGER)
+            if isinstance(used, s.Declare) and _has_guard(used.type):
+                notes.problem(used, _LONGER)
         for node, inside in _with_rest(function.body):
             mutexes = self._locked(node, function.name)
             if not mutexes:
                 continue
             inside, is_longer = _held(node, inside)
-            if is_longer:
+            if is_longer or (isinstance(node, s.Construct) and not self._unlocks(node.class_name)):
                 notes.problem(node, _LONGER)
             for name, body in self.origins.runs(inside, function.name):
+                if name != function.name and self._is_guard_of(name):
+                    continue  # who makes the object locks
                 later = (self._locked(inner, name) for inner in walk(body))
                 if any(_meet(mutexes, others) for others in later) or _acquires(body):
                     notes.problem(node, _AGAIN)
@@ -80,6 +87,11 @@ class HeldLocks:
                 found = [self._mutexes(v, function, _NONE) for v in values if not _is_tag(v)]
             case s.Call(_, s.LibraryCallee(name, receiver)) if _is_by_hand(name):
                 found = [] if receiver is None else [self._mutexes(receiver, function, _NONE)]
+            case s.Construct(_, _, arguments, str() as name):
+                found = [self._locked_for(name, arguments, function)]
+            case s.Call(_, s.FunctionCallee() | s.MethodCallee(), arguments):
+                names = self.origins.reached(node, function)
+                found = [self._locked_for(name, arguments, function) for name in names]
             case s.With(context):
                 held = self.origins.of(context, function)
                 is_lock = not held.isdisjoint(_LOCKS) or AnyOrigin() in held
@@ -87,6 +99,43 @@ class HeldLocks:
             case _:
                 return _NONE
         return _NONE.union(*found)
+
+    def left_by(self, name: str) -> Mutexes:
+        """The mutexes that a function may leave locked; None is one that it gets."""
+        if name not in self._left:
+            self._left[name] = _NONE  # of those that call each other
+            body = self.origins.graph.program.function(name).body
+            found = (
+                self._locked(node, name) for node, rest in _with_rest(body) if _held(node, rest)[1]
+            )
+            self._left[name] = _NONE.union(*found)
+        return self._left[name]
+
+    def _is_guard_of(self, name: str) -> bool:
+        """Whether a function makes an object that holds a lock."""
+        function = self.origins.graph.program.function(name)
+        return function.kind is FunctionKind.CONSTRUCTOR and bool(self.left_by(name))
+
+    def _unlocks(self, class_name: str) -> bool:
+        """Whether objects of a class unlock something when they end."""
+        graph = self.origins.graph
+        every = (graph.program.classes.get(c) for c in (class_name, *graph.bases(class_name)))
+        classes = [c for c in every if c is not None]
+        if any(_is_or_has_guard(f.type) for c in classes for f in c.fields):
+            return True
+        bodies = (graph.program.function(c.destructor) for c in classes if c.destructor)
+        calls = (n.callee for body in bodies for n in walk(body) if isinstance(n, s.Call))
+        return any(isinstance(c, s.LibraryCallee) and c.name.endswith("unlock") for c in calls)
+
+    def _locked_for(
+        self, name: str, arguments: tuple[s.CallArgument, ...], function: str
+    ) -> Mutexes:
+        """The mutexes that a function of the program leaves locked, as seen where it is called."""
+        left = self.left_by(name)
+        given = [a.value for a in arguments if _is_mutex(a.value)]
+        if None not in left or not given:
+            return left
+        return (left - {None}).union(*(self._mutexes(v, function, _NONE) for v in given))
 
     def _mutexes(self, value: e.Expression, function: str, seen: Mutexes) -> Mutexes:
         """The mutexes that a value may be, or lead to."""
@@ -131,10 +180,15 @@ def _acquires(body: s.Body) -> bool:
 
 def _held(node: s.Statement, rest: s.Body) -> tuple[s.Body, bool]:
     """What runs while a lock is held, of what follows it; and whether more than that may."""
-    if not isinstance(node, s.Call):
+    if not isinstance(node, s.Call | s.Construct):
         return rest, any(isinstance(n, s.Yield) for n in walk(rest))
-    if not isinstance(node.callee, s.LibraryCallee) or not _is_by_hand(node.callee.name):
-        return rest, not isinstance(node.target, e.Local)
+    if isinstance(node, s.Construct):
+        return rest, _outlives(node.target, rest)
+    if not isinstance(node.callee, s.LibraryCallee):
+        is_given = _is_or_has_guard(node.target.type) if node.target is not None else False
+        return rest, not is_given or _outlives(node.target, rest)
+    if not _is_by_hand(node.callee.name):
+        return rest, _outlives(node.target, rest)
     unlock = node.callee.name.rpartition("::")[0] + "::unlock"
     for number, later in enumerate(rest):
         match later:
@@ -180,9 +234,46 @@ def _inner(
             return inner
 
 
+def _outlives(guard: e.Lvalue | None, rest: s.Body) -> bool:
+    """Whether what holds a lock may be there after its block: it is no variable, or moved."""
+    if not isinstance(guard, e.Local):
+        return True
+    ended = (n for n in walk(rest) if isinstance(n, e.Move | s.Return))
+    return any(guard in walk(n) for n in ended)
+
+
 def _is_guard(name: str) -> bool:
-    plain = name.partition("<")[0].rpartition("::")[2]
-    return plain in _GUARDS
+    """Whether a class is a guard; or what makes objects of one, as `std::make_unique` does."""
+    plain, _, of = name.partition("<")
+    if plain.rpartition("::")[2].startswith("make_"):
+        plain = of.partition("<")[0].partition(">")[0]
+    return plain.rpartition("::")[2] in _GUARDS
+
+
+def _has_guard(type_: t.Type) -> bool:
+    """Whether objects of a type have guards in them, which others may put there and take out."""
+    match type_:
+        case t.Optional(inner) | t.Array(inner):
+            return _is_or_has_guard(inner)
+        case t.Reference(inner, _, ownership):
+            return ownership is not t.Ownership.NONE and _is_or_has_guard(inner)
+        case t.Container(_, elements):
+            return any(map(_is_or_has_guard, elements))
+        case _:
+            return False
+
+
+def _is_or_has_guard(type_: t.Type) -> bool:
+    return _has_guard(type_) or (isinstance(type_, t.Record) and _is_guard(type_.name))
+
+
+def _is_mutex(value: e.Expression) -> bool:
+    """Whether a value is a mutex of a library, or a reference to one."""
+    while isinstance(value, e.AddressOf | e.Dereference | e.Convert | e.Copy | e.Move):
+        value = _inner(value)
+    type_ = getattr(value, "type", t.UNKNOWN)
+    type_ = type_.to if isinstance(type_, t.Reference) else type_
+    return isinstance(type_, t.Record) and type_.name.endswith("mutex")
 
 
 def _is_by_hand(name: str) -> bool:

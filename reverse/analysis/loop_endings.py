@@ -6,10 +6,11 @@ Whether the statements within a loop end is asked of each of them by itself.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, cached_property
 
 from rebsync.reverse.analysis.bounded_loops import LoopEnds
 from rebsync.reverse.analysis.element_counts import ElementCounts
+from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.finite_numbers import FiniteNumbers
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
@@ -18,16 +19,22 @@ from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.size_changes import SizeChanges
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.source import Span
 
+_VALUES = t.Integer | t.Float | t.Truth | t.Enumeration | t.Text
+
 
 class LoopEndings:
     """The loops of one function."""
 
-    def __init__(self, notes: ProblemNotes, sizes: OutcomeSizes) -> None:
+    def __init__(
+        self, notes: ProblemNotes, sizes: OutcomeSizes, iterators: EndlessIterators
+    ) -> None:
+        self._iterators = iterators
         self._function = notes.function
         self._origins = notes.origins
         self._sizes = sizes
@@ -43,7 +50,9 @@ class LoopEndings:
         if self._does_anything(loop):
             return False
         match loop:
-            case s.ForEach():
+            case s.ForEach(_, iterable):
+                if self._iterators.may_be(iterable, self._function.name):
+                    return False
                 return not (self._changes.in_for_each(loop) or self._changes.is_own(loop))
             case s.Loop():
                 is_bounded = self._bounded.ends(loop) or self._sizes.is_emptied(loop)
@@ -65,8 +74,15 @@ class LoopEndings:
         own = {
             n.target.name for n in stepped if isinstance(n.target, e.Local) and uses.count(n) == 1
         }
-        names = self._function.captured - own - self._only_lent(every)
+        names = self._function.captured - own - self._only_lent(every) | self._unread
         return any(isinstance(n, e.Local) and n.name in names for n in walk(loop.test))
+
+    @cached_property
+    def _unread(self) -> frozenset[str]:
+        """The variables that something names which has no lowering: it may keep references."""
+        unread = [n for n in walk(self._function) if isinstance(n, s.Unsupported)]
+        named = (p for n in unread for each in (*n.reads, *n.writes) for p in walk(each))
+        return frozenset(p.name for p in named if isinstance(p, e.Local))
 
     def _only_lent(self, every: list[e.AddressOf]) -> frozenset[str]:
         """The variables that nothing shares but calls that get them."""
@@ -82,15 +98,27 @@ def _lent(notes: ProblemNotes, function: Function) -> Iterator[int]:
 
     Functions of libraries that no table knows are trusted to leave numbers as they are that they
     get by their names, and not by an address (`f(i)`, and not `f(&i)`): for references that calls
-    make themselves, and that have their places.
+    make themselves, and that have their places. What a call gives may keep them, if that is kept.
     """
     for call in walk(function):
         if not isinstance(call, s.Call) or not _is_trusted(notes, call.callee):
+            continue
+        if _may_be_kept(call, function):
             continue
         for argument in call.arguments:
             value = argument.value
             if isinstance(value, e.AddressOf) and value.place == call.place:
                 yield id(value)
+
+
+def _may_be_kept(call: s.Call, function: Function) -> bool:
+    """Whether a variable or member gets what a call gives, and that is no number or text."""
+    if call.target is None or isinstance(call.target.type, _VALUES):
+        return False
+    if not isinstance(call.target, e.Temporary):
+        return True
+    stores = (n for n in walk(function) if isinstance(n, s.Assign | s.Declare))
+    return any(call.target in walk(n.value) for n in stores if n.value is not None)
 
 
 def _is_trusted(notes: ProblemNotes, callee: s.Callee) -> bool:
@@ -113,6 +141,7 @@ class ProgramLoops:
         self._program = origins.graph.program
         self._origins = origins
         self._counts = ElementCounts(origins)
+        self._iterators = EndlessIterators(origins)
         self.ends = cache(self._ends)
 
     def _ends(self, name: str, place: Span) -> bool:
@@ -121,5 +150,7 @@ class ProgramLoops:
         loops = [n for n in walk(function.body) if isinstance(n, s.Loop | s.ForEach)]
         found = [loop for loop in loops if loop.place == place]
         notes = ProblemNotes(function, self._origins, self._counts, lambda _: False, {})
-        endings = LoopEndings(notes, OutcomeSizes(notes, OutcomeExpressions(notes)))
+        endings = LoopEndings(
+            notes, OutcomeSizes(notes, OutcomeExpressions(notes)), self._iterators
+        )
         return bool(found) and all(map(endings.ends, found))

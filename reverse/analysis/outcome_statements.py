@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.facts import (
     NO_FACTS,
     Facts,
@@ -36,14 +37,19 @@ ENDLESS = "nothing shows that this loop ends"
 class OutcomeWalk:
     """The statements of one function, in their order, with what is known at each."""
 
-    def __init__(self, notes: ProblemNotes, of: Callable[[str], frozenset[Problem]]) -> None:
+    def __init__(
+        self,
+        notes: ProblemNotes,
+        of: Callable[[str], frozenset[Problem]],
+        iterators: EndlessIterators,
+    ) -> None:
         self.notes = notes
         self.origins = notes.origins
         self.name = notes.function.name
         self._expressions = OutcomeExpressions(notes)
         self._sizes = OutcomeSizes(notes, self._expressions)
         self._calls = OutcomeCalls(notes, self._expressions, self._sizes, of)
-        self._endings = LoopEndings(notes, self._sizes)
+        self._endings = LoopEndings(notes, self._sizes, iterators)
         self._handled: list[set[Problem]] = []
 
     def value(self, value: e.Expression | None, facts: Facts) -> None:

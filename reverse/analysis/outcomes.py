@@ -16,6 +16,7 @@ from functools import cached_property
 
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.element_counts import ElementCounts
+from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.facts import NO_FACTS
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
@@ -51,6 +52,7 @@ class OutcomeAnalysis:
         self.origins = Origins(self.graph, table, own)
         self.counts = ElementCounts(self.origins)
         self.locks = HeldLocks(self.origins)
+        self.iterators = EndlessIterators(self.origins)
         self.elements: dict[str, int] = {}  # of what functions get, by their names
         self._found: dict[str, frozenset[Problem]] = {}
         self._active: list[str] = []
@@ -81,11 +83,13 @@ class OutcomeAnalysis:
 
     def _of_body(self, function: Function) -> frozenset[Problem]:
         notes = ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)
-        walk_ = OutcomeWalk(notes, self.of)
+        walk_ = OutcomeWalk(notes, self.of, self.iterators)
         walk_.defaults(self._defaults.get(function.name, ()))
         walk_.defaults(self._silent.factories(function, self._active))
         walk_.body(function.body, NO_FACTS)
         self.locks.check(function, notes)
+        for node in self.iterators.gone_through(function):
+            notes.problem(node, ENDLESS)
         found = implicit_calls(self.graph, function)
         implicit = found.functions | (self._silent.called(function).difference(self._active))
         if found.has_library:

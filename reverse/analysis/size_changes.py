@@ -210,7 +210,7 @@ class SizeChanges:
             is_own = function == self.function
             read, known = (over, keys) if is_own else (_NOTHING, frozenset())
             for node in walk(inner):
-                if isinstance(node, s.Unsupported):
+                if isinstance(node, s.Unsupported) or self._may_be_any(node, function, over):
                     return True
                 for changed in self._changed(node, function, sizes, read, known):
                     if changed in read:
@@ -221,6 +221,19 @@ class SizeChanges:
                     if not is_other and not self._is_private(changed, function):
                         return True
         return False
+
+    def _may_be_any(self, node: Node, function: str, over: frozenset[e.Expression]) -> bool:
+        """Whether a call of a value that is kept may be a method of what a loop is over."""
+        if not isinstance(node, s.Call):
+            return False
+        if not isinstance(node.callee, s.ValueCallee | s.MethodCallee):
+            return False
+        own = f".{node.callee.name}" if isinstance(node.callee, s.MethodCallee) else ""
+        found = self.origins.graph.callee(node.callee, self.program.function(function))
+        kept = {name[1:] for name in found.libraries if name.startswith(".") and name != own}
+        if not found.unknown and not any(self._is_changing(name, CHANGING) for name in kept):
+            return False
+        return not all(self._is_private(each, self.function) for each in over)
 
     def _is_apart(
         self, changed: e.Expression, function: str, over: frozenset[e.Expression]
@@ -292,6 +305,14 @@ class SizeChanges:
             case _:
                 return
         plain = {name.replace("::", ".").rpartition(".")[2] for name in names}
+        for argument in node.arguments:  # `map(values.append, others)`
+            match argument.value:
+                case e.Attribute(of, name) if self._is_changing(name, sizes):
+                    yield of
+                case _:
+                    pass
+        if receiver is None and any(self._is_changing(name, sizes) for name in plain):
+            yield from (a.value for a in node.arguments[:1])  # `list.append(values, other)`
         if receiver is not None:
             is_read = plain <= (_READING if Size.ANY in sizes else _READING | _LESSENING)
             if size in sizes or plain & _CHANGING_OBJECT or (receiver in over and not is_read):
@@ -300,6 +321,11 @@ class SizeChanges:
             for argument in node.arguments:
                 value = argument.value
                 yield value.target if isinstance(value, e.AddressOf) else value
+
+    def _is_changing(self, name: str, sizes: frozenset[Size]) -> bool:
+        """Whether methods of a name change the sizes of their objects so."""
+        size = self.notes.table.method(None, name).size
+        return size in sizes or name in _CHANGING_OBJECT
 
     def _takes_keys(self, container: e.Expression, function: str) -> bool:
         """Whether storing at an index may add an element: in mappings, and what is not known."""

@@ -32,6 +32,7 @@ _RENAMED = re.compile(
     rb"\busing\s+(\w+)\s*=[^;]*\b(?:lock_guard|unique_lock|scoped_lock|shared_lock)\b"
     rb"|\btypedef\b[^;]*\b(?:lock_guard|unique_lock|scoped_lock|shared_lock)\b[^;]*?(\w+)\s*;"
 )
+_ALIAS = re.compile(rb"\busing\s+(\w+)\s*=([^;]*);|\btypedef\b([^;]*?)(\w+)\s*;")
 _WORD = re.compile(rb"\w+")
 _UNKNOWN = "what this locks is not known"
 _FUNCTIONS = frozenset({"function_definition", "lambda_expression"})
@@ -72,6 +73,49 @@ class CppForm:
         found = (m for cpp in self._code.files for m in _RENAMED.finditer(cpp.data))
         return frozenset(m[1] or m[2] for m in found)
 
+    @cached_property
+    def _locking(self) -> frozenset[bytes]:
+        """The names of functions and classes that leave something locked for who calls them."""
+        if not any(_LOCKS.search(cpp.data) for cpp in self._code.files):
+            return frozenset()
+        texts = [(f, self._text(f)) for f in self._functions.values()]
+        waiting = [(f, frozenset(_WORD.findall(text))) for f, text in texts]
+        asked = [w for w, (_, text) in zip(waiting, texts, strict=True) if _LOCKS.search(text)]
+        found = frozenset[bytes]()
+        while asked:
+            left = {f.simple.encode() for f, _ in asked if self._locks.left_by(f.name)}
+            waiting = [w for w in waiting if w not in asked]
+            found |= left
+            found |= {b for a, b in self._aliases if a & found}
+            asked = [w for w in waiting if w[1] & found]
+        return found
+
+    @cached_property
+    def _aliases(self) -> list[tuple[frozenset[bytes], bytes]]:
+        """What files give other names, by the words in it."""
+        found = (m for cpp in self._code.files for m in _ALIAS.finditer(cpp.data))
+        return [(frozenset(_WORD.findall(m[2] or m[3])), m[1] or m[4]) for m in found]
+
+    @cached_property
+    def _unclear(self) -> frozenset[bytes]:
+        """The names of guards whose constructors lock something in a way that has no form."""
+        every = [f for f in self._functions.values() if self._is_constructor(f)]
+        unread = (f for f in every if f.is_template and _LOCKS.search(self._text(f)))
+        otherwise = (f for f in every if _OTHERWISE.search(f.code.node.text or b""))
+        return self._guards.union(f.simple.encode() for each in (unread, otherwise) for f in each)
+
+    def _is_constructor(self, function: FunctionSymbol) -> bool:
+        owner = self._lowering.world.symbols.classes.get(function.owner or "")
+        return owner is not None and function in owner.constructors
+
+    def _text(self, function: FunctionSymbol) -> bytes:
+        """The text of a function; of a constructor that of its class too, which says of members."""
+        text = function.code.node.text or b""
+        owner = self._lowering.world.symbols.classes.get(function.owner or "")
+        if owner is None or not self._is_constructor(function):
+            return text
+        return text + (owner.node.text or b"")
+
     def ends(self, cpp: Cpp, loop: Node) -> bool:
         """Whether a loop in a function ends, if what stands in it does."""
         name = self._around(loop)
@@ -92,9 +136,9 @@ class CppForm:
         """The places in functions where a thread may wait for itself, for ever."""
         found_in = [(f, f.body.text or b"") for f in functions if f.body is not None]
         for function, text in found_in:
-            if _OTHERWISE.search(text) or not self._guards.isdisjoint(_WORD.findall(text)):
+            if _OTHERWISE.search(text) or not self._unclear.isdisjoint(_WORD.findall(text)):
                 yield function.cpp, function.cpp.span(function.node), _UNKNOWN
-        for function in (f for f, text in found_in if _LOCKS.search(text)):
+        for function in (f for f, text in found_in if self._may_lock(text)):
             symbol = self._functions.get(function.node.id)
             if symbol is None:
                 yield function.cpp, function.cpp.span(function.node), _UNKNOWN
@@ -105,6 +149,10 @@ class CppForm:
                 for (_, _, why), place in sorted(found.items()):
                     yield function.cpp, place, why
                 yield from ((function.cpp, p, _UNKNOWN) for p in self._unread(function, name))
+
+    def _may_lock(self, text: bytes) -> bool:
+        """Whether the text of a function names what locks."""
+        return bool(_LOCKS.search(text)) or not self._locking.isdisjoint(_WORD.findall(text))
 
     def _unread(self, function: CppFunction, name: str) -> Iterator[Span]:
         """The places in a function that lock something, perhaps, and have no form."""

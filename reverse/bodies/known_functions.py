@@ -35,6 +35,11 @@ _OF_NODE = frozenset({"get_clock", "get_name", "get_namespace", "get_fully_quali
 _CONVERSION = re.compile(
     r"(?:::)?(?:u?int(?:8|16|32|64)?(?:_t)?|float|double|bool|char|long|short|unsigned|size_t)\Z"
 )
+# Types whose objects keep references to what their constructors get; functions only take some.
+_REFERRING = re.compile(
+    r"&|\b(?:reference_wrapper|atomic_ref|(?:md)?span|Map|Ref|iterator_range|\w+_insert_iterator)\b"
+)
+_PARAMETERS = re.compile(r"\([^()]*\)")
 # Pointers to what is not constant.
 _SHARED = re.compile(
     r"(?<!Const)(?<!ConstShared)(?<!ConstUnique)(?:Shared|Unique)?Ptr\b|\w+_ptr<(?!\s*const\b)"
@@ -137,8 +142,10 @@ def may_change(parameter: CppParameter) -> bool:
 
 
 def type_takes_values(name: str) -> bool:
-    """Whether constructors of a type are known to change none of their arguments."""
-    return _CONVERSION.match(name) is not None or _is_of_library(name)
+    """Whether objects of a type are known to change nothing that their constructors get."""
+    if _CONVERSION.match(name) is not None:
+        return True
+    return _is_of_library(name) and _REFERRING.search(_PARAMETERS.sub("", name)) is None
 
 
 def _is_of_library(name: str) -> bool:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Collection, Iterator
 from functools import cached_property
 
 from tree_sitter import Node
 
+from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.origins import Origins
@@ -17,7 +20,10 @@ from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import Py
-from rebsync.source import Span
+from rebsync.source import NOWHERE, Source, Span
+
+# What files name that have, or make, iterators without end.
+_ENDLESS = re.compile(rb"\bitertools\b|\biter\s*\(|\b__(?:next|getitem)__\b|\byield\b")
 
 
 class PyForm:
@@ -47,6 +53,28 @@ class PyForm:
         """Whether a loop ends, if what it goes through does, and what stands in it."""
         place = py.span(loop)
         return any(self._loops.ends(name, place) for name in self._functions(py))
+
+    def endless(self, nodes: Collection[int]) -> Iterator[tuple[Source, Span]]:
+        """Where functions, or what they run, go through iterators that may have no end.
+
+        The functions are those with some nodes of trees, by their ids.
+        """
+        files = [module.py for module in self._code.modules.values()]
+        if not any(_ENDLESS.search(py.data) for py in files):
+            return
+        scopes = [scope for scope in self._code.scopes.values() if scope.node.id in nodes]
+        read = {(id(scope.py), scope.py.span(scope.node)) for scope in scopes}
+        of = {name: py for py in files for name in self._functions(py)}
+        roots = [
+            f for n, py in of.items() if (id(py), (f := self.program.function(n)).place) in read
+        ]
+        found = {n for f in roots for n, _ in self._origins.runs(f.body, f.name)}
+        iterators = EndlessIterators(self._origins)
+        for name in sorted(found):
+            for node in iterators.gone_through(self.program.function(name)):
+                place = getattr(node, "place", NOWHERE)
+                is_there = place != NOWHERE
+                yield of[name].source, place if is_there else self.program.function(name).place
 
     def waits_for_itself(self, py: Py, statement: Node) -> bool:
         """Whether what `with lock:` runs may enter the same lock again, and so wait for ever."""

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.findings import IN_THREADS, Findings, Unread
+from rebsync.reverse.findings import IN_THREADS, Findings, Grade, Unread
 from rebsync.reverse.graph import (
     ClientFact,
     Fact,
@@ -35,6 +35,7 @@ from rebsync.reverse.python.py_worth import Instance as Object
 from rebsync.reverse.python.py_worth import Value
 from rebsync.reverse.unknowns import Open
 
+ENDLESS = "what this goes through may have no end"
 _OPEN = "add the package that has the receivers, if they matter"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
 _CALLS = "add a class to the model that calls it, or message servers that send to it"
@@ -106,6 +107,23 @@ def list_shared(
             span = scope.py.span(binding.node)
             findings.unreadable(scope.py.source, Unread(span, why), unit.name)
     _note_turns(units, findings)
+
+
+def list_endless(
+    units: Sequence[PyUnit], readings: Mapping[str, Reading], findings: Findings
+) -> None:
+    """Where units go through iterators that may have no end, in code that is left out."""
+    for unit in units:
+        reading = readings[unit.name]
+        for source, span in () if reading.form is None else reading.form.endless(reading.bodies):
+            is_listed = any(
+                f.grade is Grade.UNREADABLE
+                and f.source is source
+                and (f.span.start <= span.start and span.end <= f.span.end)
+                for f in findings.all
+            )
+            if not is_listed:
+                findings.unreadable(source, Unread(span, ENDLESS), unit.name)
 
 
 def _set_elsewhere(unit: PyUnit, reading: Reading) -> Iterator[tuple[Scope, Binding]]:

@@ -26,7 +26,7 @@ from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.python.body_classes import PyClass
 from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.body_learnt import Asked, Learnt
-from rebsync.reverse.python.body_listing import list_shared, list_unit, list_wiring
+from rebsync.reverse.python.body_listing import list_endless, list_shared, list_unit, list_wiring
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import OTHER, Key, PyTarget, PyUnit
 from rebsync.reverse.python.body_started import NOTHING, Started, settings
@@ -106,6 +106,7 @@ class PySystem:
             list_unit(unit, served[unit.name], loops, threads, self.findings)
         readings = {u.name: _of(u, read)[0].reading for u in wanted}
         list_shared(wanted, readings, self.findings)
+        list_endless(wanted, readings, self.findings)
         list_handle_stores(wanted, values, self.findings)
         list_unserved(wanted, values, self.started.entries, served, self.findings)
         list_wiring(joined.wiring, {u.name for u in wanted}, self.findings)

@@ -258,7 +258,7 @@ class TypeReader:
             return t.UNKNOWN if length is None or name != "array" else t.Array(inner, length)
         if name == "function":
             return self._function(cpp, scope, arguments[0])
-        inner_types = tuple(self.descriptor(cpp, scope, a).type for a in arguments)
+        inner_types = tuple(self.descriptor(cpp, scope, a).form for a in arguments)
         return self._standard(name, full, inner_types)
 
     def _standard(self, name: str, full: str, inner: tuple[t.Type, ...]) -> t.Type:
