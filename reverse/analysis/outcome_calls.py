@@ -11,6 +11,7 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
 )
 from rebsync.reverse.analysis.format_strings import has_pieces
+from rebsync.reverse.analysis.given_counts import count_given
 from rebsync.reverse.analysis.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
@@ -26,8 +27,9 @@ from rebsync.reverse.analysis.problems import Problem, ProblemNotes
 from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import ImplicitCall
-from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS, PLAIN_CLASSES
+from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS, PLAIN_CLASSES, UNKNOWN_CLASS
 from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.reverse.libraries.routines import Language
@@ -35,7 +37,6 @@ from rebsync.unions import assert_never
 
 _PARAMETERS = re.compile(r"<[^<>]*>")
 _WAITING_ALONE = frozenset({"get", "join"})
-_UNKNOWN_CLASS = "constructor of a type that is not known"  # what a template gives, perhaps
 _UNKNOWN = "what is called is not known"
 
 
@@ -242,7 +243,7 @@ class OutcomeCalls:
                 full = f"{of}.{name}"
                 self._library(node, full, self.notes.table.function(full), receiver, facts)
             case LibraryOrigin(of):
-                if of == _UNKNOWN_CLASS:
+                if of == UNKNOWN_CLASS:
                     for method in sorted(self.origins.methods_of_any(name)):
                         if not self.notes.is_model(method):
                             self._enters(node, method)
@@ -331,6 +332,11 @@ class OutcomeCalls:
                 return len(values) < 2
             case Raises.NEGATIVE:
                 return not all(self.expressions.is_positive(v, facts) for v in values[:1])
+            case Raises.COUNT:
+                count = count_given(node)
+                return count is not None and not self.expressions.is_positive(count, facts)
+            case Raises.POSITION:
+                return bool(values) and self._is_position(values[0])
             case Raises.ZERO_STEP:
                 return not all(self.expressions.is_nonzero(v, facts) for v in values[2:])
             case Raises.TEXT:
@@ -362,6 +368,12 @@ class OutcomeCalls:
     def _is_number(self, value: e.Expression) -> bool:
         """Whether a value is a number by how it is computed."""
         return self.origins.of(value, self.function) == {PlainOrigin()}
+
+    def _is_position(self, value: e.Expression) -> bool:
+        """Whether a value is a number that need not be zero."""
+        bare = self.expressions.bare(value)
+        is_number = isinstance(getattr(bare, "type", None), t.Integer)
+        return is_number and not (isinstance(bare, e.Literal) and bare.value == 0)
 
     def _are_ordered(self, values: list[e.Expression], facts: Facts) -> bool:
         """Whether of two numbers the second is not the smaller one."""

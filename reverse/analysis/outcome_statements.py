@@ -25,7 +25,7 @@ from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, Librar
 from rebsync.reverse.analysis.outcome_calls import OutcomeCalls
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
-from rebsync.reverse.analysis.problems import Problem, ProblemNotes
+from rebsync.reverse.analysis.problems import TERMINATES, Problem, ProblemNotes
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import walk
@@ -340,7 +340,7 @@ class OutcomeWalk:
 
     def _catches(self, handler: s.Handler, problem: Problem) -> bool:
         """Whether a handler is for what a place raises."""
-        if not problem.raises:
+        if problem.raises in ("", TERMINATES):
             return False
         if handler.types is None:
             return True

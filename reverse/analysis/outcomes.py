@@ -22,7 +22,7 @@ from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcome_statements import ENDLESS, OutcomeWalk
-from rebsync.reverse.analysis.problems import Problem, ProblemNotes
+from rebsync.reverse.analysis.problems import TERMINATES, Problem, ProblemNotes
 from rebsync.reverse.analysis.silent_calls import SilentCalls
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -81,6 +81,11 @@ class OutcomeAnalysis:
         """What the statements of a function at a place may do besides to compute."""
         return self._of_body(replace(function, body=tuple(_within(function.body, span))))
 
+    def raised_by(self, function: Function, span: Span) -> frozenset[Problem]:
+        """The exceptions of statements at a place that leave the function, or end the program."""
+        found = {p for p in self.of_statements(function, span) if p.raises}
+        return found & self.of(function.name) if found else frozenset()
+
     def _of_body(self, function: Function) -> frozenset[Problem]:
         notes = ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)
         walk_ = OutcomeWalk(notes, self.of, self.iterators)
@@ -100,7 +105,7 @@ class OutcomeAnalysis:
                 if name in self._endless:
                     notes.take({Problem(name, self.program.function(name).place, ENDLESS)})
         if function.noexcept:
-            return frozenset(replace(problem, raises="") for problem in notes.found)
+            return frozenset(replace(p, raises=p.raises and TERMINATES) for p in notes.found)
         return frozenset(notes.found)
 
     @cached_property

@@ -13,12 +13,15 @@ from rebsync.reverse.ir.program import Function
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.source import Span
 
+TERMINATES = "std::terminate"  # what an exception becomes that would leave a `noexcept` function
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:
     """A place in a function; `raises` is the exception that is raised there, if one is.
 
-    Nothing catches what has none: it does not end, acts, or has no lowering.
+    Nothing catches what has none: it does not end, acts, or has no lowering. Nor does anything
+    catch `TERMINATES`.
     """
 
     function: str

@@ -11,6 +11,7 @@ from tree_sitter import Node
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.cpp.functions import lambda_names
 from rebsync.reverse.ir.cpp.lowering import CppLowering
@@ -60,6 +61,11 @@ class CppForm:
     @cached_property
     def _locks(self) -> HeldLocks:
         return HeldLocks(self._origins)
+
+    @cached_property
+    def _outcomes(self) -> OutcomeAnalysis:
+        table = LibraryOutcomes(Language.CPP, frozenset(self._code.macros))
+        return OutcomeAnalysis(self._lowering.program(), table, lambda name: False)
 
     @cached_property
     def _functions(self) -> dict[int, FunctionSymbol]:
@@ -120,6 +126,15 @@ class CppForm:
         """Whether a loop in a function ends, if what stands in it does."""
         name = self._around(loop)
         return name is not None and self._loops.ends(name, cpp.span(loop))
+
+    def raises(self, cpp: Cpp, statement: Node) -> str | None:
+        """What an exception is that a statement of a function may end with; None if it has none."""
+        name = self._around(statement)
+        if name is None:
+            return None
+        function = self._lowering.program().function(name)
+        found = self._outcomes.raised_by(function, cpp.span(statement))
+        return min((p.why for p in found), default=None)
 
     def _around(self, node: Node) -> str | None:
         """The name of the function or lambda that a node stands in; None if it is in none."""

@@ -333,6 +333,10 @@ class Scope:
     macros: Mapping[str, Sequence[Node]] = field(default_factory=dict, compare=False, repr=False)
     # Whether a loop ends, by the form.
     ends: Callable[[Cpp, Node], bool] | None = field(default=None, compare=False, repr=False)
+    # What a statement may throw, by the form.
+    raises: Callable[[Cpp, Node], str | None] | None = field(
+        default=None, compare=False, repr=False
+    )
 
     def carried(self, node: Node) -> Carried | None:
         """What the model keeps of a type, or None if it has nothing like it."""

@@ -397,4 +397,5 @@ class Classes:
             messages=self.messages,
             unit=self.unit,
             ends=self.form.ends,
+            raises=self.form.raises,
         )

@@ -38,6 +38,8 @@ class Raises(Enum):
 
     ANY = "any"
     NEGATIVE = "a first one that may be negative"
+    COUNT = "a first one that is a number of elements, and may be negative"
+    POSITION = "a first one that is a number, and no zero"
     NO_DEFAULT = "no second one, which would be given instead"
     ZERO_STEP = "a third one that may be zero"
     INFINITE = "a first one that may be no number, or greater than all"
@@ -91,10 +93,15 @@ RULES = (
     OutcomeRule("memcpy memset memmove memcmp strlen strcmp strncmp getenv to_string quoted"),
     OutcomeRule("atof atoi atol strtol strtod strtof strtoul isdigit isalpha isspace toupper"),
     OutcomeRule("tolower snprintf sprintf printf puts fprintf fputs fflush putchar time difftime"),
-    OutcomeRule("make_unique make_shared unique_ptr shared_ptr static_pointer_cast"),
+    OutcomeRule("unique_ptr shared_ptr static_pointer_cast"),
+    OutcomeRule(
+        "vector deque list forward_list string wstring basic_string make_unique make_shared new",
+        raises="std::length_error",
+        when=Raises.COUNT,
+    ),
     OutcomeRule("dynamic_pointer_cast in_place nullopt make_optional optional numeric_limits"),
-    OutcomeRule("vector deque list array map set unordered_map unordered_set multimap multiset"),
-    OutcomeRule("queue stack priority_queue string string_view bitset initializer_list span"),
+    OutcomeRule("array map set unordered_map unordered_set multimap multiset"),
+    OutcomeRule("queue stack priority_queue string_view bitset initializer_list span"),
     OutcomeRule("mutex recursive_mutex shared_mutex atomic atomic_bool atomic_int atomic_flag"),
     OutcomeRule("lock_guard scoped_lock unique_lock shared_lock condition_variable hash less"),
     OutcomeRule("greater plus minus equal_to function ifstream ofstream fstream stringstream"),
@@ -284,7 +291,13 @@ RULES = (
     OutcomeRule(".test", raises="std::out_of_range"),
     OutcomeRule("std::atomic.test"),
     OutcomeRule(".erase std::vector.erase", size=Size.ANY),
-    OutcomeRule("std::map.erase std::set.erase std::string.erase", size=Size.ANY),
+    OutcomeRule("std::map.erase std::set.erase", size=Size.ANY),
+    OutcomeRule(
+        "std::string.erase std::string.insert std::string.replace std::string.compare",
+        raises="std::out_of_range",
+        size=Size.ANY,
+        when=Raises.POSITION,
+    ),
     OutcomeRule(
         "std::vector.at std::array.at std::map.at std::string.at", raises="std::out_of_range"
     ),

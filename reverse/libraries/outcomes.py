@@ -67,6 +67,8 @@ class LibraryOutcomes:
         name = name.removeprefix("::")
         if name in self.opaque or name.partition(".")[0] in self.opaque:
             return CallOutcome(acts="what it stands for is not known")
+        if name == outcome_classes.UNKNOWN_CLASS:
+            return CallOutcome(frozenset({"an exception"}), when=Raises.COUNT)
         known = self._named.get(name)
         if known is None and self.language is Language.CPP:
             known = self._named.get(name.partition("<")[0].removeprefix("std::"))

@@ -150,6 +150,7 @@ class Bodies:
             server=server,
             unit=self.setup.times.unit,
             ends=self.common.form(self.code).ends,
+            raises=self.common.form(self.code).raises,
         )
 
     def _own_members(self) -> Mapping[str, Member]:

@@ -21,6 +21,7 @@ from rebsync.reverse.ir.cpp.conversions import converted
 from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
 from rebsync.reverse.ir.cpp.objects import class_of, implicitly
 from rebsync.reverse.ir.cpp.types import SIZE, Declared, ReferenceKind
+from rebsync.reverse.ir.dump_types import dump_type
 from rebsync.reverse.ir.operators import Conversion
 from rebsync.reverse.syntax.cpp_tree import named, part
 from rebsync.source import Span
@@ -170,7 +171,8 @@ def _created_value(
     values = [lower_value(context, n) for n in inner]
     arguments = tuple(s.CallArgument(v.expression) for v in values)
     target = context.temporary(pointer, place)
-    name = f"new {type_.name}" if isinstance(type_, t.Record | t.RosMessage) else "new"
+    is_record = isinstance(type_, t.Record | t.RosMessage)
+    name = f"new {type_.name}" if is_record else f"new<{dump_type(type_)}>"
     context.emit(s.Call(target, s.LibraryCallee(name), arguments, place))
     return Value(target, pointer)
 

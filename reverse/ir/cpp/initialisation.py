@@ -104,6 +104,9 @@ def by_arguments(
     if isinstance(type_, t.Record | t.RosMessage | t.Unknown):
         context.world.call_library(context, target, type_, nodes, place)
         return
+    if isinstance(type_, t.Text) and len(nodes) == 2:
+        _repeated(context, target, nodes, place)
+        return
     if len(nodes) != 1:
         raise Unlowered("a construction by arguments that is not known")
     by_value(context, target, type_, lower_value(context, nodes[0]), place)
@@ -150,6 +153,16 @@ def _filled(
         fill = found
     arguments = (s.CallArgument(count), s.CallArgument(fill))
     context.emit(s.Call(target, s.LibraryCallee("std::vector"), arguments, place))
+
+
+def _repeated(context: Context, target: e.Lvalue, nodes: Sequence[Node], place: Span) -> None:
+    """`std::string s(count, 'x');`."""
+    count, letter = (lower_value(context, node) for node in nodes)
+    if not isinstance(count.type, t.Integer) or not isinstance(letter.type, t.Integer):
+        raise Unlowered("a construction by arguments that is not known")
+    number = implicitly(context, count, t.Integer(64, False), place).expression
+    arguments = (s.CallArgument(number), s.CallArgument(as_value(context, letter, place)))
+    context.emit(s.Call(target, s.LibraryCallee("std::string"), arguments, place))
 
 
 # --- lists in braces ([dcl.init.list]) ------------------------------------------------------------
