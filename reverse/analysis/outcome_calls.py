@@ -138,6 +138,8 @@ class OutcomeCalls:
             self.expressions.check(value, facts)
             for origin in self.origins.of(value, self.function):
                 match origin:
+                    case FunctionOrigin() if self._asks_a_node(node):
+                        pass  # it runs when a message is there; that this asks is noted
                     case FunctionOrigin(name):
                         known = self.notes.elements.get(name, 0)
                         self.notes.elements[name] = max(known, *sizes)
@@ -149,6 +151,14 @@ class OutcomeCalls:
                         self._library(node, name, outcome, None, facts)
                     case _:
                         pass
+
+    def _asks_a_node(self, node: s.Call) -> bool:
+        """Whether a method is one that asks a node for something, as to call back."""
+        match node.callee:
+            case s.MethodCallee(name=name) | s.LibraryCallee(name=name, receiver=e.Attribute()):
+                return bool(self.notes.table.method(None, name.rpartition("::")[2]).acts)
+            case _:
+                return False
 
     def _keeps_types(self, node: s.Call) -> bool:
         """Whether what is called only looks at classes that it gets, or makes plain values."""

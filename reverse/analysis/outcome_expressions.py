@@ -244,7 +244,10 @@ class OutcomeExpressions:
 
     def size(self, container: e.Expression, facts: Facts) -> int:
         """How many elements a container has at least."""
-        return max(size_of(facts, container), self.notes.counts.size(container, self.function))
+        type_ = getattr(container, "type", None)
+        length = type_.length if isinstance(type_, t.Array) else 0
+        counted = self.notes.counts.size(container, self.function)
+        return max(size_of(facts, container), counted, length)
 
     def _reads_at(self, value: e.Index, facts: Facts) -> None:
         if not value.checked or isinstance(value.index, e.Slice):

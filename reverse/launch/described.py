@@ -9,7 +9,7 @@ what is started, though every node still stands in the text.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TypeAlias
 
 from rebsync.reverse.launch.launch_python_values import called
@@ -82,15 +82,55 @@ def _given_back(
 
 
 def _beside(tree: ast.Module, given: ast.Call, names: Mapping[str, ast.expr]) -> Iterator[ast.expr]:
-    """Descriptions that are not the one that is given back, and what is added to such."""
+    """Descriptions that are not the one that is given back, and what is added to such.
+
+    What is added where the one that is given back is not made need not be added at all.
+    """
     kept = {name for name, value in names.items() if value is given}
+    added = {call for scope in _made_in(tree, given) for call in _run(scope.body)}
     for node in ast.walk(tree):
         match node:
             case ast.Call(func=ast.Attribute(value=receiver, attr="add_action")):
-                if not (isinstance(receiver, ast.Name) and receiver.id in kept):
+                if node not in added or not (
+                    isinstance(receiver, ast.Name) and receiver.id in kept
+                ):
                     yield node
             case ast.Call() if called(node) == "LaunchDescription" and node is not given:
                 yield node
+            case _:
+                pass
+
+
+def _made_in(
+    tree: ast.Module, given: ast.Call
+) -> Iterator[ast.Module | ast.FunctionDef | ast.AsyncFunctionDef]:
+    """The module or function whose own statements make a description."""
+    for scope in ast.walk(tree):
+        if isinstance(scope, ast.Module | ast.FunctionDef | ast.AsyncFunctionDef):
+            own = (n for s in _in_scope(scope) for n in _within(s))
+            if any(n is given for n in own):
+                yield scope
+
+
+def _within(node: ast.AST) -> Iterator[ast.AST]:
+    """A statement and what stands in it, without what functions and classes in it do."""
+    yield node
+    for child in ast.iter_child_nodes(node) if not isinstance(node, _SCOPES) else ():
+        yield from _within(child)
+
+
+def _run(body: Iterable[ast.stmt]) -> Iterator[ast.expr]:
+    """The expressions that run as statements of a body, under what conditions and loops say."""
+    for statement in body:
+        match statement:
+            case ast.Expr(value=value):
+                yield value
+            case ast.If(body=inner, orelse=other) | ast.While(body=inner, orelse=other):
+                yield from _run((*inner, *other))
+            case ast.For(body=inner, orelse=other):
+                yield from _run((*inner, *other))
+            case ast.With(body=inner):
+                yield from _run(inner)
             case _:
                 pass
 
