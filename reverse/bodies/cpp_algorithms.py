@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import reduce
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,8 @@ from rebsync.reverse.bodies.cpp_widths import check_whole, wide_of
 from rebsync.reverse.bodies.known_functions import takes_values
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
-from rebsync.reverse.syntax.cpp_tree import text_of
+from rebsync.reverse.syntax.cpp_declarations import CppParameter, parameters_in
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import INT, is_integer
 
 if TYPE_CHECKING:
@@ -26,6 +28,9 @@ EXTREMES = {"std::max_element": ">", "std::min_element": "<"}
 _BEGINS, _ENDS = ("begin", "cbegin"), ("end", "cend")
 _MOST = 4  # elements of which a choice is written: each one more doubles what is to be said
 _LONGEST = 32  # elements that are added up, or counted
+_TESTING = frozenset({"count_if", "any_of", "all_of", "none_of"})
+# What a lambda may capture that only looks, and is called at once: names, and the object.
+_CAPTURED = frozenset({"lambda_default_capture", "identifier", "this"})
 
 
 def dereferenced(reader: CppExpressionReader, node: Node) -> m.Expression | None:
@@ -44,7 +49,9 @@ def dereferenced(reader: CppExpressionReader, node: Node) -> m.Expression | None
 def call(
     reader: CppExpressionReader, node: Node, name: str, arguments: Sequence[Node]
 ) -> m.Expression | None:
-    """What `std::accumulate` or `std::count` gives for a whole array; None for other calls."""
+    """What a call gives that adds up, counts or tests a whole array; None for other calls."""
+    if name in _TESTING and len(arguments) == 3:
+        return _tested(reader, name, arguments)
     if name not in ("accumulate", "count") or len(arguments) != 3:
         return None
     elements = _elements(reader, arguments[:2], _LONGEST)
@@ -59,6 +66,53 @@ def call(
     tests = (binary(*operands(reader.scope, "==", x, value)) for x in elements)
     ones = [m.Paren(chosen(t, m.IntLiteral(1), m.IntLiteral(0))) for t in tests]
     return _added(ones)
+
+
+def _tested(
+    reader: CppExpressionReader, name: str, arguments: Sequence[Node]
+) -> m.Expression | None:
+    """`std::count_if`, `any_of`, `all_of` and `none_of` with a lambda that only looks."""
+    elements = _elements(reader, arguments[:2], _LONGEST)
+    tests = [_answer(reader, arguments[2], x) for x in elements or ()]
+    if not tests or None in tests:
+        return None
+    found = [m.Paren(t) for t in tests if t is not None]
+    if name == "count_if":
+        return _added([m.Paren(chosen(t, m.IntLiteral(1), m.IntLiteral(0))) for t in found])
+    operator = "&&" if name == "all_of" else "||"
+    first, *others = found
+    joined: m.Expression = reduce(lambda left, right: binary(operator, left, right), others, first)
+    return m.Unary("!", m.Paren(joined)) if name == "none_of" else joined
+
+
+def _answer(reader: CppExpressionReader, function: Node, element: m.Index) -> m.Expression | None:
+    """What a lambda of one `return` says of an element; None of one that may do more."""
+    declarator = function.child_by_field_name("declarator")
+    if function.type != "lambda_expression" or declarator is None:
+        return None
+    parameters = list(parameters_in(part(declarator, "parameters")))
+    body = named(part(function, "body"))
+    if len(parameters) != 1 or [n.type for n in body] != ["return_statement"]:
+        return None
+    if not _is_same(reader, parameters[0], element) or not named(body[0]):
+        return None
+    if any(c.type not in _CAPTURED for c in named(part(function, "captures"))):
+        return None
+    inside = reader.scope.with_locals({parameters[0].name: element})
+    alone = replace(reader, scope=inside, findings=None, inlines=None)
+    said = alone.condition(named(body[0])[0])
+    return said if is_calm(said) else None
+
+
+def _is_same(reader: CppExpressionReader, parameter: CppParameter, element: m.Index) -> bool:
+    """Whether a parameter holds what an element does, as a copy or as one that nothing changes."""
+    if not parameter.name or parameter.may_change:
+        return False
+    if parameter.type.type.startswith("placeholder") or text_of(parameter.type) == "auto":
+        return True
+    kept = reader.scope.carried(parameter.type)
+    same = type_in(reader.scope, element)
+    return kept is not None and kept.type == same and not (kept.bits or kept.wide)
 
 
 def _added(summands: Sequence[m.Expression]) -> m.Expression:

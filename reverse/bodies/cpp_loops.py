@@ -13,6 +13,9 @@ from rebsync.reverse.bodies import cpp_special
 from rebsync.reverse.bodies.building import binary, is_calm, negated
 from rebsync.reverse.bodies.cpp_algorithms import plain_type, whole_array
 from rebsync.reverse.bodies.cpp_conversions import converted_to, place_of, type_in
+from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
+from rebsync.reverse.bodies.cpp_messages import zero_of
+from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -150,7 +153,9 @@ def _element(
 
 
 def filled(reader: CppStatementReader, node: Node) -> m.Statement | None:
-    """`array.fill(x)`, or `std::fill(array.begin(), array.end(), x)`; None for other statements."""
+    """`array.fill(x)`, `array = {}` or `std::fill(array.begin(), array.end(), x)`; else None."""
+    if node.type == "assignment_expression":
+        return _emptied(reader, node)
     call = call_of(node)
     if call is None or call.name != ("fill" if call.target is not None else "std::fill"):
         return None
@@ -163,6 +168,31 @@ def filled(reader: CppStatementReader, node: Node) -> m.Statement | None:
     read = reader.expressions.stored(value, Variable("", of))
     if not is_calm(read) or _names(array) & _names(read):
         raise reader.unread(value, "this is evaluated once here, and for each element there")
+    return _set(reader, node, (array, type_), read)
+
+
+def _emptied(reader: CppStatementReader, node: Node) -> m.Statement | None:
+    """`array = {}` of a state variable of a generated class, which is a `std::array`."""
+    target, value = part(node, "left"), part(node, "right")
+    is_set = text_of(part(node, "operator")) == "=" and value.type == "initializer_list"
+    if not is_set or named(value) or not has_mailbox(reader.scope):
+        return None
+    name = text_of(target).removeprefix("this->")
+    member, type_ = reader.scope.members.get(name), plain_type(reader.expressions, target)
+    if type_ is None or member is None or resolve(reader.scope, target) != member:
+        return None
+    zero = zero_of(m.Type(type_.name))
+    return zero and _set(reader, node, (reader.expressions.read(target), type_), zero)
+
+
+def _set(
+    reader: CppStatementReader,
+    node: Node,
+    to: tuple[m.Expression, m.Type],
+    read: m.Expression,
+) -> m.Statement:
+    """A loop that gives all elements of an array one value."""
+    array, type_ = to
     counter = m.Name(reader.fresh("i"))
     initial = m.Declaration(m.Type("int"), (m.Declarator(counter.name, _ZERO),))
     bound = m.Binary("<", counter, m.IntLiteral(type_.dimensions[0]))

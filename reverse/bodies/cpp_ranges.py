@@ -258,7 +258,7 @@ def _called(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
         return _cast(cpp, scope, function, arguments)
     if plain.rpartition("::")[2] in _SIZES:
         return Ranged(64, unsigned(31))
-    if plain == "std::count":
+    if plain in ("std::count", "std::count_if"):
         return Ranged(63, unsigned(31))
     if plain in _SAME and len(arguments) == 1:
         found = range_of(cpp, scope, arguments[0])
