@@ -35,6 +35,7 @@ _DECLARED = re.compile(r'\bdeclare_parameter\s*<\s*([\w:]+)\s*>\s*\(\s*"([^"]*)"
 _STATE = re.compile(
     r"\b(?:create_publisher|advertise)\s*<\s*[\w:]*State\s*>\s*\(\s*\"[^\"]*\"\s*,([^;]*)\)\s*;"
 )
+_KEPT_LAST = re.compile(r"\brclcpp::KeepLast\((\w+)\)")
 _STOPPED = re.compile(r"~(\w+)\s*\([^;{]*\{[^}]*\bmailbox_\s*\.\s*stop\s*\(\s*\)")
 _COMPONENT = re.compile(r"\bRCLCPP_COMPONENTS_REGISTER_NODE\s*\(\s*(?:\w+\s*::\s*)*(\w+)\s*\)")
 _WHOLE = frozenset({"int", "int64_t", "std::int64_t", "long"})
@@ -111,7 +112,13 @@ def _in_ros2(source: Source, text: str) -> Iterator[Fact]:
         type_ = "int" if m[1] in _WHOLE else m[1]
         yield Fact("type of the parameter", owner[1], m[2], type_, source, Span(*m.span()))
     for m in _STATE.finditer(text):
-        quality = "".join(m[1].split())
+        quality = _plain_quality("".join(m[1].split()))
         yield Fact("quality of the state", owner[1], "", quality, source, Span(*m.span()))
     for m in _COMPONENT.finditer(text):
         yield Fact("component", m[1], "", "registered", source, Span(*m.span()))
+
+
+def _plain_quality(said: str) -> str:
+    """A quality of service in the words of generated code: `rclcpp::QoS` is reliable by itself."""
+    plain = _KEPT_LAST.sub(r"\1", said)
+    return plain if "best_effort" in plain else plain.replace(".reliable()", "")
