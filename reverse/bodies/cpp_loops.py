@@ -182,7 +182,9 @@ def _emptied(reader: CppStatementReader, node: Node) -> m.Statement | None:
     if type_ is None or member is None or resolve(reader.scope, target) != member:
         return None
     zero = zero_of(m.Type(type_.name))
-    return zero and _set(reader, node, (reader.expressions.read(target), type_), zero)
+    if zero is None:
+        return None
+    return _set(reader, node, (reader.expressions.read(target), type_), zero)
 
 
 def _set(

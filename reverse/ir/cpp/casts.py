@@ -171,8 +171,9 @@ def _created_value(
     values = [lower_value(context, n) for n in inner]
     arguments = tuple(s.CallArgument(v.expression) for v in values)
     target = context.temporary(pointer, place)
-    is_record = isinstance(type_, t.Record | t.RosMessage)
-    name = f"new {type_.name}" if is_record else f"new<{dump_type(type_)}>"
+    name = f"new<{dump_type(type_)}>"
+    if isinstance(type_, t.Record | t.RosMessage):
+        name = f"new {type_.name}"
     context.emit(s.Call(target, s.LibraryCallee(name), arguments, place))
     return Value(target, pointer)
 
