@@ -83,7 +83,7 @@ class OutcomeAnalysis:
 
     def raised_by(self, function: Function, span: Span) -> frozenset[Problem]:
         """The exceptions of statements at a place that leave the function, or end the program."""
-        found = {p for p in self.of_statements(function, span) if p.raises}
+        found = frozenset(p for p in self.of_statements(function, span) if p.raises)
         return found & self.of(function.name) if found else frozenset()
 
     def _of_body(self, function: Function) -> frozenset[Problem]:

@@ -76,7 +76,7 @@ def _tested(
     tests = [_answer(reader, arguments[2], x) for x in elements or ()]
     if not tests or None in tests:
         return None
-    found = [m.Paren(t) for t in tests if t is not None]
+    found: list[m.Expression] = [m.Paren(t) for t in tests if t is not None]
     if name == "count_if":
         return _added([m.Paren(chosen(t, m.IntLiteral(1), m.IntLiteral(0))) for t in found])
     operator = "&&" if name == "all_of" else "||"
@@ -85,7 +85,9 @@ def _tested(
     return m.Unary("!", m.Paren(joined)) if name == "none_of" else joined
 
 
-def _answer(reader: CppExpressionReader, function: Node, element: m.Index) -> m.Expression | None:
+def _answer(
+    reader: CppExpressionReader, function: Node, element: m.Expression
+) -> m.Expression | None:
     """What a lambda of one `return` says of an element; None of one that may do more."""
     declarator = function.child_by_field_name("declarator")
     if function.type != "lambda_expression" or declarator is None:
@@ -104,7 +106,7 @@ def _answer(reader: CppExpressionReader, function: Node, element: m.Index) -> m.
     return said if is_calm(said) else None
 
 
-def _is_same(reader: CppExpressionReader, parameter: CppParameter, element: m.Index) -> bool:
+def _is_same(reader: CppExpressionReader, parameter: CppParameter, element: m.Expression) -> bool:
     """Whether a parameter holds what an element does, as a copy or as one that nothing changes."""
     if not parameter.name or parameter.may_change:
         return False

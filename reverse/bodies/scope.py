@@ -160,6 +160,7 @@ class Itself:
 Endpoint: TypeAlias = Publishes | Serves | TimerOf
 Member: TypeAlias = Itself | Variable | Runtime | Outside | Record | Lambda | Endpoint
 Meaning: TypeAlias = Member | Expression
+Raising: TypeAlias = Callable[[Cpp, Node], str | None]
 
 # --- functions ----------------------------------------------------------------------------------
 
@@ -334,9 +335,7 @@ class Scope:
     # Whether a loop ends, by the form.
     ends: Callable[[Cpp, Node], bool] | None = field(default=None, compare=False, repr=False)
     # What a statement may throw, by the form.
-    raises: Callable[[Cpp, Node], str | None] | None = field(
-        default=None, compare=False, repr=False
-    )
+    raises: Raising | None = field(default=None, compare=False, repr=False)
 
     def carried(self, node: Node) -> Carried | None:
         """What the model keeps of a type, or None if it has nothing like it."""
