@@ -130,12 +130,7 @@ class Expressions(ModelExpressionReader):
         operators = [text_of(c) for c in node.children_by_field_name("operators")]
         if operands[-1].type in ("true", "false"):  # which there is one of each
             operators = [_SAME.get(operator, operator) for operator in operators]
-        are_tuples = all(operand.type == "tuple" for operand in operands)
-        if (
-            are_tuples
-            or len(operands) != 2
-            or operators[0] not in ("<", "<=", ">", ">=", "==", "!=")
-        ):
+        if len(operands) != 2 or operators[0] not in ("<", "<=", ">", ">=", "==", "!="):
             return idioms.comparison(self, node)
         level = _COMPARISON + 1
         left, right = (self._operand(o, level) for o in operands)

@@ -18,8 +18,6 @@ from rebsync.reverse.syntax.ancestors import climb
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
-# Numbers of which each is equal to itself, as one that is no number is not.
-_EXACT = tuple(map(m.Type, ("boolean", "byte", "short", "int")))
 _COMPARED = frozenset({"<", "<=", ">", ">=", "==", "!="})
 _PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})
 _AROUND = frozenset(
@@ -51,10 +49,6 @@ def comparison(reader: ModelExpressionReader, node: Node) -> m.Expression:
         pairs = [(one, "==" if is_in else "!=", other) for other in others]
         word = "||" if is_in else "&&"
         repeated = [one] * (len(others) > 1)
-    elif operators in (["=="], ["!="]) and _are_tuples(reader, operands):
-        both = [named(each) for each in operands]
-        pairs = [(left, operators[0], right) for left, right in zip(*both, strict=True)]
-        word, repeated = ("&&" if operators == ["=="] else "||"), []
     elif len(operands) > 2 and set(operators) <= _COMPARED:
         pairs = list(zip(operands, operators, operands[1:], strict=False))
         word, repeated = "&&", operands[1:-1]
@@ -70,24 +64,6 @@ def comparison(reader: ModelExpressionReader, node: Node) -> m.Expression:
         found = each if found is None else m.Binary(word, found, each, reader.py.span(node))
     assert found is not None
     return found if len(pairs) == 1 else grouped(node, found)
-
-
-def _are_tuples(reader: ModelExpressionReader, operands: list[Node]) -> bool:
-    """Whether two tuples of as many numbers are compared; to read one more of them does nothing."""
-    elements = [named(each) for each in operands if each.type == "tuple"]
-    if len(elements) != 2 or len(elements[0]) != len(elements[1]) or not elements[0]:
-        return False
-    return all(map(_only_looks, (*elements[0], *elements[1]))) and all(
-        reader.kind(reader.read(each)) in _EXACT for each in (*elements[0], *elements[1])
-    )
-
-
-def _only_looks(node: Node) -> bool:
-    """Whether to read a value does nothing, and it is there: an element is one of a number."""
-    if node.type != "subscript":
-        return is_plain(node)
-    index = node.children_by_field_name("subscript")
-    return is_plain(field(node, "value")) and [i.type for i in index] == ["integer"]
 
 
 def assert_alike(

@@ -31,7 +31,7 @@ from rebsync.reverse.python.model_types import (
     type_of,
     without_parentheses,
 )
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.statements import UNREADABLE
 
 _AGAIN = re.compile(r"(.+?)__\d+\Z")
@@ -268,16 +268,10 @@ class Statements(ModelStatementReader):
         return re.fullmatch(r"case\d*_\.goes_on", text_of(field(node, "condition"))) is not None
 
     def _for(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
-        last = node.child_by_field_name("alternative")
-        if last is None:
-            return self._loop(node, before)
-        if any(n.type == "break_statement" for n in nodes_in(field(node, "body"))):
-            raise self.expressions.unread(node, "the model has no such loop")
-        return [*self._loop(node, before), *self.branch(field(last, "body")).statements]
-
-    def _loop(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         called, arguments = call_parts(field(node, "right")) or ("", [])
         name = text_of(field(node, "left"))
+        if node.child_by_field_name("alternative") is not None:
+            raise self.expressions.unread(node, "the model has no such loop")
         if called == "switch" and len(arguments) == 1:
             return [self._switch(node, name, arguments[0])]
         if called == "rounds":
