@@ -75,6 +75,8 @@ def _is_cut_or_plain(node: Node) -> bool:
     called, arguments = call_parts(node) or ("", [])
     if called in ("min", "max") and len(arguments) > 1:
         return all(map(_is_cut_or_plain, arguments))
+    if called in ("min", "max") and len(arguments) == 1:  # of an array, a list, or what makes one
+        return is_plain(arguments[0]) or is_plain_list(arguments[0]) or is_calm(arguments[0])
     return is_plain(node) or (called in _CUTS and all(map(is_plain, arguments)))
 
 
