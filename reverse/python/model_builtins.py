@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies import building
 from rebsync.reverse.bodies.building import binary, chosen, negated, selected
 from rebsync.reverse.python.model_idioms import grouped, is_plain, truth, type_of
 from rebsync.reverse.python.model_types import call_parts
@@ -293,6 +294,8 @@ def _extreme(
     kinds = {reader.kind(value) for value in values}
     if len(kinds) != 1 or kinds & {None, m.Type("boolean")} or not values:
         raise reader.unread(node, f'nobody knows of which type "{called}" is here')
+    if not all(map(building.is_calm, values)):  # each is said more than once
+        raise reader.unread(node, "what this compares is to be in a variable first")
     return _first(reader, node, called, values, lambda value: value)
 
 

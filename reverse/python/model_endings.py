@@ -11,6 +11,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.python import model_builtins as builtins
+from rebsync.reverse.python.model_failing import may_fail
 from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of, whole_number_of
 from rebsync.reverse.syntax.ancestors import ancestors, climb
@@ -28,6 +29,8 @@ def with_else(
 ) -> list[m.Statement]:
     """A loop, and what its `else` does if no `break` ends it: a variable tells that one did."""
     alternative = node.child_by_field_name("alternative")
+    if alternative is not None and _is_silent(reader, field(alternative, "body")):
+        alternative = None
     if alternative is None or not _breaks(field(node, "body")):
         with leaving(reader):
             loop = read()
@@ -91,6 +94,12 @@ def _behind(reader: ModelStatementReader, alternative: Node | None) -> tuple[m.S
     block = reader.branch(field(alternative, "body"))
     has_locals = any(isinstance(s, m.Local) for s in block.statements)
     return (block,) if has_locals else block.statements
+
+
+def _is_silent(reader: ModelStatementReader, block: Node) -> bool:
+    """Whether a block only tells people something."""
+    silent = reader.expressions.names.silent
+    return all(silent.holds(n) and not may_fail(reader.expressions, n) for n in named(block))
 
 
 def _breaks(node: Node) -> bool:

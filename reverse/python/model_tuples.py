@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary
+from rebsync.reverse.bodies.building import binary, is_calm
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_kinds import is_floating
 from rebsync.reverse.python.py_tree import field, named, text_of, whole_number_of
@@ -38,6 +38,8 @@ def compared(reader: ModelExpressionReader, node: Node, operator: str) -> m.Expr
     read = [(reader.read(one), reader.read(other)) for one, other in pairs]
     for sides in read:
         kinds = [reader.kind(side) for side in sides]
+        if not all(map(is_calm, sides)):  # a property runs a function
+            raise reader.unread(node, "what this does may count for what it is compared with")
         if any(kind is None or is_floating(kind) or kind.dimensions for kind in kinds):
             raise reader.unread(node, "the model has no such comparison")
         idioms.assert_alike(reader, node, operator, sides)
