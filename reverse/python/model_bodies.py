@@ -21,6 +21,8 @@ from rebsync.reverse.analysis.writes import own as hidden
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.sensors import list_unseen
+from rebsync.reverse.python import model_defaults as defaults
+from rebsync.reverse.python.attribute_names import is_private
 from rebsync.reverse.python.model_expressions import Expressions
 from rebsync.reverse.python.model_filled import fillings_of
 from rebsync.reverse.python.model_helpers import called_in, first_of, own_name, without_object
@@ -200,6 +202,9 @@ class ModelBodies:
         names = self.names(owner)
         if function.module is not owner.module:
             names = replace(names, constants=NamedConstants(self.named, function.module))
+        if not function.is_method:
+            shown = {a: v for a, v in names.variables.items() if not is_private(a)}
+            names = replace(names, variables=shown)
         expressions = Expressions(function.py, names, own=self._own(owner, function))
         return Statements(expressions, self.findings, within, self.types)
 
@@ -227,6 +232,8 @@ class ModelBodies:
         for node, type_ in zip(nodes, types, strict=True):
             said = node.child_by_field_name("type")
             is_plain = node.type in ("identifier", "typed_parameter")
+            if defaults.has_constant(node):
+                is_plain = self._is_given_all(owner, function, len(nodes))
             found = (type_of(said) if said is not None else type_) if is_plain else None
             yield node, found
 
@@ -239,6 +246,12 @@ class ModelBodies:
                     types = list(self._passed(roles.functions[shim]))
                     return types if len(types) == count else [None] * count
         return [None] * count
+
+    def _is_given_all(self, owner: Scope, function: Scope, count: int) -> bool:
+        """Whether a function serves messages, and whoever names it gives it all that it takes."""
+        bodies = (f.node for c in self.line(owner) for f in self.roles(c).functions.values())
+        is_server = self.served(owner, function) is not None
+        return is_server and defaults.is_given_all(function.name, bodies, count)
 
     def _passed(self, shim: Scope) -> Iterator[m.Type | None]:
         message = named(field(shim.node, "parameters"))[-1]
@@ -264,6 +277,7 @@ class ModelBodies:
         types: dict[str, m.Type] = {}
         for above in reversed(self.line(owner)):
             roles = self.roles(above)
+            variables = {a: v for a, v in variables.items() if not is_private(a)}
             variables |= {a: v[0] for a, v in (roles.state | roles.known).items()}
             variables |= {a: e.name for a, e in roles.env.items()}
             types |= {v[0]: v[1] for v in (roles.state | roles.known).values()}

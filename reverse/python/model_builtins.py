@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies import building
 from rebsync.reverse.bodies.building import binary, chosen, negated, selected
 from rebsync.reverse.python.model_idioms import grouped, is_plain, truth, type_of
 from rebsync.reverse.python.model_types import call_parts
@@ -75,6 +76,8 @@ def _is_cut_or_plain(node: Node) -> bool:
     called, arguments = call_parts(node) or ("", [])
     if called in ("min", "max") and len(arguments) > 1:
         return all(map(_is_cut_or_plain, arguments))
+    if called in ("min", "max") and len(arguments) == 1:  # of an array, a list, or what makes one
+        return is_plain(arguments[0]) or is_plain_list(arguments[0]) or is_calm(arguments[0])
     return is_plain(node) or (called in _CUTS and all(map(is_plain, arguments)))
 
 
@@ -291,6 +294,8 @@ def _extreme(
     kinds = {reader.kind(value) for value in values}
     if len(kinds) != 1 or kinds & {None, m.Type("boolean")} or not values:
         raise reader.unread(node, f'nobody knows of which type "{called}" is here')
+    if not all(map(building.is_calm, values)):  # each is said more than once
+        raise reader.unread(node, "what this compares is to be in a variable first")
     return _first(reader, node, called, values, lambda value: value)
 
 

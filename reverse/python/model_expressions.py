@@ -15,6 +15,8 @@ from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_closures as closures
 from rebsync.reverse.python import model_formats as formats
 from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python import model_tuples as tuples
+from rebsync.reverse.python.attribute_names import is_private
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_helpers import arguments_for
 from rebsync.reverse.python.model_kinds import float_literal
@@ -132,6 +134,8 @@ class Expressions(ModelExpressionReader):
             operators = [_SAME.get(operator, operator) for operator in operators]
         if len(operands) != 2 or operators[0] not in ("<", "<=", ">", ">=", "==", "!="):
             return idioms.comparison(self, node)
+        if (found := tuples.compared(self, node, operators[0])) is not None:
+            return found
         level = _COMPARISON + 1
         left, right = (self._operand(o, level) for o in operands)
         idioms.assert_alike(self, node, operators[0], (left, right))
@@ -248,6 +252,7 @@ class Expressions(ModelExpressionReader):
 
     def _call(self, node: Node) -> m.Expression:
         called, arguments = call_parts(node) or ("", [])
+        called = self.kept_sends.get(called, called)
         if called in self.closures:
             return closures.value_of_call(self, node, called, arguments)
         if called in formats.FORMATS and len(arguments) == 1:
@@ -294,7 +299,7 @@ class Expressions(ModelExpressionReader):
             case "put", 3:
                 name = string_value(arguments[1]) or ""
                 variable = self.names.variables.get(name)
-                if variable is None:
+                if variable is None or is_private(name):  # a text is what it says, in any class
                     raise self.unread(node, f'the model has no variable "{name}"')
                 hidden = variable in self.locals.values()
                 target = m.Member(m.Self(span), variable) if hidden else m.Name(variable, span)

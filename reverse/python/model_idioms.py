@@ -9,7 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.writes import array_of, is_own, own
-from rebsync.reverse.bodies.building import binary, located
+from rebsync.reverse.bodies.building import binary, is_calm, located
 from rebsync.reverse.python.model_cuts import other_division
 from rebsync.reverse.python.model_kinds import is_floating
 from rebsync.reverse.python.py_tree import calls_in, field, is_asked, named, text_of
@@ -59,6 +59,8 @@ def comparison(reader: ModelExpressionReader, node: Node) -> m.Expression:
     found = None
     for left, operator, right in pairs:
         read = reader.read(left), reader.read(right)
+        if not all(is_calm(r) for n, r in zip((left, right), read, strict=True) if n in repeated):
+            raise reader.unread(node, "a property may do something each time that it is asked")
         assert_alike(reader, node, operator, read)
         each = binary(operator, *read, reader.py.span(node))
         found = each if found is None else m.Binary(word, found, each, reader.py.span(node))

@@ -58,6 +58,16 @@ def named_lambda(reader: ModelStatementReader, left: Node, value: Node) -> bool:
     return True
 
 
+def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> bool:
+    """Whether `send = self.send_self_m` was taken for another name of what sends."""
+    holder, _, name = text_of(value).rpartition(".")
+    is_send = holder == "self" == reader.expressions.own and name in reader.expressions.names.sends
+    if left.type != "identifier" or not is_send or not _is_bound_once(value, text_of(left)):
+        return False
+    reader.expressions.kept_sends[text_of(left)] = text_of(value)
+    return True
+
+
 def _parameters(function: Node) -> tuple[tuple[str, m.Type | None], ...] | None:
     """The parameters with the types that they are said to have; None if some have more to them."""
     listed = function.child_by_field_name("parameters")

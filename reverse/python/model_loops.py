@@ -27,6 +27,10 @@ _LEAVING = frozenset({"break_statement", "continue_statement", "function_definit
 def counted(reader: ModelStatementReader, node: Node, name: str) -> m.For:
     """`for i in range(...)`."""
     start, end, step = idioms.rounds(reader.expressions, node)
+    if reader.lasting:  # the variable keeps its last value, and not the one that ends the loop
+        index = _free(reader, node, name)
+        body = _round(reader, node, [], index, [(name, m.Type("int"), m.Name(index))])
+        return _for(reader, node, index, start, end, step, body)
     body = _counting(reader, node, name)
     return _for(reader, node, reader.local(name), start, end, step, body)
 
@@ -143,6 +147,7 @@ def _round(
 ) -> m.Block:
     """The body of a loop that begins with what its variables are this time."""
     body, known = field(node, "body"), reader.expressions.locals
+    lasting, reader.lasting = reader.lasting, ""
     names = [(name, type_) for name, type_, _ in first] + counting
     taken = {*known, *idioms.stored_in(body)}
     if not all(n.isidentifier() and n not in taken for n, _ in names):
@@ -152,12 +157,15 @@ def _round(
         known[name] = reader.local(name)
         reader.expressions.types[known[name]] = type_
     found = reader.suite(body)
-    declared = tuple(
-        m.Local(m.Declaration(type_, (m.Declarator(known[name], value),)))
+    declared: tuple[m.Statement, ...] = tuple(
+        m.ExpressionStatement(m.Assign("=", m.Name(known[name]), value))
+        if name == lasting
+        else m.Local(m.Declaration(type_, (m.Declarator(known[name], value),)))
         for name, type_, value in first
     )
     for name, _ in names:
-        del known[name]
+        if name != lasting:
+            del known[name]
     del known[f"index of {names[0][0]}"]
     return replace(found, statements=(*declared, *found.statements))
 

@@ -23,7 +23,8 @@ class ModelStatementReader(ABC):
 
     `hoisted` are the locals that a switch declares before it, `cases` the names of the switches
     around a statement, innermost last. `implied` are the locals of a block without a type, `inner`
-    are functions within.
+    are functions within. `broken` is the variable that tells that the innermost loop was left by a
+    `break`, if its `else` asks; `lasting` the variable of a loop that is read behind it.
     """
 
     expressions: Expressions
@@ -34,6 +35,8 @@ class ModelStatementReader(ABC):
     cases: list[str] = with_default(default_factory=list)
     implied: set[str] = with_default(default_factory=set)
     inner: dict[str, Closure] = with_default(default_factory=dict)
+    broken: str = ""
+    lasting: str = ""
 
     def in_order(self, store: m.Expression) -> None:
         """Lists an assignment if its value has to be known after what it stores into."""
@@ -53,12 +56,15 @@ class ModelStatementReader(ABC):
     def branch(self, node: Node) -> m.Block:
         """A block. What it names first nobody knows behind it."""
         outer, closures = self.implied, self.expressions.closures
+        sends = self.expressions.kept_sends
+        self.expressions.kept_sends = dict(sends)
         inner, self.inner = self.inner, dict(self.inner)
         self.implied, self.expressions.closures = set(), dict(closures)
         found = self.block(named(node), node)
         for name in self.implied:
             self.expressions.locals.pop(name, None)
         self.implied, self.expressions.closures, self.inner = outer, closures, inner
+        self.expressions.kept_sends = sends
         return found
 
     @abstractmethod

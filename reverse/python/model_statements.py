@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 from tree_sitter import Node
 
@@ -13,6 +14,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.building import bare, cell
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_aliases as aliases
+from rebsync.reverse.python import model_endings as endings
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python import model_inner as inner_functions
 from rebsync.reverse.python import model_loops as loops
@@ -127,9 +129,8 @@ class Statements(ModelStatementReader):
                 return self._if(node)
             case "match_statement":
                 return loops.match(self, node)
-            case "while_statement" if node.child_by_field_name("alternative") is None:
-                condition = self.expressions.condition(field(node, "condition"))
-                return [m.While(condition, self.suite(field(node, "body")), span=span)]
+            case "while_statement":
+                return endings.with_else(self, node, lambda: self._while(node))
             case "for_statement":
                 return self._for(node, before)
             case "with_statement" if "block()" in text_of(node).partition(":")[0]:
@@ -139,7 +140,7 @@ class Statements(ModelStatementReader):
             case "return_statement":
                 return self._return(node)
             case "break_statement":
-                return [m.Break(span=span)]
+                return [*endings.noted(self), m.Break(span=span)]
             case "continue_statement":
                 return [m.Continue(span=span)]
             case _:
@@ -192,6 +193,8 @@ class Statements(ModelStatementReader):
         if name in self.hoisted:
             return [self._declared(name, self.hoisted.pop(name), value, node)]
         if inner_functions.named_lambda(self, left, value):
+            return []
+        if inner_functions.kept_send(self, left, value):
             return []
         if value.type == "assignment":
             return stored.chained(self, node)
@@ -270,17 +273,29 @@ class Statements(ModelStatementReader):
     def _for(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         called, arguments = call_parts(field(node, "right")) or ("", [])
         name = text_of(field(node, "left"))
-        if node.child_by_field_name("alternative") is not None:
+        is_switch = called == "switch" and len(arguments) == 1
+        if not is_switch and called != "rounds":
+            through = partial(self._through, node, called, arguments)
+            return endings.with_else(self, node, lambda: endings.with_last(self, node, through))
+        if node.child_by_field_name("alternative") is not None:  # which what ends it would skip
             raise self.expressions.unread(node, "the model has no such loop")
-        if called == "switch" and len(arguments) == 1:
-            return [self._switch(node, name, arguments[0])]
-        if called == "rounds":
+        with endings.leaving(self):
+            if is_switch:
+                return [self._switch(node, name, arguments[0])]
             return [self._rounds(node, name, before)]
+
+    def _through(self, node: Node, called: str, arguments: list[Node]) -> m.Statement:
+        """A loop of Python through numbers or values."""
+        name = text_of(field(node, "left"))
         if called == "range":
-            return [loops.counted(self, node, name)]
-        if (found := loops.through(self, node, called, arguments)) is not None:
-            return [found]
-        return [loops.each(self, node, name)]
+            return loops.counted(self, node, name)
+        found = loops.through(self, node, called, arguments)
+        return found if found is not None else loops.each(self, node, name)
+
+    def _while(self, node: Node) -> list[m.Statement]:
+        condition = self.expressions.condition(field(node, "condition"))
+        span = self.expressions.py.span(node)
+        return [m.While(condition, self.suite(field(node, "body")), span=span)]
 
     def _rounds(self, node: Node, name: str, before: list[m.Statement]) -> m.For:
         """`for again_ in rounds():` with its step and its condition first."""

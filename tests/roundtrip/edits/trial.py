@@ -31,7 +31,7 @@ FILES = (
     *("messages.toml", "natural.toml", "natural_python.toml"),
     *("natural_rclpy.toml", "natural_sensors.toml", "joined.toml", "months.toml"),
     *("early.toml", "compiled_python.toml", "compiled_cpp.toml", "sensors.toml"),
-    *("helpers_python.toml", "helpers_cpp.toml", "builds.toml"),
+    *("helpers_python.toml", "helpers_cpp.toml", "builds.toml", "spelt_python.toml"),
     *("gate_cpp.toml", "gate_python.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
