@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rebsync import model as m
+from rebsync import precedence
 from rebsync.forward.cpp_names import CppNames
 from rebsync.forward.cpp_operands import (
     bare,
+    enclosed,
     float_literal,
     is_bitwise,
     is_distance,
@@ -43,6 +45,7 @@ _CLOCK = {
 _NARROW = {"byte": 2**7, "short": 2**15}
 _EXACT = 2**24  # integers below are floats as well
 _SHIFTS = {"<<": "shiftLeft", ">>": "shiftRight"}
+_OPERATIONS = {"/": "divide", "%": "remainder", **_SHIFTS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +92,8 @@ class CppExpressions:
             case m.Binary():
                 return self._binary(expression)
             case m.InstanceOf(operand, type_):
-                return f'mailbox_.isA({self.text(operand)}, "{graph_name(type_.name)}")'
+                text = self.text(enclosed(operand, precedence.BINARY["instanceof"]))
+                return f'mailbox_.isA({text}, "{graph_name(type_.name)}")'
             case m.Conditional(condition, then, otherwise):
                 return f"{self.text(condition)} ? {self.text(then)} : {self.text(otherwise)}"
             case m.Choice():
@@ -190,23 +194,34 @@ class CppExpressions:
         return f"{array}[{indices[-1]}]" if is_there else f"{array}.at({indices[-1]})"
 
     def _cast(self, type_: m.Type, operand: m.Expression) -> str:
+        text = self.text(enclosed(operand, precedence.CAST))
         if type_.name in self.class_types:
-            return f"as<{self.class_types[type_.name]}>({self.text(operand)})"
-        return f"static_cast<{cpp_type(type_)}>({self.text(operand)})"
+            return f"as<{self.class_types[type_.name]}>({text})"
+        return f"static_cast<{cpp_type(type_)}>({text})"
 
     def _binary(self, expression: m.Binary) -> str:
         operator, left, right = expression.operator, expression.left, expression.right
         if operator not in ("&&", "||") and conflicting((left, right), self.analysis):
             operands = [self.text(left), self.text(right)]
             return self._in_order(operands, self._operation(expression, "op1_", "op2_"))
+        if self._is_call(expression):
+            level = precedence.BINARY[operator]
+            sides = (enclosed(left, level), enclosed(right, level + 1))
+            texts = [self.text(side) for side in sides]
+            if not looks_like_template(sides, texts):
+                return self._operation(expression, *texts)
         return self._operation(expression, self.text(left), self.text(right))
+
+    def _is_call(self, expression: m.Binary) -> bool:
+        """Whether an operation is a function of the run-time part."""
+        if expression.operator in _SHIFTS:
+            return not is_distance(expression.right)
+        return expression.operator in ("/", "%") and self._needs_check(expression)
 
     def _operation(self, expression: m.Binary, left: str, right: str) -> str:
         operator = expression.operator
-        if operator in _SHIFTS and not is_distance(expression.right):
-            return f"{_SHIFTS[operator]}({left}, {right})"
-        if operator in ("/", "%") and self._needs_check(expression):
-            return f"{'divide' if operator == '/' else 'remainder'}({left}, {right})"
+        if self._is_call(expression):
+            return f"{_OPERATIONS[operator]}({left}, {right})"
         return f"{left} {operator} {right}"
 
     def _needs_check(self, expression: m.Binary) -> bool:
@@ -254,10 +269,8 @@ class CppExpressions:
             )
         operator = expression.operator[:-1]
         result = f"op2_ {operator} op3_"
-        if operator in ("/", "%"):
-            result = f"{'divide' if operator == '/' else 'remainder'}(op2_, op3_)"
-        if operator in _SHIFTS:
-            result = f"{_SHIFTS[operator]}(op2_, op3_)"
+        if operator in _OPERATIONS:
+            result = f"{_OPERATIONS[operator]}(op2_, op3_)"
         stores = f"auto& op1_ = {target}; const auto op2_ = op1_; const auto op3_ = {value};"
         return f"[&] {{ {stores} return op1_ = static_cast<{cpp_type(type_)}>({result}); }}()"
 

@@ -143,19 +143,21 @@ def _self_sends(c: CppClass) -> Iterator[SelfSend]:
 def _send(c: CppClass, publisher: Publisher) -> Piece:
     place = publisher_place(publisher)
     member, message = c.names.publishers[place], publisher.message
-    passed = _passed(c, publisher.parameters)
+    parameters = publisher.parameters
+    msg, when, rebec = (c.names.beside(n, parameters) for n in ("msg", "when", "recipient"))
+    passed = _passed(c, parameters, when)
     where = member
     if publisher.known is None:
-        passed.insert(0, "const std::string& to_")
-        where = f"to({member}, to_)"
-    lines = [f"{c.words.message(message.name)} msg_;"]
+        passed.insert(0, f"const std::string& {rebec}")
+        where = f"to({member}, {rebec})"
+    lines = [f"{c.words.message(message.name)} {msg};"]
     lines += [
-        stored_in("msg_.", f, c.names.local(p.name))
-        for f, p in zip(message.fields, publisher.parameters, strict=True)
+        stored_in(f"{msg}.", f, c.names.local(p.name))
+        for f, p in zip(message.fields, parameters, strict=True)
     ]
     if message.carries_sender:
-        lines.append("msg_.sender = mailbox_.self();")
-    lines.append(f"mailbox_.publish({where}, msg_, when_);")
+        lines.append(f"{msg}.sender = mailbox_.self();")
+    lines.append(f"mailbox_.publish({where}, {msg}, {when});")
     marker = f"send {c.node.name}.{publisher.known or publisher.target}.{publisher.server}"
     return _helper(c, c.names.sends[place], passed, lines, marker)
 
@@ -165,25 +167,27 @@ def _self_send(c: CppClass, send: SelfSend) -> Piece:
     text = f"text({', '.join(names)})" if names else '""'
     call = _called(c, send.server, send.parameters, names)
     body = f"[=] {{ {call}({', '.join(names)}); }}"
-    arguments = [c.names.servers[send.key], "when_", text, body]
+    when = c.names.beside("when", send.parameters)
+    arguments = [c.names.servers[send.key], when, text, body]
     lines = call_lines("mailbox_.post", arguments, ";")
     marker = f"send {c.node.name}.self.{send.server}"
     helper = c.names.self_sends[send.key]
-    return _helper(c, helper, _passed(c, send.parameters), lines, marker, send.key)
+    return _helper(c, helper, _passed(c, send.parameters, when), lines, marker, send.key)
 
 
-def _passed(c: CppClass, parameters: tuple[Parameter, ...]) -> list[str]:
-    return [f"{parameter_type(p.type)} {c.names.local(p.name)}" for p in parameters]
+def _passed(c: CppClass, parameters: tuple[Parameter, ...], when: str) -> list[str]:
+    """What a helper takes: the arguments of the message, and when it arrives and expires."""
+    own = [f"{parameter_type(p.type)} {c.names.local(p.name)}" for p in parameters]
+    return [*own, f"const When& {when}"]
 
 
 def _helper(
     c: CppClass, name: str, passed: list[str], lines: list[str], marker: str, key: str = ""
 ) -> Piece:
-    declared = [*passed, "const When& when_ = When()"]
-    defined = [*passed, "const When& when_"]
+    declared = [*passed[:-1], f"{passed[-1]} = When()"]
     before, _, after = _qualified(c, key, "|").partition("|")
     definition = [f"// rebsync: {marker}"]
-    definition += braced(call_lines(f"void {c.type_name}::{name}", defined, ""), lines)
+    definition += braced(call_lines(f"void {c.type_name}::{name}", passed, ""), lines)
     declaration = call_lines(f"{before}void {name}", declared, after, "  ")
     return Piece(marker, tuple(declaration), tuple(definition))
 

@@ -31,6 +31,14 @@ class CppNames(ClassNames):
         """A local variable or parameter: the model's own name where it hides nothing."""
         return carry_local(name, RESERVED | self.types | self.callable, self.callable)
 
+    def beside(self, name: str, parameters: tuple[Parameter, ...]) -> str:
+        """A variable of a helper itself beside the parameters, which carry names of the model.
+
+        What the model's names take, it leaves to them: none of those ends in an underscore.
+        """
+        taken = self.types | self.callable | {self.local(p.name) for p in parameters}
+        return f"{name}_" if name in taken else name
+
     def argument(self, name: str) -> str:
         """A parameter of the class's constructor."""
         return carry(name, RESERVED | self.types | self.callable | OF_CONSTRUCTOR)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rebsync import model as m
+from rebsync import precedence
 from rebsync.static.constants import constant
 
 
@@ -78,6 +79,19 @@ def _compares(expression: m.Expression) -> bool:
             return any(map(_compares, (condition, then, otherwise)))
         case _:
             return False
+
+
+def enclosed(operand: m.Expression, level: int) -> m.Expression:
+    """An operand of that level which is the argument of a call: parentheses enclose it there.
+
+    It is without its own if the model cannot be without them, so that readers add them again.
+    Assignments keep theirs, as C++ has them where values are asked for.
+    """
+    match operand:
+        case m.Paren(inner) if precedence.binding(inner) < level:
+            return operand if isinstance(inner, m.Assign) else inner
+        case _:
+            return operand
 
 
 def bare(target: m.Expression | None) -> m.Expression:

@@ -78,8 +78,8 @@ def test_what_cannot_be_read_is_listed(package: Path) -> None:
     [
         ("  begin_sub_ = mailbox_", "  // begin_sub_ = mailbox_", "those of others do not arrive"),
         ("  mailbox_.construct(", "  // mailbox_.construct(", "no constructor has this run"),
-        ("  msg_.pos_x = posX;", "  msg_.pos_x = posX + 1;", "more than to send"),
-        ("  msg_.pos_x = posX;\n", "", "more than to send"),
+        ("  msg.pos_x = posX;", "  msg.pos_x = posX + 1;", "more than to send"),
+        ("  msg.pos_x = posX;\n", "", "more than to send"),
         ("[this, msg] { P1(msg->cmd); }", "[this, msg] { P1(msg->cmd + 1); }", "hand a message"),
         ("[this] { begin(); }", "[this] { begin(); begin(); }", "more than to send"),
         ("  e1_ = global", "  pos_[0] = 3;\n  e1_ = global", "only sets up"),

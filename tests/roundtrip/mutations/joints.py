@@ -211,13 +211,13 @@ KINDS = (
         "priority taken",
         _servers(r'(constexpr Server \w+\{"\w+", )priority\(\d\)', r"\1kNoPriority"),
     ),
-    Kind("field of a send left out", within(r"^ *msg_\.\w+ = [^\n]*\n", "", "send")),
+    Kind("field of a send left out", within(r"^ *msg\.\w+ = [^\n]*\n", "", "send")),
     Kind(
         "fields of a send swapped",
-        within(r"^( *msg_\.\w+ = )(\w+)(;\n *msg_\.\w+ = )(\w+);", r"\1\4\3\2;", "send"),
+        within(r"^( *msg\.\w+ = )(\w+)(;\n *msg\.\w+ = )(\w+);", r"\1\4\3\2;", "send"),
     ),
-    Kind("field of a send greater", within(r"^( *msg_\.\w+ = )(\w+);", r"\1\2 + 1;", "send")),
-    Kind("times left out", within(r"\bwhen_\b", "When()", "send")),
+    Kind("field of a send greater", within(r"^( *msg\.\w+ = )(\w+);", r"\1\2 + 1;", "send")),
+    Kind("times left out", within(r"\bwhen\b", "When()", "send")),
     Kind("nothing published", within(r"^ *mailbox_\.(?:publish|post)\([^\n]*\n", "", "send")),
     Kind("published twice", within(r"^( *mailbox_\.(?:publish|post)\([^\n]*\n)", r"\1\1", "send")),
     Kind(
@@ -229,7 +229,7 @@ KINDS = (
     Kind(
         "another publisher",
         within(
-            r"publish\((?P<k>\w+_pub_)", _other_of(r"publish\((\w+_pub_)(?=, msg_)", "k"), "send"
+            r"publish\((?P<k>\w+_pub_)", _other_of(r"publish\((\w+_pub_)(?=, msg)", "k"), "send"
         ),
     ),
     Kind(

@@ -160,7 +160,7 @@ def _stored_in_another_order(package: Package, part: Part, found: re.Match[str])
     return found[2] + found[1]
 
 
-_FIELD = r"((?:^ *(?:msg_\.\w+ = \w+|flatten\(\w+, msg_\.\w+\));\n))"
+_FIELD = r"((?:^ *(?:msg\.\w+ = \w+|flatten\(\w+, msg\.\w+\));\n))"
 
 KINDS = (
     Kind("auto", within(_LOCAL, r"\1auto \2 = \3")),
@@ -293,7 +293,7 @@ KINDS = (
     ),
     Kind("captures by name", within(r"\[this(?:, msg)?\] \{", "[=] {", "receive")),
     Kind("lambda with parameters", within(r"\[this(, msg)?\] \{", r"[this\1]() {", "receive")),
-    Kind("message in braces", within(r"^( *[\w:]+ msg_);", r"\1{};", "send")),
+    Kind("message in braces", within(r"^( *[\w:]+ msg);", r"\1{};", "send")),
     Kind("fields in another order", within(_FIELD + _FIELD, _stored_in_another_order, "send")),
     Kind("parameter of plumbing renamed", _renamed_parameter),
     Kind(

@@ -97,18 +97,18 @@ void R_1::receiveLidar(const R1Lidar::ConstPtr& msg) {
 }
 
 // rebsync: send R_1.self.lidar
-void R_1::sendSelfLidar(const When& when_) {
-  mailbox_.post(kLidar, when_, "", [=] { lidar(); });
+void R_1::sendSelfLidar(const When& when) {
+  mailbox_.post(kLidar, when, "", [=] { lidar(); });
 }
 
 // rebsync: send R_1.self.taskControl
-void R_1::sendSelfTaskControl(const When& when_) {
-  mailbox_.post(kTaskControl, when_, "", [=] { taskControl(); });
+void R_1::sendSelfTaskControl(const When& when) {
+  mailbox_.post(kTaskControl, when, "", [=] { taskControl(); });
 }
 
 // rebsync: send R_1.self.moveForward
-void R_1::sendSelfMoveForward(const When& when_) {
-  mailbox_.post(kMoveForward, when_, "", [=] { moveForward(); });
+void R_1::sendSelfMoveForward(const When& when) {
+  mailbox_.post(kMoveForward, when, "", [=] { moveForward(); });
 }
 
 void R_1::publishState(const Served& served) {

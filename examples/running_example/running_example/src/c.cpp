@@ -129,27 +129,27 @@ void C::receiveCT3(const CCT3::ConstPtr& msg) {
 }
 
 // rebsync: send C.robot1.P1
-void C::sendRobot1P1(int32_t cmd, const When& when_) {
-  R1P1 msg_;
-  msg_.cmd = cmd;
-  mailbox_.publish(robot1_P1_pub_, msg_, when_);
+void C::sendRobot1P1(int32_t cmd, const When& when) {
+  R1P1 msg;
+  msg.cmd = cmd;
+  mailbox_.publish(robot1_P1_pub_, msg, when);
 }
 
 // rebsync: send C.robot2.P2
-void C::sendRobot2P2(int32_t cmd, const When& when_) {
-  R2P2 msg_;
-  msg_.cmd = cmd;
-  mailbox_.publish(robot2_P2_pub_, msg_, when_);
+void C::sendRobot2P2(int32_t cmd, const When& when) {
+  R2P2 msg;
+  msg.cmd = cmd;
+  mailbox_.publish(robot2_P2_pub_, msg, when);
 }
 
 // rebsync: send C.self.CT1
-void C::sendSelfCT1(int32_t id, int32_t x, int32_t y, const When& when_) {
-  mailbox_.post(kCT1, when_, text(id, x, y), [=] { CT1(id, x, y); });
+void C::sendSelfCT1(int32_t id, int32_t x, int32_t y, const When& when) {
+  mailbox_.post(kCT1, when, text(id, x, y), [=] { CT1(id, x, y); });
 }
 
 // rebsync: send C.self.CT2
-void C::sendSelfCT2(int32_t id, const When& when_) {
-  mailbox_.post(kCT2, when_, text(id), [=] { CT2(id); });
+void C::sendSelfCT2(int32_t id, const When& when) {
+  mailbox_.post(kCT2, when, text(id), [=] { CT2(id); });
 }
 
 void C::publishState(const Served& served) {

@@ -114,36 +114,36 @@ void R1::receiveS11(const R1S11::ConstPtr& msg) {
 }
 
 // rebsync: send R1.controller.CT3
-void R1::sendControllerCT3(int32_t id, int32_t x, int32_t y, const When& when_) {
-  CCT3 msg_;
-  msg_.id = id;
-  msg_.x = x;
-  msg_.y = y;
-  mailbox_.publish(controller_CT3_pub_, msg_, when_);
+void R1::sendControllerCT3(int32_t id, int32_t x, int32_t y, const When& when) {
+  CCT3 msg;
+  msg.id = id;
+  msg.x = x;
+  msg.y = y;
+  mailbox_.publish(controller_CT3_pub_, msg, when);
 }
 
 // rebsync: send R1.controller.CT1
-void R1::sendControllerCT1(int32_t id, int32_t x, int32_t y, const When& when_) {
-  CCT1 msg_;
-  msg_.id = id;
-  msg_.x = x;
-  msg_.y = y;
-  mailbox_.publish(controller_CT1_pub_, msg_, when_);
+void R1::sendControllerCT1(int32_t id, int32_t x, int32_t y, const When& when) {
+  CCT1 msg;
+  msg.id = id;
+  msg.x = x;
+  msg.y = y;
+  mailbox_.publish(controller_CT1_pub_, msg, when);
 }
 
 // rebsync: send R1.self.S11
-void R1::sendSelfS11(const When& when_) {
-  mailbox_.post(kS11, when_, "", [=] { S11(); });
+void R1::sendSelfS11(const When& when) {
+  mailbox_.post(kS11, when, "", [=] { S11(); });
 }
 
 // rebsync: send R1.self.begin
-void R1::sendSelfBegin(const When& when_) {
-  mailbox_.post(kBegin, when_, "", [=] { begin(); });
+void R1::sendSelfBegin(const When& when) {
+  mailbox_.post(kBegin, when, "", [=] { begin(); });
 }
 
 // rebsync: send R1.self.A11
-void R1::sendSelfA11(const When& when_) {
-  mailbox_.post(kA11, when_, "", [=] { A11(); });
+void R1::sendSelfA11(const When& when) {
+  mailbox_.post(kA11, when, "", [=] { A11(); });
 }
 
 void R1::publishState(const Served& served) {

@@ -114,36 +114,36 @@ void R2::receiveS21(const R2S21::ConstPtr& msg) {
 }
 
 // rebsync: send R2.controller.CT3
-void R2::sendControllerCT3(int32_t id, int32_t x, int32_t y, const When& when_) {
-  CCT3 msg_;
-  msg_.id = id;
-  msg_.x = x;
-  msg_.y = y;
-  mailbox_.publish(controller_CT3_pub_, msg_, when_);
+void R2::sendControllerCT3(int32_t id, int32_t x, int32_t y, const When& when) {
+  CCT3 msg;
+  msg.id = id;
+  msg.x = x;
+  msg.y = y;
+  mailbox_.publish(controller_CT3_pub_, msg, when);
 }
 
 // rebsync: send R2.controller.CT1
-void R2::sendControllerCT1(int32_t id, int32_t x, int32_t y, const When& when_) {
-  CCT1 msg_;
-  msg_.id = id;
-  msg_.x = x;
-  msg_.y = y;
-  mailbox_.publish(controller_CT1_pub_, msg_, when_);
+void R2::sendControllerCT1(int32_t id, int32_t x, int32_t y, const When& when) {
+  CCT1 msg;
+  msg.id = id;
+  msg.x = x;
+  msg.y = y;
+  mailbox_.publish(controller_CT1_pub_, msg, when);
 }
 
 // rebsync: send R2.self.S21
-void R2::sendSelfS21(const When& when_) {
-  mailbox_.post(kS21, when_, "", [=] { S21(); });
+void R2::sendSelfS21(const When& when) {
+  mailbox_.post(kS21, when, "", [=] { S21(); });
 }
 
 // rebsync: send R2.self.begin
-void R2::sendSelfBegin(const When& when_) {
-  mailbox_.post(kBegin, when_, "", [=] { begin(); });
+void R2::sendSelfBegin(const When& when) {
+  mailbox_.post(kBegin, when, "", [=] { begin(); });
 }
 
 // rebsync: send R2.self.A21
-void R2::sendSelfA21(const When& when_) {
-  mailbox_.post(kA21, when_, "", [=] { A21(); });
+void R2::sendSelfA21(const When& when) {
+  mailbox_.post(kA21, when, "", [=] { A21(); });
 }
 
 void R2::publishState(const Served& served) {

@@ -125,37 +125,37 @@ void Carrier::receiveServed(const CarrierServed::ConstPtr& msg) {
 }
 
 // rebsync: send Carrier.dispatcher.enter
-void Carrier::sendDispatcherEnter(int32_t id, int32_t cell, const When& when_) {
-  DispatcherEnter msg_;
-  msg_.id = id;
-  msg_.cell = cell;
-  msg_.sender = mailbox_.self();
-  mailbox_.publish(dispatcher_enter_pub_, msg_, when_);
+void Carrier::sendDispatcherEnter(int32_t id, int32_t cell, const When& when) {
+  DispatcherEnter msg;
+  msg.id = id;
+  msg.cell = cell;
+  msg.sender = mailbox_.self();
+  mailbox_.publish(dispatcher_enter_pub_, msg, when);
 }
 
 // rebsync: send Carrier.dispatcher.left
-void Carrier::sendDispatcherLeft(int32_t cell, const When& when_) {
-  DispatcherLeft msg_;
-  msg_.cell = cell;
-  mailbox_.publish(dispatcher_left_pub_, msg_, when_);
+void Carrier::sendDispatcherLeft(int32_t cell, const When& when) {
+  DispatcherLeft msg;
+  msg.cell = cell;
+  mailbox_.publish(dispatcher_left_pub_, msg, when);
 }
 
 // rebsync: send Carrier.dispatcher.ready
-void Carrier::sendDispatcherReady(int32_t cell, const When& when_) {
-  DispatcherReady msg_;
-  msg_.cell = cell;
-  msg_.sender = mailbox_.self();
-  mailbox_.publish(dispatcher_ready_pub_, msg_, when_);
+void Carrier::sendDispatcherReady(int32_t cell, const When& when) {
+  DispatcherReady msg;
+  msg.cell = cell;
+  msg.sender = mailbox_.self();
+  mailbox_.publish(dispatcher_ready_pub_, msg, when);
 }
 
 // rebsync: send Carrier.self.begin
-void Carrier::sendSelfBegin(const When& when_) {
-  mailbox_.post(kBegin, when_, "", [=] { begin(); });
+void Carrier::sendSelfBegin(const When& when) {
+  mailbox_.post(kBegin, when, "", [=] { begin(); });
 }
 
 // rebsync: send Carrier.self.drive
-void Carrier::sendSelfDrive(const When& when_) {
-  mailbox_.post(kDrive, when_, "", [=] { drive(); });
+void Carrier::sendSelfDrive(const When& when) {
+  mailbox_.post(kDrive, when, "", [=] { drive(); });
 }
 
 void Carrier::publishState(const Served& served) {

@@ -85,14 +85,14 @@ void Lifter::receiveWeigh(const LifterWeigh::ConstPtr& msg) {
 }
 
 // rebsync: send Lifter.Carrier.served
-void Lifter::sendCarrierServedTo(const std::string& to_, const When& when_) {
-  CarrierServed msg_;
-  mailbox_.publish(to(Carrier_served_pubs_, to_), msg_, when_);
+void Lifter::sendCarrierServedTo(const std::string& recipient, const When& when) {
+  CarrierServed msg;
+  mailbox_.publish(to(Carrier_served_pubs_, recipient), msg, when);
 }
 
 // rebsync: send Lifter.self.weigh
-void Lifter::sendSelfWeigh(const When& when_) {
-  mailbox_.post(kWeigh, when_, "", [=] { weigh(); });
+void Lifter::sendSelfWeigh(const When& when) {
+  mailbox_.post(kWeigh, when, "", [=] { weigh(); });
 }
 
 void Lifter::publishState(const Served& served) {

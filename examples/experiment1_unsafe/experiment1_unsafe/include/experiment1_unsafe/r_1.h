@@ -52,10 +52,10 @@ class R_1 {
   void receiveMoveBackward(const R1MoveBackward::ConstPtr& msg);
   void receiveWaitForCharge(const R1WaitForCharge::ConstPtr& msg);
 
-  void sendSelfTaskControl(const When& when_ = When());
-  void sendSelfMoveForward(const When& when_ = When());
-  void sendSelfMoveBackward(const When& when_ = When());
-  void sendSelfWaitForCharge(const When& when_ = When());
+  void sendSelfTaskControl(const When& when = When());
+  void sendSelfMoveForward(const When& when = When());
+  void sendSelfMoveBackward(const When& when = When());
+  void sendSelfWaitForCharge(const When& when = When());
 
   void publishState(const Served& served);
 

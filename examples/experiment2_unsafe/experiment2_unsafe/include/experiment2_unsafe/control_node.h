@@ -48,8 +48,8 @@ class ControlNode {
 
   void receiveControlTask(const ControlNodeControlTask::ConstPtr& msg);
 
-  void sendRobot1P1(int32_t cmd, const When& when_ = When());
-  void sendRobot2P2(int32_t cmd, const When& when_ = When());
+  void sendRobot1P1(int32_t cmd, const When& when = When());
+  void sendRobot2P2(int32_t cmd, const When& when = When());
 
   void publishState(const Served& served);
 

@@ -54,9 +54,9 @@ class R1 {
   void receiveMoveInX(const R1MoveInX::ConstPtr& msg);
 
   void sendControllerControlTask(int32_t sender_id, int32_t posX, int32_t posY,
-      const When& when_ = When());
-  void sendSelfBegin(const When& when_ = When());
-  void sendSelfMoveInX(const When& when_ = When());
+      const When& when = When());
+  void sendSelfBegin(const When& when = When());
+  void sendSelfMoveInX(const When& when = When());
 
   void publishState(const Served& served);
 

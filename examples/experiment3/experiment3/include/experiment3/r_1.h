@@ -51,9 +51,9 @@ class R_1 {
   void receiveMoveForward(const R1MoveForward::ConstPtr& msg);
   void receiveLidar(const R1Lidar::ConstPtr& msg);
 
-  void sendSelfLidar(const When& when_ = When());
-  void sendSelfTaskControl(const When& when_ = When());
-  void sendSelfMoveForward(const When& when_ = When());
+  void sendSelfLidar(const When& when = When());
+  void sendSelfTaskControl(const When& when = When());
+  void sendSelfMoveForward(const When& when = When());
 
   void publishState(const Served& served);
 

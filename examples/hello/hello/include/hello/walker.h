@@ -43,7 +43,7 @@ class Walker {
 
   void receiveWalk(const WalkerWalk::ConstPtr& msg);
 
-  void sendSelfWalk(const When& when_ = When());
+  void sendSelfWalk(const When& when = When());
 
   void publishState(const Served& served);
 

@@ -59,11 +59,11 @@ class R1 {
   void receiveA11(const R1A11::ConstPtr& msg);
   void receiveS11(const R1S11::ConstPtr& msg);
 
-  void sendControllerCT3(int32_t id, int32_t x, int32_t y, const When& when_ = When());
-  void sendControllerCT1(int32_t id, int32_t x, int32_t y, const When& when_ = When());
-  void sendSelfS11(const When& when_ = When());
-  void sendSelfBegin(const When& when_ = When());
-  void sendSelfA11(const When& when_ = When());
+  void sendControllerCT3(int32_t id, int32_t x, int32_t y, const When& when = When());
+  void sendControllerCT1(int32_t id, int32_t x, int32_t y, const When& when = When());
+  void sendSelfS11(const When& when = When());
+  void sendSelfBegin(const When& when = When());
+  void sendSelfA11(const When& when = When());
 
   void publishState(const Served& served);
 

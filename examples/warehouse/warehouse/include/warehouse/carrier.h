@@ -59,11 +59,11 @@ class Carrier {
   void receiveDrive(const CarrierDrive::ConstPtr& msg);
   void receiveServed(const CarrierServed::ConstPtr& msg);
 
-  void sendDispatcherEnter(int32_t id, int32_t cell, const When& when_ = When());
-  void sendDispatcherLeft(int32_t cell, const When& when_ = When());
-  void sendDispatcherReady(int32_t cell, const When& when_ = When());
-  void sendSelfBegin(const When& when_ = When());
-  void sendSelfDrive(const When& when_ = When());
+  void sendDispatcherEnter(int32_t id, int32_t cell, const When& when = When());
+  void sendDispatcherLeft(int32_t cell, const When& when = When());
+  void sendDispatcherReady(int32_t cell, const When& when = When());
+  void sendSelfBegin(const When& when = When());
+  void sendSelfDrive(const When& when = When());
 
   void publishState(const Served& served);
 

@@ -118,23 +118,23 @@ void R_1::receiveWaitForCharge(const R1WaitForCharge::ConstPtr& msg) {
 }
 
 // rebsync: send R_1.self.taskControl
-void R_1::sendSelfTaskControl(const When& when_) {
-  mailbox_.post(kTaskControl, when_, "", [=] { taskControl(); });
+void R_1::sendSelfTaskControl(const When& when) {
+  mailbox_.post(kTaskControl, when, "", [=] { taskControl(); });
 }
 
 // rebsync: send R_1.self.moveForward
-void R_1::sendSelfMoveForward(const When& when_) {
-  mailbox_.post(kMoveForward, when_, "", [=] { moveForward(); });
+void R_1::sendSelfMoveForward(const When& when) {
+  mailbox_.post(kMoveForward, when, "", [=] { moveForward(); });
 }
 
 // rebsync: send R_1.self.moveBackward
-void R_1::sendSelfMoveBackward(const When& when_) {
-  mailbox_.post(kMoveBackward, when_, "", [=] { moveBackward(); });
+void R_1::sendSelfMoveBackward(const When& when) {
+  mailbox_.post(kMoveBackward, when, "", [=] { moveBackward(); });
 }
 
 // rebsync: send R_1.self.waitForCharge
-void R_1::sendSelfWaitForCharge(const When& when_) {
-  mailbox_.post(kWaitForCharge, when_, "", [=] { waitForCharge(); });
+void R_1::sendSelfWaitForCharge(const When& when) {
+  mailbox_.post(kWaitForCharge, when, "", [=] { waitForCharge(); });
 }
 
 void R_1::publishState(const Served& served) {

@@ -92,22 +92,22 @@ void R1::receiveMoveInX(const R1MoveInX::ConstPtr& msg) {
 }
 
 // rebsync: send R1.controller.ControlTask
-void R1::sendControllerControlTask(int32_t sender_id, int32_t posX, int32_t posY, const When& when_) {
-  ControlNodeControlTask msg_;
-  msg_.sender_id = sender_id;
-  msg_.pos_x = posX;
-  msg_.pos_y = posY;
-  mailbox_.publish(controller_ControlTask_pub_, msg_, when_);
+void R1::sendControllerControlTask(int32_t sender_id, int32_t posX, int32_t posY, const When& when) {
+  ControlNodeControlTask msg;
+  msg.sender_id = sender_id;
+  msg.pos_x = posX;
+  msg.pos_y = posY;
+  mailbox_.publish(controller_ControlTask_pub_, msg, when);
 }
 
 // rebsync: send R1.self.begin
-void R1::sendSelfBegin(const When& when_) {
-  mailbox_.post(kBegin, when_, "", [=] { begin(); });
+void R1::sendSelfBegin(const When& when) {
+  mailbox_.post(kBegin, when, "", [=] { begin(); });
 }
 
 // rebsync: send R1.self.MoveInX
-void R1::sendSelfMoveInX(const When& when_) {
-  mailbox_.post(kMoveInX, when_, "", [=] { MoveInX(); });
+void R1::sendSelfMoveInX(const When& when) {
+  mailbox_.post(kMoveInX, when, "", [=] { MoveInX(); });
 }
 
 void R1::publishState(const Served& served) {

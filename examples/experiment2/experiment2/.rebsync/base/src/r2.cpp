@@ -90,22 +90,22 @@ void R2::receiveMoveInY(const R2MoveInY::ConstPtr& msg) {
 }
 
 // rebsync: send R2.controller.ControlTask
-void R2::sendControllerControlTask(int32_t sender_id, int32_t posX, int32_t posY, const When& when_) {
-  ControlNodeControlTask msg_;
-  msg_.sender_id = sender_id;
-  msg_.pos_x = posX;
-  msg_.pos_y = posY;
-  mailbox_.publish(controller_ControlTask_pub_, msg_, when_);
+void R2::sendControllerControlTask(int32_t sender_id, int32_t posX, int32_t posY, const When& when) {
+  ControlNodeControlTask msg;
+  msg.sender_id = sender_id;
+  msg.pos_x = posX;
+  msg.pos_y = posY;
+  mailbox_.publish(controller_ControlTask_pub_, msg, when);
 }
 
 // rebsync: send R2.self.begin
-void R2::sendSelfBegin(const When& when_) {
-  mailbox_.post(kBegin, when_, "", [=] { begin(); });
+void R2::sendSelfBegin(const When& when) {
+  mailbox_.post(kBegin, when, "", [=] { begin(); });
 }
 
 // rebsync: send R2.self.MoveInY
-void R2::sendSelfMoveInY(const When& when_) {
-  mailbox_.post(kMoveInY, when_, "", [=] { MoveInY(); });
+void R2::sendSelfMoveInY(const When& when) {
+  mailbox_.post(kMoveInY, when, "", [=] { MoveInY(); });
 }
 
 void R2::publishState(const Served& served) {

@@ -83,17 +83,17 @@ void ControlNode::receiveControlTask(const ControlNodeControlTask::ConstPtr& msg
 }
 
 // rebsync: send ControlNode.robot1.P1
-void ControlNode::sendRobot1P1(int32_t cmd, const When& when_) {
-  R1P1 msg_;
-  msg_.cmd = cmd;
-  mailbox_.publish(robot1_P1_pub_, msg_, when_);
+void ControlNode::sendRobot1P1(int32_t cmd, const When& when) {
+  R1P1 msg;
+  msg.cmd = cmd;
+  mailbox_.publish(robot1_P1_pub_, msg, when);
 }
 
 // rebsync: send ControlNode.robot2.P2
-void ControlNode::sendRobot2P2(int32_t cmd, const When& when_) {
-  R2P2 msg_;
-  msg_.cmd = cmd;
-  mailbox_.publish(robot2_P2_pub_, msg_, when_);
+void ControlNode::sendRobot2P2(int32_t cmd, const When& when) {
+  R2P2 msg;
+  msg.cmd = cmd;
+  mailbox_.publish(robot2_P2_pub_, msg, when);
 }
 
 void ControlNode::publishState(const Served& served) {

@@ -54,8 +54,8 @@ void Walker::receiveWalk(const WalkerWalk::ConstPtr& msg) {
 }
 
 // rebsync: send Walker.self.walk
-void Walker::sendSelfWalk(const When& when_) {
-  mailbox_.post(kWalk, when_, "", [=] { walk(); });
+void Walker::sendSelfWalk(const When& when) {
+  mailbox_.post(kWalk, when, "", [=] { walk(); });
 }
 
 void Walker::publishState(const Served& served) {

@@ -136,25 +136,25 @@ void Dispatcher::receiveReady(const DispatcherReady::ConstPtr& msg) {
 }
 
 // rebsync: send Dispatcher.picker.serve
-void Dispatcher::sendPickerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when_) {
-  LifterServe msg_;
-  msg_.carrier = carrier;
-  msg_.place = place;
-  mailbox_.publish(picker_serve_pub_, msg_, when_);
+void Dispatcher::sendPickerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when) {
+  LifterServe msg;
+  msg.carrier = carrier;
+  msg.place = place;
+  mailbox_.publish(picker_serve_pub_, msg, when);
 }
 
 // rebsync: send Dispatcher.packer.serve
-void Dispatcher::sendPackerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when_) {
-  LifterServe msg_;
-  msg_.carrier = carrier;
-  msg_.place = place;
-  mailbox_.publish(packer_serve_pub_, msg_, when_);
+void Dispatcher::sendPackerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when) {
+  LifterServe msg;
+  msg.carrier = carrier;
+  msg.place = place;
+  mailbox_.publish(packer_serve_pub_, msg, when);
 }
 
 // rebsync: send Dispatcher.Carrier.go
-void Dispatcher::sendCarrierGoTo(const std::string& to_, const When& when_) {
-  CarrierGo msg_;
-  mailbox_.publish(to(Carrier_go_pubs_, to_), msg_, when_);
+void Dispatcher::sendCarrierGoTo(const std::string& recipient, const When& when) {
+  CarrierGo msg;
+  mailbox_.publish(to(Carrier_go_pubs_, recipient), msg, when);
 }
 
 void Dispatcher::publishState(const Served& served) {

@@ -57,10 +57,10 @@ class C {
   void receiveCT2(const CCT2::ConstPtr& msg);
   void receiveCT3(const CCT3::ConstPtr& msg);
 
-  void sendRobot1P1(int32_t cmd, const When& when_ = When());
-  void sendRobot2P2(int32_t cmd, const When& when_ = When());
-  void sendSelfCT1(int32_t id, int32_t x, int32_t y, const When& when_ = When());
-  void sendSelfCT2(int32_t id, const When& when_ = When());
+  void sendRobot1P1(int32_t cmd, const When& when = When());
+  void sendRobot2P2(int32_t cmd, const When& when = When());
+  void sendSelfCT1(int32_t id, int32_t x, int32_t y, const When& when = When());
+  void sendSelfCT2(int32_t id, const When& when = When());
 
   void publishState(const Served& served);
 

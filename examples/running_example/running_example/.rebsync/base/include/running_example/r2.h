@@ -59,11 +59,11 @@ class R2 {
   void receiveA21(const R2A21::ConstPtr& msg);
   void receiveS21(const R2S21::ConstPtr& msg);
 
-  void sendControllerCT3(int32_t id, int32_t x, int32_t y, const When& when_ = When());
-  void sendControllerCT1(int32_t id, int32_t x, int32_t y, const When& when_ = When());
-  void sendSelfS21(const When& when_ = When());
-  void sendSelfBegin(const When& when_ = When());
-  void sendSelfA21(const When& when_ = When());
+  void sendControllerCT3(int32_t id, int32_t x, int32_t y, const When& when = When());
+  void sendControllerCT1(int32_t id, int32_t x, int32_t y, const When& when = When());
+  void sendSelfS21(const When& when = When());
+  void sendSelfBegin(const When& when = When());
+  void sendSelfA21(const When& when = When());
 
   void publishState(const Served& served);
 

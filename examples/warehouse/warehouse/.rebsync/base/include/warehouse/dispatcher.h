@@ -58,9 +58,9 @@ class Dispatcher {
   void receiveEnter(const DispatcherEnter::ConstPtr& msg);
   void receiveReady(const DispatcherReady::ConstPtr& msg);
 
-  void sendPickerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when_ = When());
-  void sendPackerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when_ = When());
-  void sendCarrierGoTo(const std::string& to_, const When& when_ = When());
+  void sendPickerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when = When());
+  void sendPackerServe(const Rebec<Carrier>& carrier, int32_t place, const When& when = When());
+  void sendCarrierGoTo(const std::string& recipient, const When& when = When());
 
   void publishState(const Served& served);
 

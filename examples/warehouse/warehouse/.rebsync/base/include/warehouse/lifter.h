@@ -52,8 +52,8 @@ class Lifter {
   void receiveServe(const LifterServe::ConstPtr& msg);
   void receiveWeigh(const LifterWeigh::ConstPtr& msg);
 
-  void sendCarrierServedTo(const std::string& to_, const When& when_ = When());
-  void sendSelfWeigh(const When& when_ = When());
+  void sendCarrierServedTo(const std::string& recipient, const When& when = When());
+  void sendSelfWeigh(const When& when = When());
 
   void publishState(const Served& served);
 
