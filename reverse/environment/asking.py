@@ -161,7 +161,8 @@ class TopicVocabulary:
             if o.path in paths and node in ("", rebec) and rest in _names(o)
         ]
         published = [each for each in found if not each[1].server]
-        found = published or found
+        # Several publishers or callbacks that a node has for one topic are one variable.
+        found = list({(rebec, o.variable): (rebec, o) for rebec, o in published or found}.values())
         if len(found) == 1:
             return found[0]
         if not found:

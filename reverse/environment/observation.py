@@ -67,7 +67,8 @@ _NOBODY: Hearers = {}
 def observations(joined: Joined, types: MessageTypes) -> Iterator[tuple[str, Observation]]:
     """All that can be observed, with the rebec of whom.
 
-    Of messages from outside that are all fields; of others those that the receiver reads.
+    Of messages from outside that are all fields; of others those that the receiver reads. Where
+    several servers of a rebec get the same messages, each notes these, and the first counts them.
     """
     from_outside, names = wholly_open(joined), Variables()
     for instance in (i for i in joined.wiring.instances if not i.idle):
@@ -78,13 +79,17 @@ def observations(joined: Joined, types: MessageTypes) -> Iterator[tuple[str, Obs
                 for path, type_ in _fields(types, fact.type):
                     name = names.of(owner, "out", topic, path)
                     yield instance.name, Observation(owner, name, topic, path, type_)
+        counted = set[str]()
         for server in joined.wiring.servers[instance.start.unit.name]:
             topics = {instance.topic(f.topic) for f in server.subscriptions}
             topic = topics.pop() if len(topics) == 1 else None
             if isinstance(topic, str):
-                taken = (ANY, COUNT, *joined.taken(instance.start.unit.name, server))
+                known = (ANY,) if topic in counted else (ANY, COUNT)
+                taken = (*known, *joined.taken(instance.start.unit.name, server))
+                counted.add(topic)
                 for path, type_ in _fields(types, server.type):
-                    if path in taken or (owner, server.name) in from_outside:
+                    is_open = path != COUNT and (owner, server.name) in from_outside
+                    if path in taken or is_open:
                         name = names.of(owner, "in", topic, path)
                         found = Observation(owner, name, topic, path, type_, server.name)
                         yield instance.name, found
@@ -157,6 +162,7 @@ def with_observations(
     are those that its servers get. Messages are counted up to `most`.
     """
     own = [o for o in wanted if o.owner == owner.name]
+    variables = {o.variable: _of_model(o.type) for o in own}
     rebecs = frozenset(h.rebec for several in hearers.values() for h in several)
     noted = frozenset(o.variable for o in own) | rebecs
 
@@ -187,12 +193,12 @@ def with_observations(
             parameters = (*member.parameters, *given_too)
             member = replace(member, parameters=parameters)
         if isinstance(member, m.Constructor) and member.body is not None:
-            member = _after([_assign(o.variable, zero_of(_of_model(o.type))) for o in own], member)
+            member = _after([_assign(v, zero_of(t)) for v, t in variables.items()], member)
         members.append(member)
     if own and not any(isinstance(x, m.Constructor) for x in members):
-        first = tuple(_assign(o.variable, zero_of(_of_model(o.type))) for o in own)
+        first = tuple(_assign(v, zero_of(t)) for v, t in variables.items())
         members.append(m.Constructor(owner.name, (), m.Block(first)))
-    declared = tuple(m.Declaration(_of_model(o.type), (m.Declarator(o.variable),)) for o in own)
+    declared = tuple(m.Declaration(t, (m.Declarator(v),)) for v, t in variables.items())
     at = sum(isinstance(x, m.KnownRebecs | m.StateVars) for x in members)
     section = (m.StateVars(declared),) if declared else ()
     return replace(owner, members=(*members[:at], *section, *members[at:]))
