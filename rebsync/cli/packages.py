@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rebsync.model import Model
     from rebsync.properties import Properties
     from rebsync.reverse.environment.package import ClosedPackage, EnvironmentChoice, ReadPackage
+    from rebsync.reverse.files.reading import Chosen
     from rebsync.reverse.findings import Finding, Grade
     from rebsync.roundtrip.conform.components.properties import TopicProperties
     from rebsync.roundtrip.diff.difference import Place
@@ -108,7 +109,8 @@ def _choice(environment: str) -> EnvironmentChoice:
             return read_source(path)
 
 
-def _files(path: str) -> dict[str, Source]:
+def one_package(path: str) -> Chosen:
+    """The package at a path, its files read. RebsyncError: there is none, or there are several."""
     from rebsync.reverse.build.workspace import in_workspace
     from rebsync.reverse.files.reading import read
     from rebsync.roundtrip.package.units import as_one, units
@@ -116,10 +118,16 @@ def _files(path: str) -> dict[str, Source]:
     found = list(units([path]))
     if len(found) != 1:
         models = sorted(map(str, Path(path).glob(f"*{MODEL}")))
-        hint = "name one of them" if found else f"name the model: {models[0]}" if models else None
+        hint = f"name the model: {models[0]}" if models else None
+        if found:
+            hint = f"name one of them: {', '.join(_shown(each.root) for each in found)}"
         message = "several packages are here" if found else "no code is here"
         raise RebsyncError.of(path, "RS802", message, hint)
-    return read(next(in_workspace([as_one(found[0])]))).files
+    return read(next(in_workspace([as_one(found[0])])))
+
+
+def _files(path: str) -> dict[str, Source]:
+    return one_package(path).files
 
 
 def _parsed(source: Source | None) -> Properties:

@@ -112,15 +112,15 @@ class OpenPackage:
 def compared(
     path: str, recordings: Sequence[str], bounds: TopicBounds, property_file: str | None = None
 ) -> tuple[Conformance, Subject]:
-    """A package compared with a recording. RebsyncError: one of them cannot be read."""
-    from rebsync.cli.packages import read_observed
-    from rebsync.reverse.build.workspace import in_workspace
-    from rebsync.reverse.files.packages import Listing
-    from rebsync.reverse.files.reading import all_listings, read
+    """A package compared with a recording. RebsyncError: one of them cannot be read.
+
+    Several packages are none: of these one is to be named.
+    """
+    from rebsync.cli.packages import one_package, read_observed
     from rebsync.roundtrip.conform.components.environment import own_types
     from rebsync.roundtrip.conform.components.heard import HeardRecordings
 
-    given = read(next(in_workspace(all_listings([path])), Listing(path, {})))
+    given = one_package(path)
     opened = HeardRecordings.of(recordings, own_types(given))
     package = OpenPackage.of(given, opened.topics())
     properties = read_observed(path, property_file)

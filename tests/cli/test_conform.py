@@ -312,6 +312,17 @@ def test_topics_of_a_package_that_people_wrote(tmp_path: Path) -> None:
     assert re.match(r"::error file=.*/src/thermostat.py,line=\d+,", done.out), done.out
 
 
+def test_of_several_packages_that_people_wrote_one_is_to_be_named(tmp_path: Path) -> None:
+    both = [str(BAGS.parent / "packages" / name) for name in ("thermostat", "counter")]
+    for path in both:
+        shutil.copytree(path, tmp_path / "ws" / Path(path).name)
+    done = rebsync("conform", "ws", str(TOPICS), cwd=tmp_path)
+    assert done.status == 2
+    assert "RS802 several packages are here" in done.err
+    assert "name one of them: ws/counter, ws/thermostat" in done.err
+    assert rebsync("conform", "ws/thermostat", str(TOPICS), cwd=tmp_path).status == 0
+
+
 def test_properties_times_and_page_of_topics(tmp_path: Path) -> None:
     (tmp_path / "some.property").write_text(
         "property { Assertion { Weak: heater.out_power_data < 4; Same: heater.power >= 0; } }"

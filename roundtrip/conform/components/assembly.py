@@ -184,7 +184,7 @@ class _Assembler:
         numbers = self._servers(environment)
         pairs = conflicts(class_)
         both = zip(heard, outputs, strict=True)
-        kept = tuple(self._is_old(link, all_, first) for link, all_ in both)
+        kept = tuple(inf if self._is_old(link, all_, first) else 0.0 for link, all_ in both)
         return Component(
             self.program,
             rebec,

@@ -150,6 +150,8 @@ class _Judge:
         """What becomes of it. From its beginning on, or else from the middle of its run on."""
         in_threads = any(IN_THREADS in f.why for f in self.findings)
         component = replace(self.component, in_threads=in_threads)
+        if self.bounds.from_start:
+            component = component.started_while_recorded()
         search = InclusionSearch(component, self.bounds.most)
         search.keeps = self.bounds.measures
         found = search.run(search.constructed())

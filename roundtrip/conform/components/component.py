@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 from rebsync.checker.program import Cell, Program
@@ -68,7 +69,8 @@ class Component:
     `inputs` go by stamps; `outputs` are those of each topic in `topics`, which are known by the
     environment's servers. `conflicts` are pairs of servers whose bodies may disturb each other
     where they run in threads. `is_bounded`: a queue of the code may become full. `kept` says of
-    each topic if the first message may be an old one, which the recorder got when it connected.
+    each topic by how many seconds the first message may be older than its stamp, as the recorder
+    got it when it connected.
     """
 
     program: Program
@@ -79,7 +81,7 @@ class Component:
     topics: tuple[str, ...]
     outputs: tuple[Sequence[Output], ...]
     by_server: dict[int, int]
-    kept: tuple[bool, ...]
+    kept: tuple[float, ...]
     conflicts: frozenset[tuple[int, int]] = frozenset()
     in_threads: bool = False
     is_bounded: bool = True
@@ -88,3 +90,7 @@ class Component:
     def name(self) -> str:
         """The name of the rebec."""
         return self.program.rebecs[self.rebec].name
+
+    def started_while_recorded(self) -> Component:
+        """The same of a node that was started then: who recorded had soon connected to it."""
+        return replace(self, kept=tuple(min(old, CONNECTS) for old in self.kept))

@@ -294,8 +294,8 @@ class InclusionSearch:
             output = self.component.outputs[topic][number]
             stamp = output.stamp - elapsed
             if self.is_output(output, sent):
-                is_old = not number and self.component.kept[topic]
-                first, last = low if is_old else max(low, stamp - timing.slack), min(high, stamp)
+                old = 0.0 if number else self.component.kept[topic]
+                first, last = max(low, stamp - timing.slack - old), min(high, stamp)
                 if first <= last:
                     now = (*matched[:topic], number + 1, *matched[topic + 1 :])
                     found.append((first, last, now))

@@ -297,6 +297,72 @@ def test_faults_beside_a_latched_topic_are_found(fault: str, topic: str, tmp_pat
     assert (found.deviation.kind, found.deviation.rebec) == (kind, "driver"), found.deviation
 
 
+_LAMP = """#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+
+
+class Button:
+    def __init__(self):
+        self.press = rospy.Publisher("press", Int32, queue_size=10)
+        rospy.Timer(rospy.Duration(9.0), self.on_timer)
+
+    def on_timer(self, event):
+        self.press.publish(Int32(data=1))
+
+
+class Lamp:
+    def __init__(self):
+        self.count = 0
+        self.lit = rospy.Publisher("lit", Int32, queue_size=10, latch=True)
+        rospy.Subscriber("press", Int32, self.on_press, queue_size=10)
+
+    def on_press(self, message):
+        self.count += message.data
+        self.lit.publish(Int32(data=self.count))
+
+
+if __name__ == "__main__":
+    rospy.init_node("NAME")
+    node = CLASS()
+    rospy.spin()
+"""
+
+
+@pytest.mark.parametrize(
+    ("late", "bounds", "verdict"),
+    [
+        (0.01, FROM_START, "conforms"),
+        (1.5, FROM_START, "conforms"),  # so long a recorder may take to connect
+        (5.0, FROM_START, "deviates"),
+        (5.0, ANYWHERE, "conforms"),
+    ],
+)
+def test_who_records_from_the_start_on_has_soon_connected(
+    late: float, bounds: TopicBounds, verdict: str, tmp_path: Path
+) -> None:
+    head, rest = _LAMP.split("\n\nclass Button", 1)
+    button, rest = rest.split("\n\nclass Lamp", 1)
+    lamp, end = rest.split("\n\nif __name__", 1)
+    scripts = tmp_path / "lamp" / "scripts"
+    scripts.mkdir(parents=True)
+    for name, body in (("Button", button), ("Lamp", lamp)):
+        text = f"{head}\n\nclass {name}{body}\n\nif __name__{end}".replace("CLASS", name)
+        (scripts / f"{name.lower()}.py").write_text(text.replace("NAME", name.lower()))
+    copytree(PACKAGES / "thermostat", tmp_path / "other")
+    xml = (tmp_path / "other" / "package.xml").read_text(encoding="utf-8")
+    (tmp_path / "lamp" / "package.xml").write_text(xml.replace("thermostat", "lamp"))
+    log: Log = []
+    for number, time in enumerate((101.0, 110.0, 119.0)):
+        delay = 0.01 if number else late
+        log.append({"topic": "/press", "stamp": time, "node": "/button", "data": {"data": 1}})
+        lit = {"data": number + 1}
+        log.append({"topic": "/lit", "stamp": time + delay, "node": "/lamp", "data": lit})
+    path = write(log, tmp_path / "run.jsonl")
+    found, _ = compared(str(tmp_path / "lamp"), [str(path)], bounds)
+    assert found.verdict == verdict, found
+
+
 @pytest.mark.parametrize("node", ["/driver", "/odometer"])
 def test_a_node_that_ends_within_a_body_is_silent(node: str, tmp_path: Path) -> None:
     """Its last message may be recorded before another one of the same body, which is lost."""
