@@ -205,6 +205,7 @@ EXTRACTION = {
     "RS945": "an accepted finding that is not there as it was",
     "RS946": "a place where there is nothing that may be accepted",
     "RS947": "a place of which the model says what the code does only under an assumption",
+    "RS949": "something that a verification of what the code does rests on, or leaves open",
 }
 
 STEP = {

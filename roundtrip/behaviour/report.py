@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 from rebsync.checker.result import Violation
 from rebsync.checker.show import words
 from rebsync.checker.show.data import result_json
-from rebsync.diagnostics import Diagnostic, Findings
+from rebsync.diagnostics import Diagnostic, Findings, Severity
 from rebsync.roundtrip.behaviour.proof import Proof
 from rebsync.roundtrip.behaviour.run_table import run_table
 from rebsync.roundtrip.diff.correspondence import Both
@@ -64,12 +64,17 @@ def proof_lines(proof: Proof, drifted: bool, *, is_full: bool) -> Iterator[str]:
         yield f"  caveat: {proof.reason}"
     if proof.result is None:
         return
-    for caveat in proof.result.caveats:
+    for caveat in caveats(proof):
         yield f"  caveat: {caveat}"
     for violation in proof.result.violations:
         yield ""
         yield f"  {words.title(violation)}: {violation.message}"
         yield from run_lines(proof, violation, is_full=is_full)
+
+
+def caveats(proof: Proof) -> tuple[str, ...]:
+    """What the verdict rests on, or leaves open."""
+    return proof.result.caveats if proof.result is not None else ()
 
 
 def run_lines(proof: Proof, violation: Violation, *, is_full: bool = True) -> Iterator[str]:
@@ -81,9 +86,15 @@ def run_lines(proof: Proof, violation: Violation, *, is_full: bool = True) -> It
 
 
 def proof_findings(proof: Proof) -> Iterator[tuple[Findings, list[Remark]]]:
-    """What is violated, where in the code the run ends; with the places that it comes by."""
+    """What is violated, where in the code the run ends; with the places that it comes by.
+
+    What the verdict rests on is a note.
+    """
     for remark in proof.remarks:
         yield remark, [(remark.source, d.span, d.message) for d in remark.diagnostics]
+    for caveat in caveats(proof):
+        note = Diagnostic("RS949", NOWHERE, caveat, severity=Severity.NOTE)
+        yield Findings(Source(proof.path, ""), (note,)), []
     if proof.verdict == "undetermined":
         message = f"whether the properties hold is undetermined: {proof.reason}"
         yield _finding("RS958", None, proof, message, None), []

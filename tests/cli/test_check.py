@@ -16,7 +16,9 @@ from xml.etree import ElementTree
 import pytest
 from jsonschema import validate  # type: ignore[import-untyped]
 
+from rebsync.checker.verify import CYCLE_CAVEAT
 from rebsync.cli import main
+from rebsync.cli.check import FORMATS
 from rebsync.reverse.files import parallel
 from tests.cli.run import ROOT, environment, rebsync
 from tests.test_report import SCHEMA as SARIF
@@ -719,6 +721,25 @@ def test_a_violation_is_a_finding_in_the_code(check: Check) -> None:
     assert data["verdict"] == "violated"
     assert data["broken"] == ["property Stays_Small"]
     assert any(p["model"] and p["code"] for p in data["places"].values())
+
+
+def test_what_a_verdict_leaves_open_is_told_in_every_form(check: Check) -> None:
+    model = Path("patrol.rebeca").read_text()
+    again = "    if (?(false, true)) { self.look(); return; }\n    self.look() after(e);\n"
+    Path("patrol.rebeca").write_text(model.replace("    self.look() after(e);\n", again))
+    shutil.rmtree("patrol")
+    assert main(["generate", "patrol.rebeca"]) == 0
+    told = {style: check("--verify", "--format", style) for style in FORMATS}
+    assert {status for status, _ in told.values()} == {0}, told
+    assert [style for style, (_, shown) in told.items() if CYCLE_CAVEAT not in shown] == []
+    validate(json.loads(told["sarif"][1]), SARIF)
+    (note,) = json.loads(told["sarif"][1])["runs"][0]["results"]
+    assert (note["ruleId"], note["level"]) == ("RS949", "note")
+    assert "::notice " in told["github"][1]
+    replace("patrol.property", "< 4", "< 3")
+    told = {style: check("--verify", "--format", style) for style in FORMATS}
+    assert {status for status, _ in told.values()} == {3}, told
+    assert [style for style, (_, shown) in told.items() if CYCLE_CAVEAT not in shown] == []
 
 
 def test_nothing_holds_of_what_cannot_be_read(check: Check) -> None:

@@ -77,18 +77,20 @@ def _properties(outcome: Outcome) -> Iterator[Case]:
     if proof is None:
         return
     from rebsync.checker.show import words
-    from rebsync.roundtrip.behaviour.report import run_lines, violations
+    from rebsync.roundtrip.behaviour.report import caveats, run_lines, violations
 
+    doubt = (proof.reason,) if proof.verdict == "violated" and proof.reason else ()
+    rests = "".join(f"caveat: {one_line(each)}\n" for each in (*doubt, *caveats(proof)))
     if proof.verdict == "undetermined":
-        yield Case("properties", "failure", "undetermined", proof.reason)
+        yield Case("properties", "failure", "undetermined", proof.reason, rests)
         return
     broken = {v.name: v for v in violations(proof)}
     properties = proof.result.properties if proof.result is not None else ()
     for name, _ in properties:
         if name not in broken:
-            yield Case(f"property {name}")
+            yield Case(f"property {name}", text=rests)
     for violation in broken.values():
         run = lines_text(run_lines(proof, violation))
-        yield Case(words.title(violation), "failure", "violated", violation.message, run)
+        yield Case(words.title(violation), "failure", "violated", violation.message, rests + run)
     if not properties and not broken:
-        yield Case("nothing goes wrong")
+        yield Case("nothing goes wrong", text=rests)
