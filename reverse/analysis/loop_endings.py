@@ -42,7 +42,7 @@ class LoopEndings:
         numbers = FiniteNumbers(notes.origins.graph, notes.table)
         self._lent = frozenset(_lent(notes, self._function))
         self._bounded = LoopEnds(
-            numbers, notes.function.name, self._is_size, self._changes.in_bound, self._lent
+            numbers, notes.function.name, sizes.is_bound, self._changes.in_bound, self._lent
         )
 
     def ends(self, loop: s.Loop | s.ForEach) -> bool:
@@ -57,9 +57,6 @@ class LoopEndings:
             case s.Loop():
                 is_bounded = self._bounded.ends(loop) or self._sizes.is_emptied(loop)
                 return is_bounded and not (self._changes.in_loop(loop) or self._is_shared(loop))
-
-    def _is_size(self, call: s.Call) -> bool:
-        return self._sizes.bound(call) is not None
 
     def _does_anything(self, loop: s.Loop | s.ForEach) -> bool:
         """Whether something that runs in a loop has no lowering."""

@@ -113,6 +113,10 @@ class OutcomeSizes:
 
     # --- loops -----------------------------------------------------------------------------------
 
+    def is_bound(self, node: s.Call) -> bool:
+        """Whether a call gives the size or the end of a container."""
+        return self.bound(node) is not None
+
     def bound(self, node: s.Call) -> e.Expression | None:
         """The container of which a call gives the size or the end, if it is one of a library."""
         outcome, container = self._asked(node)

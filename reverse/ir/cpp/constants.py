@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import weakref
+
 from tree_sitter import Node
 
 from rebsync.reverse.ir import expressions as e
@@ -25,15 +27,25 @@ class Constants:
     """The numbers of constant expressions of a program; of names by their initialisers."""
 
     def __init__(self) -> None:
-        self.world: World | None = None
+        self._world: weakref.ref[World] | None = None
         self._depth = 0
+
+    @property
+    def world(self) -> World | None:
+        """What names are looked up in, while it is there: it has this object in itself."""
+        return self._world() if self._world is not None else None
+
+    @world.setter
+    def world(self, world: World) -> None:
+        self._world = weakref.ref(world)
 
     def number(self, node: Node, scope: str, cpp: Cpp) -> int | None:
         """The number that an expression is, where it is constant."""
-        if self.world is None or self._depth > _MOST:
+        world = self.world
+        if world is None or self._depth > _MOST:
             return None
-        context = Context(self.world, cpp, "a constant", scope)
-        context.owner = self.world.symbols.classes.get(scope)
+        context = Context(world, cpp, "a constant", scope)
+        context.owner = world.symbols.classes.get(scope)
         self._depth += 1
         try:
             value = lower_value(context, node)

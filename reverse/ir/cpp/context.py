@@ -48,7 +48,7 @@ LibraryCalling: TypeAlias = "Callable[[Context, e.Lvalue, t.Type, Sequence[Node]
 OperatorCalling: TypeAlias = "Callable[[Context, str, list[Value], Span], Value | None]"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class World:
     """What the lowerings of all functions of a program share.
 
