@@ -19,46 +19,19 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcome_rules import Size, Tells
 from rebsync.reverse.libraries.routines import Language
+from rebsync.reverse.libraries.size_effects import (
+    CHANGING_ARGUMENTS,
+    CHANGING_OBJECT,
+    LESSENING,
+    READING,
+    VIEWS,
+)
 
 GROWING = frozenset({Size.GROWS, Size.MORE})
 CHANGING = GROWING | {Size.LOSES, Size.ANY}
-# Methods that give what is there at the time when it is asked for.
-_VIEWS = frozenset({"items", "keys", "values", "elements", "__iter__"})
 _ORDERED = frozenset(LibraryOrigin(n, True) for n in ("list", "tuple", "str", "deque", "set"))
 _INDEXED = frozenset(LibraryOrigin(n, True) for n in ("list", "tuple", "str"))
 _NUMBERS = frozenset({PlainOrigin(), LibraryOrigin("str", True)})
-# What changes sizes of its object, or of what it gets, and has no size in the table of outcomes.
-_CHANGING_OBJECT = frozenset(
-    {
-        *("append", "swap", "splice", "merge", "replace", "resize", "assign", "emplace_hint"),
-        *("__setitem__", "__iadd__", "__imul__", "__ior__", "symmetric_difference_update"),
-        *("insert_after", "emplace_after", "push_range", "append_range", "insert_range"),
-    }
-)
-_CHANGING_ARGUMENTS = frozenset(
-    {
-        *("heappush", "heappop", "insort", "insort_left", "insort_right", "swap", "exchange"),
-        *("back_inserter", "front_inserter", "inserter", "getline", "erase", "erase_if", "setitem"),
-        *("iadd", "iconcat"),
-    }
-)
-# Methods that leave their object as it is, and those that only take elements out of it.
-_READING = _VIEWS | frozenset(
-    {
-        *("size", "length", "empty", "begin", "end", "cbegin", "cend", "rbegin", "rend", "crend"),
-        *("front", "back", "at", "find", "rfind", "count", "contains", "substr", "c_str", "data"),
-        *("capacity", "reserve", "max_size", "compare", "top", "lower_bound", "upper_bound"),
-        *("get", "index", "copy", "sort", "reverse", "rotate", "startswith", "endswith", "split"),
-        *("strip", "upper", "lower", "join", "format", "encode", "isdigit", "starts_with"),
-        *("ends_with", "fill", "operator[]", "find_first_of", "crbegin", "equal_range"),
-    }
-)
-_LESSENING = frozenset(
-    {
-        *("pop", "popleft", "popitem", "remove", "discard", "clear", "erase", "pop_back"),
-        *("pop_front", "shrink_to_fit"),
-    }
-)
 _DEFAULTING = LibraryOrigin("defaultdict", True)
 _NOTHING = frozenset[e.Expression]()
 _NAMED = e.Local | e.Temporary | e.Captured | e.Global | e.Attribute | e.Index | e.Dereference
@@ -169,10 +142,10 @@ class SizeChanges:
                 for argument in () if is_new else call.arguments:
                     yield from self._views(argument.value, seen)
             case s.LibraryCallee(name, receiver) if receiver is not None:
-                if name.rpartition("::")[2] in _VIEWS:
+                if name.rpartition("::")[2] in VIEWS:
                     yield from self._views(receiver, seen)
             case s.MethodCallee(receiver, name):
-                if name in _VIEWS:
+                if name in VIEWS:
                     yield from self._views(receiver, seen)
                 if self.origins.methods_of_any(name):
                     yield iterable
@@ -314,10 +287,10 @@ class SizeChanges:
         if receiver is None and any(self._is_changing(name, sizes) for name in plain):
             yield from (a.value for a in node.arguments[:1])  # `list.append(values, other)`
         if receiver is not None:
-            is_read = plain <= (_READING if Size.ANY in sizes else _READING | _LESSENING)
-            if size in sizes or plain & _CHANGING_OBJECT or (receiver in over and not is_read):
+            is_read = plain <= (READING if Size.ANY in sizes else READING | LESSENING)
+            if size in sizes or plain & CHANGING_OBJECT or (receiver in over and not is_read):
                 yield receiver
-        if plain & _CHANGING_ARGUMENTS:
+        if plain & CHANGING_ARGUMENTS:
             for argument in node.arguments:
                 value = argument.value
                 yield value.target if isinstance(value, e.AddressOf) else value
@@ -325,7 +298,7 @@ class SizeChanges:
     def _is_changing(self, name: str, sizes: frozenset[Size]) -> bool:
         """Whether methods of a name change the sizes of their objects so."""
         size = self.notes.table.method(None, name).size
-        return size in sizes or name in _CHANGING_OBJECT
+        return size in sizes or name in CHANGING_OBJECT
 
     def _takes_keys(self, container: e.Expression, function: str) -> bool:
         """Whether storing at an index may add an element: in mappings, and what is not known."""

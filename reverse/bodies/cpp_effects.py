@@ -185,12 +185,9 @@ class Effects:
         self._found_out(node, name)
 
     def _declaration(self, node: Node) -> None:
-        written = node.child_by_field_name("type")
-        if written is None:
-            raise self._touches(node, "this declares something without a type")
-        type_ = text_of(written)
+        type_ = text_of(written) if (written := node.child_by_field_name("type")) else ""
         takes = known_functions.type_takes_values(type_)
-        if self.scope.meaning(type_) is not None and type_ not in self._inner:
+        if not type_ or (self.scope.meaning(type_) is not None and type_ not in self._inner):
             raise self._touches(node, "this looks like a declaration, but starts with a variable")
         for declarator in node.children_by_field_name("declarator"):
             value = declarator.child_by_field_name("value")

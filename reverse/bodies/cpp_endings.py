@@ -18,4 +18,4 @@ def ends(scope: Scope, cpp: Cpp, loop: Node) -> bool:
     test = loop.child_by_field_name("condition") if loop.type == "do_statement" else None
     if loop.type == "switch_statement" or (test is not None and text_of(test) == "(0)"):
         return True
-    return scope.ends is not None and scope.ends(cpp, loop)
+    return scope.form is not None and scope.form.ends(cpp, loop)

@@ -47,11 +47,9 @@ _REFERS = ("reference_declarator", "pointer_declarator")
 
 def declarations(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
     """The locals of a declaration; what the model has nothing like is outside from here on."""
-    type_ = node.child_by_field_name("type")
-    if type_ is None:
-        raise reader.unread(node, "this declares something without a type")
+    type_ = node.child_by_field_name("type") or node
     text = text_of(type_)
-    if reader.scope.meaning(text) is not None:
+    if type_ is node or reader.scope.meaning(text) is not None:
         why = "this looks like a declaration, but starts with a variable"
         raise reader.unread(node, why, "put it in parentheses")
     words = specifiers_of(node)

@@ -198,7 +198,7 @@ class CppStatements(CppStatementReader):
 
     def _check_comes_back(self, node: Node) -> None:
         """Raises `Unread` where a statement of which the model has nothing may throw."""
-        why = self.scope.raises(self.cpp, node) if self.scope.raises is not None else None
+        why = self.scope.form.raises(self.cpp, node) if self.scope.form is not None else None
         if why is not None:
             raise self.unread(node, why, "catch what it throws, or look before")
 

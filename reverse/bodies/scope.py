@@ -16,6 +16,7 @@ from rebsync.model import Expression, Name, Statement, Type
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, uncarry_local
 from rebsync.reverse.bodies.calm import Calm
+from rebsync.reverse.bodies.cpp_form import CppForm
 from rebsync.reverse.bodies.cpp_types import Carried, carried
 from rebsync.reverse.bodies.serving import Serves
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
@@ -160,7 +161,6 @@ class Itself:
 Endpoint: TypeAlias = Publishes | Serves | TimerOf
 Member: TypeAlias = Itself | Variable | Runtime | Outside | Record | Lambda | Endpoint
 Meaning: TypeAlias = Member | Expression
-Raising: TypeAlias = Callable[[Cpp, Node], str | None]
 
 # --- functions ----------------------------------------------------------------------------------
 
@@ -332,10 +332,7 @@ class Scope:
     calls: dict[int, CppCall] = field(default_factory=dict, compare=False, repr=False)
     # The definitions of macros with parameters, by their names.
     macros: Mapping[str, Sequence[Node]] = field(default_factory=dict, compare=False, repr=False)
-    # Whether a loop ends, by the form.
-    ends: Callable[[Cpp, Node], bool] | None = field(default=None, compare=False, repr=False)
-    # What a statement may throw, by the form.
-    raises: Raising | None = field(default=None, compare=False, repr=False)
+    form: CppForm | None = field(default=None, compare=False, repr=False)
 
     def carried(self, node: Node) -> Carried | None:
         """What the model keeps of a type, or None if it has nothing like it."""

@@ -396,6 +396,5 @@ class Classes:
             aliases=aliases(self.code),
             messages=self.messages,
             unit=self.unit,
-            ends=self.form.ends,
-            raises=self.form.raises,
+            form=self.form,
         )

@@ -149,8 +149,7 @@ class Bodies:
             chooses=chooses,
             server=server,
             unit=self.setup.times.unit,
-            ends=self.common.form(self.code).ends,
-            raises=self.common.form(self.code).raises,
+            form=self.common.form(self.code),
         )
 
     def _own_members(self) -> Mapping[str, Member]:
