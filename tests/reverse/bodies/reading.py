@@ -114,7 +114,7 @@ def read_case(source: Source) -> tuple[m.Model, Findings]:
         messages=_MESSAGES,
         widths=_WIDTHS,
         open=True,
-        ends=CppForm(code).ends,
+        form=CppForm(code),
     )
     servers = [_server(cpp, f, scope, findings) for f in functions if _is_served(f)]
     return _whole(tuple(enumerated(servers)[0])), findings
