@@ -269,7 +269,5 @@ class Library:
     versions: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
     included: str = ""
     strict: bool = False
-    # The minor release of Python 3 that runs its nodes, if there is one for all.
-    release: int | None = None
     generated: bool = False
     actions: Mapping[str, Routine] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""Syntax of Python that the release has not which runs a package: by its client library.
+"""Syntax of Python that the release has not which runs a package: of rospy, Noetic's 3.8.
 
 A module with such syntax is not imported at all, whatever else it says. `python_requires` of the
 package's `setup.py` says that another release runs it.
@@ -13,10 +13,10 @@ from collections.abc import Iterator, Mapping
 
 from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.findings import Finding, Grade
-from rebsync.reverse.libraries.python import clients
 from rebsync.source import Source, Span
 
-_IMPORTED = re.compile(r"^[ \t]*(?:import|from)[ \t]+(\w+)", re.MULTILINE)
+_NOETIC = 8  # Python 3.8, the release of REP 3
+_ROSPY = re.compile(r"^[ \t]*(?:import|from)[ \t]+rospy\b", re.MULTILINE)
 _REQUIRED = re.compile(r"python_requires\s*=\s*[\"'][^\"']*>=\s*3\.(\d+)")
 # What a newer release may have brought; most files have none of it.
 _NEWER = re.compile(
@@ -31,14 +31,11 @@ def newer_syntax(sources: Mapping[str, Source], files: Mapping[str, Source]) -> 
 
     `sources` are the modules, `files` all that the package has.
     """
-    imported = {name for s in sources.values() for name in _IMPORTED.findall(s.text)}
-    used = (library.release for library in clients() if library.name in imported)
-    release = next((minor for minor in used if minor is not None), None)
-    if release is None:
+    if not any(_ROSPY.search(source.text) for source in sources.values()):
         return
     setup = files.get(SETUP)
     required = _REQUIRED.search(setup.text) if setup is not None else None
-    minor = max(release, int(required[1])) if required is not None else release
+    minor = max(_NOETIC, int(required[1])) if required is not None else _NOETIC
     for source in sources.values():
         if _NEWER.search(source.text) and (found := _refused(source, minor)) is not None:
             yield found

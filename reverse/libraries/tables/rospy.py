@@ -105,7 +105,6 @@ LIBRARIES = (
         plain=frozenset({"rospy.AnyMsg", "rospy.msg.AnyMsg"}),
         flat=False,
         threads=True,
-        release=8,  # of Noetic: REP 3
         actions={
             "actionlib.SimpleActionServer": Routine(
                 Kind.SERVICE, ("name", "type"), (("ActionSpec", "type"),)
