@@ -45,7 +45,6 @@ from rebsync.reverse.python.py_hooks import hooks_in
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import field, named, parse, text_of, unparsed
 from rebsync.reverse.python.py_values import PyValues
-from rebsync.reverse.python.release_syntax import newer_syntax
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.python.sensor_effects import list_sensor_effects
 from rebsync.source import Source
@@ -173,7 +172,6 @@ def read_python(
     classes.fields = _types_in(known)
     classes.constants = integer_constants(classes.env(), launch)
     read = classes.read(path) if asked is not None or only is None else ()
-    findings.all += newer_syntax(python.sources, files or {})
     if read and only is None and SETUP in (files or {}):
         findings.all += unparsed(parse((files or {})[SETUP]))
         list_setup_effects((files or {})[SETUP], findings)
