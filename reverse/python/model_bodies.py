@@ -22,7 +22,6 @@ from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.sensors import list_unseen
 from rebsync.reverse.python import model_defaults as defaults
-from rebsync.reverse.python.attribute_names import is_private
 from rebsync.reverse.python.model_expressions import Expressions
 from rebsync.reverse.python.model_filled import fillings_of
 from rebsync.reverse.python.model_helpers import called_in, first_of, own_name, without_object
@@ -202,9 +201,6 @@ class ModelBodies:
         names = self.names(owner)
         if function.module is not owner.module:
             names = replace(names, constants=NamedConstants(self.named, function.module))
-        if not function.is_method:
-            shown = {a: v for a, v in names.variables.items() if not is_private(a)}
-            names = replace(names, variables=shown)
         expressions = Expressions(function.py, names, own=self._own(owner, function))
         return Statements(expressions, self.findings, within, self.types)
 
@@ -277,7 +273,6 @@ class ModelBodies:
         types: dict[str, m.Type] = {}
         for above in reversed(self.line(owner)):
             roles = self.roles(above)
-            variables = {a: v for a, v in variables.items() if not is_private(a)}
             variables |= {a: v[0] for a, v in (roles.state | roles.known).items()}
             variables |= {a: e.name for a, e in roles.env.items()}
             types |= {v[0]: v[1] for v in (roles.state | roles.known).values()}

@@ -16,7 +16,6 @@ from rebsync.reverse.python import model_closures as closures
 from rebsync.reverse.python import model_formats as formats
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python import model_tuples as tuples
-from rebsync.reverse.python.attribute_names import is_private
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_helpers import arguments_for
 from rebsync.reverse.python.model_kinds import float_literal
@@ -299,7 +298,7 @@ class Expressions(ModelExpressionReader):
             case "put", 3:
                 name = string_value(arguments[1]) or ""
                 variable = self.names.variables.get(name)
-                if variable is None or is_private(name):  # a text is what it says, in any class
+                if variable is None:
                     raise self.unread(node, f'the model has no variable "{name}"')
                 hidden = variable in self.locals.values()
                 target = m.Member(m.Self(span), variable) if hidden else m.Name(variable, span)

@@ -6,6 +6,7 @@ that publishes or posts is a send. Markers only tell names that the code had to 
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Collection, Iterator
 from dataclasses import field as with_default
@@ -20,7 +21,6 @@ from rebsync.reverse.bodies.overloads import Signature
 from rebsync.reverse.build.field_order import are_named
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
 from rebsync.reverse.generated.sensors import sensor_of
-from rebsync.reverse.python.attribute_names import variable_name
 from rebsync.reverse.python.model_logs import only_describes
 from rebsync.reverse.python.model_parameters import ParameterRead, declared_by, parameter_read
 from rebsync.reverse.python.model_queues import PASSED, queue_in
@@ -83,7 +83,6 @@ class PyRoles:
     """Of one class alone: what its attributes and functions stand for, by their names in Python."""
 
     owner: Scope
-    code: PyCode
     functions: dict[str, Scope] = with_default(default_factory=dict)
     state: dict[str, tuple[str, m.Type, Node]] = with_default(default_factory=dict)
     initial: list[tuple[str, Node, Scope]] = with_default(default_factory=list)
@@ -140,7 +139,7 @@ class PyRoles:
 
 def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     """Reads what the constructor of a class sets up, and what its functions do with it."""
-    roles = PyRoles(owner, code)
+    roles = PyRoles(owner)
     for bindings in owner.names.values():
         for binding in bindings:
             if binding.how == "scope":
@@ -284,7 +283,7 @@ def _variable(
     roles: PyRoles, function: Scope, attribute: str, statement: Node, value: Node, type_: m.Type
 ) -> None:
     markers = markers_beside(function.py, statement)
-    name = variable_name(roles.code, roles.owner, attribute, markers)
+    name = variable_name(attribute, markers)
     read = parameter_read(value, roles.declared)
     roles.stored[attribute] += not is_unset(value)
     if is_unset(value) or literal_type(value) is not None:
@@ -299,6 +298,19 @@ def _variable(
     elif read is not None and (own := read.own()) is not None and own.fits(type_):
         roles.own[attribute] = own, statement
         roles.state.setdefault(attribute, (name, type_, statement))
+
+
+def variable_name(attribute: str, markers: Collection[str]) -> str:
+    """The model's name of an attribute, from its marker unless it was renamed."""
+    for marker in markers:
+        kind, path, *_ = [*marker.split(), "", ""]
+        name = path.rpartition(".")[2]
+        carried = re.escape(carry(name, PYTHON_MEMBERS)) if name else ""
+        if kind in ("statevar", "env", "knownrebec") and re.fullmatch(
+            rf"_{carried}(_\d+)?", attribute
+        ):
+            return name
+    return uncarry(attribute.removeprefix("_"), PYTHON_MEMBERS)
 
 
 # --- what functions do --------------------------------------------------------------------------
