@@ -32,7 +32,7 @@ from rebsync.source import Source
 
 _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
 _CONNECTING = {"subscribe": "subscribe", "subscribe_on_bridge": "subscribeOnBridge"}
-_UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(")
+_UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(|(?:0|0\.0|False)\Z")
 _FILLS = re.compile(r"_local\d+\.\w+ = \w+\Z")
 _OF_ROS = frozenset({"rospy", "rclpy"})
 
