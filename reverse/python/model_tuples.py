@@ -10,6 +10,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, is_calm
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_kinds import is_floating
+from rebsync.reverse.python.model_types import without_parentheses
 from rebsync.reverse.python.py_tree import field, named, text_of, whole_number_of
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def compared(reader: ModelExpressionReader, node: Node, operator: str) -> m.Expr
     is equal to itself, even one that is no number), or evaluating one may fail or do something: all
     of them are evaluated before any is compared, in the model only those that are asked.
     """
-    left, right = map(_bare, named(node))
+    left, right = map(without_parentheses, named(node))
     if left.type not in _SEQUENCES or left.type != right.type:
         return None
     pairs = list(zip(named(left), named(right), strict=False))
@@ -75,9 +76,3 @@ def _is_safe(node: Node) -> bool:
             return is_cut and _is_safe(arguments[0])
         case _:
             return node.type in _SAFE
-
-
-def _bare(node: Node) -> Node:
-    while node.type == "parenthesized_expression" and len(named(node)) == 1:
-        node = named(node)[0]
-    return node
