@@ -219,16 +219,20 @@ def is_calm(node: Node) -> bool:
 _CALM = frozenset({"abs", "min", "max", "bool", "int8", "int16", "int32", "divide", "remainder"})
 
 
+def known_range(arguments: list[Node]) -> range | None:
+    """What `range` gives for arguments that are numbers; None for others, and where it fails."""
+    whole = [n for n in map(whole_number_of, arguments) if n is not None]
+    is_known = 1 <= len(whole) == len(arguments) <= 3 and whole[2:] != [0]
+    return range(*whole) if is_known else None
+
+
 def rows(reader: ModelExpressionReader, node: Node, width: int) -> list[tuple[m.Expression, ...]]:
     """What a loop gives its variables, round by round."""
     called = text_of(field(node, "function")) if node.type == "call" else ""
     arguments = named(field(node, "arguments")) if called else []
-    whole = [n for n in map(whole_number_of, arguments) if n is not None]
-    is_known = 1 <= len(whole) == len(arguments) <= 3 and whole[2:] != [0]
-    if called == "range" and width == 1 and is_known:
-        numbers = range(*whole)
-        if len(numbers) <= _MOST:
-            return [(m.IntLiteral(n),) for n in numbers]
+    numbers = known_range(arguments) if called == "range" and width == 1 else None
+    if numbers is not None and len(numbers) <= _MOST:
+        return [(m.IntLiteral(n),) for n in numbers]
     if called == "enumerate" and width == 2 and 1 <= len(arguments) <= 2:
         values = _certain(reader, arguments[0], called)
         start = whole_number_of(arguments[1]) if len(arguments) > 1 else 0

@@ -13,7 +13,7 @@ from rebsync import model as m
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python.model_failing import may_fail
 from rebsync.reverse.python.model_types import call_parts
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of, whole_number_of
+from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.syntax.ancestors import ancestors, climb
 
 if TYPE_CHECKING:
@@ -129,10 +129,8 @@ def _first(reader: ModelStatementReader, node: Node) -> m.Expression | None:
     """The first value of a loop's variable; None: there may be no round."""
     right = field(node, "right")
     called, arguments = call_parts(right) or ("", [])
-    if called == "range" and 1 <= len(arguments) <= 3:
-        whole = [n for n in map(whole_number_of, arguments) if n is not None]
-        is_known = len(whole) == len(arguments) and whole[2:] != [0]
-        first = next(iter(range(*whole)), None) if is_known else None
+    if called == "range":
+        first = next(iter(builtins.known_range(arguments) or ()), None)
         return m.IntLiteral(first) if first is not None and first >= 0 else None
     if right.type in ("identifier", "attribute"):
         elements = builtins.array_elements(reader.expressions, right)
