@@ -75,7 +75,7 @@ _SET_LATE = _kind(
     "state set after the constructor",
     ".py",
     (
-        r"^(        self\.(_\w+): int = int\(\).*\n)((?:.*\n)*?)"
+        r"^(        self\.(_\w+): (?:int|bool) = (?:0|False)\b.*\n)((?:.*\n)*?)"
         r"(        self\._mailbox\.construct\(.*\n)",
         r"\3\4\1",
     ),
