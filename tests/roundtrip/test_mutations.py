@@ -8,7 +8,7 @@ import pytest
 
 from tests.roundtrip.mutations.harness import Result, Said, Task, results
 from tests.roundtrip.mutations.kinds import BEHAVIOUR, NEUTRAL, made_by
-from tests.roundtrip.mutations.package import Kind, Package
+from tests.roundtrip.mutations.package import BY_NAME, Kind, Package
 from tests.roundtrip.mutations.set_up import KINDS
 
 _SHARE = {"cpp": 12, "py": 24}  # one kind in so many
@@ -47,6 +47,18 @@ _AT_LEAST = {
     "ros1-py": (235, 102),
     "ros2-py": (249, 104),
 }
+# Kinds of both releases or languages that one dialect has no place for.
+_NOWHERE = {
+    "ros1-cpp": set[str](),
+    "ros2-cpp": {"destructor"},  # its classes have one
+    "ros1-py": {"object as another base"},
+    "ros2-py": {
+        "object as base",
+        "program exchanges parameters",  # the class reads them
+        "parameters not installed by CMake",  # setup.py does
+        "launch file not installed by CMake",
+    },
+}
 
 
 def share(dialect: str, kinds: tuple[Kind, ...]) -> list[Task]:
@@ -72,6 +84,17 @@ def test_there_are_enough_kinds(dialect: str) -> None:
     assert len(changing) >= _AT_LEAST[dialect][0] and len(quiet) >= _AT_LEAST[dialect][1]
     names = [kind.name for kind in (*changing, *quiet)]
     assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize("dialect", BEHAVIOUR)
+def test_every_kind_has_a_place(dialect: str) -> None:
+    packages = [Package(name, dialect) for name in BY_NAME]
+    placed_nowhere = {
+        kind.name
+        for kind in (*BEHAVIOUR[dialect], *NEUTRAL[dialect])
+        if not any(True for package in packages for _ in kind.mutants(package))
+    }
+    assert placed_nowhere == _NOWHERE[dialect]
 
 
 @pytest.mark.parametrize("name", _PACKAGES)

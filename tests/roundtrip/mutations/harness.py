@@ -109,10 +109,14 @@ def written(package: Package, root: Path) -> None:
         return
     shutil.copytree(package.example, root, ignore=shutil.ignore_patterns(package.name))
     for path, text in generated(package.name, package.dialect).items():
-        target = root / package.name / path
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_bytes(text.encode("utf-8"))
-        target.chmod(0o755 if text.startswith("#!") else 0o644)
+        _write(root / package.name / path, text)
+
+
+def _write(target: Path, text: str) -> None:
+    """A file of a package, executable where it is a script."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_bytes(text.encode("utf-8"))
+    target.chmod(0o755 if text.startswith("#!") else 0o644)
 
 
 @contextmanager
@@ -152,7 +156,7 @@ def told(package: Package, kind: str, mutant: Mutant, root: Path) -> Result:
         for path in mutant.files:
             (home / path).unlink(missing_ok=True)
             if path in package.files:
-                (home / path).write_bytes(package.files[path].encode("utf-8"))
+                _write(home / path, package.files[path])
 
 
 def _said(found: CheckResult, mutant: Mutant) -> tuple[Said, list[str]]:

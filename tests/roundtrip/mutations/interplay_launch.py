@@ -24,7 +24,7 @@ from tests.roundtrip.mutations.package import (
 from tests.roundtrip.mutations.surroundings import constants
 
 _XML, _PY = ".launch", ".launch.py"
-_HEAD = r"\A<launch>\n"
+_HEAD = r"^<launch>\n"
 _END = r"^</launch>"
 _LIST = r"^(    return LaunchDescription\(\n        \[\n)"
 _NODES = r"^from launch_ros\.actions import Node$"
@@ -96,13 +96,17 @@ XML = (
                 r'  <include file="$(find other)/launch/other.launch"/>\n</launch>',
             ),
             "remap for all nodes": (
-                r'\A<launch>\n((?:.*\n)*?.*<remap from="~[^"]*" to="\w+/(\w+)")',
+                r'^<launch>\n((?:.*\n)*?.*<remap from="~[^"]*" to="\w+/(\w+)")',
                 r'<launch>\n  <remap from="~\2" to="/other"/>\n\1',
             ),
             "node unless": (r"^  <node (?!.*stand_in)", r'  <node unless="true" '),
             "node if an argument says so": (
-                r"\A<launch>\n((?:.*\n)*?)  <node ",
+                r"^<launch>\n((?:.*\n)*?)  <node ",
                 r'<launch>\n  <arg name="with" default="false"/>\n\1  <node if="$(arg with)" ',
+            ),
+            "node only if an argument does not say no": (
+                r"^<launch>\n((?:.*\n)*?)  <node ",
+                r'<launch>\n  <arg name="with" default="true"/>\n\1  <node if="$(arg with)" ',
             ),
             "node in nested namespaces": (
                 r"^(  <node (?!.*stand_in).*>\n(?:    .*\n)*  </node>\n)",
@@ -123,10 +127,11 @@ XML = (
                 r'\1command="echo 9\2"\3',
             ),
             "argument by an arg of another value": (
-                r"\A<launch>\n((?:.*\n)*?.*value=\")(\d+)\" type=\"int\"",
+                r"^<launch>\n((?:.*\n)*?.*value=\")(\d+)\" type=\"int\"",
                 r'<launch>\n  <arg name="own" default="9\2"/>\n\1$(arg own)" type="int"',
             ),
         },
+        comments=True,
     ),
     Kind("remap to the same topic", _same_topic(r'<remap .* to="([^"]*)"')),
 )
@@ -140,13 +145,10 @@ XML_NEUTRAL = kinds_in(
             r"^(  <node (?!.*stand_in).*>\n(?:    .*\n)*  </node>\n)",
             r"  <group>\n\1  </group>\n",
         ),
-        "node if an argument that is true": (
-            r"\A<launch>\n((?:.*\n)*?)  <node ",
-            r'<launch>\n  <arg name="with" default="true"/>\n\1  <node if="$(arg with)" ',
-        ),
         "how lines are logged": (_OPEN, r'\1    <env name="ROSCONSOLE_FORMAT" value="m"/>\n'),
         "unused argument": (_HEAD, '<launch>\n  <arg name="unused" default="3"/>\n'),
     },
+    comments=True,
 )
 
 

@@ -177,7 +177,7 @@ KINDS = (
     Kind("local renamed", _renamed_local),
     Kind("constant extracted", _constant),
     Kind("includes reordered", swapped_lines(r"#include [<\"][^\n]*", ".h")),
-    Kind("another include", in_files(".cpp", r"\A(#include .*\n)", r"\1#include <vector>\n")),
+    Kind("another include", in_files(".cpp", r"\A(\s*#include .*\n)", r"\1#include <vector>\n")),
     Kind("pragma once", rewritten((".h",), lambda t: f"#pragma once\n{t}")),
     Kind("functions reordered", _reordered_functions),
     Kind(

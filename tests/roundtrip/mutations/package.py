@@ -260,9 +260,11 @@ def in_files(suffix: str, pattern: str, text: str, *, comments: bool = False) ->
     return make
 
 
-def kinds_in(suffix: str, rows: Mapping[str, tuple[str, str]]) -> tuple[Kind, ...]:
+def kinds_in(
+    suffix: str, rows: Mapping[str, tuple[str, str]], *, comments: bool = False
+) -> tuple[Kind, ...]:
     """Kinds of changes in such files by their names, each a pattern and the text in its place."""
-    return tuple(Kind(name, in_files(suffix, *row)) for name, row in rows.items())
+    return tuple(Kind(n, in_files(suffix, *row, comments=comments)) for n, row in rows.items())
 
 
 def at_start(text: str, *kinds: str) -> Maker:

@@ -81,7 +81,7 @@ KINDS = (
     Kind("- made +", within(r" - ", " + ")),
     Kind("remainder made quotient", within(r"\bremainder\(", "divide(")),
     Kind("int32 left out", within(r"\bint32(?=\()", "")),
-    Kind("// for divide", within(r"\bremainder\((\w+), (\d+)\)", r"(\1 // \2)")),
+    Kind("// for divide", within(r"\bremainder\((int32\([^()]*\)), (\d+)\)", r"(\1 // \2)")),
     Kind("label of a case", within(r"\bcase_\((\d+)\)", stepped(50, shown="case_({})"))),
     Kind("break removed", within(r"^( *)break\n", r"\1pass\n")),
     Kind("case removed", within(rf"^( *)if case_\(\d+\):\n{_BLOCK}", "")),
@@ -128,7 +128,7 @@ KINDS = (
     Kind("assertion removed", within(r"^( *)self\._mailbox\.assertion\([^\n]*\n", r"\1pass\n")),
     Kind(
         "assertion of Python",
-        within(r"^( *)self\._mailbox\.assertion\((.*), \".*\"\)$", r"\1assert \2"),
+        within(r"^( *)self\._mailbox\.assertion\((.*),[^,]*\)$", r"\1assert \2"),
     ),
     Kind("delay one longer", within(r"_mailbox\.delay\((.*)\)$", r"_mailbox.delay((\1) + 1)")),
     Kind("delay removed", within(r"^( *)self\._mailbox\.delay\([^\n]*\n", r"\1pass\n")),

@@ -199,7 +199,7 @@ KINDS = (
         _in_sources(r"^(        )msg\.\w+ = (self\._\w+)\n(?=.*\n)", r"\g<0>\1\2 = 0\n"),
     ),
     Kind("another int32", _in_sources(r"^(_\w+ = Server)", r"int32 = int\n\1")),
-    Kind("another int", _in_sources(r"^(class \w+:\n)", r"int = float\n\n\n\1")),
+    Kind("another int", _in_sources(r"^(class \w+(?:\(\w+\))?:\n)", r"int = float\n\n\n\1")),
     Kind(
         "function of the run-time part hidden",
         _in_sources(
@@ -209,7 +209,7 @@ KINDS = (
     ),
     Kind(
         "class of the run-time part hidden",
-        anywhere(_in_sources(r"^(class \w+:\n)", r"class When:\n    pass\n\n\n\1")),
+        anywhere(_in_sources(r"^(class \w+(?:\(\w+\))?:\n)", r"class When:\n    pass\n\n\n\1")),
     ),
     Kind("imported from elsewhere", _in_sources(r"^from \w+\.values import", "from own import")),
     Kind(

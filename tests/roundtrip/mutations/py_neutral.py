@@ -24,7 +24,7 @@ from tests.roundtrip.mutations.package import (
     in_files,
     within,
 )
-from tests.roundtrip.mutations.py_surroundings import programs
+from tests.roundtrip.mutations.py_surroundings import in_program, programs
 
 _STYLES = {
     "of 60 columns": ("--line-length=60",),
@@ -136,7 +136,7 @@ def _class_constant(package: Package) -> Iterator[list[Edit]]:
     """A number in a body that becomes a constant of the class."""
     for part in (p for p in package.parts if p.kind in BODIES):
         code = package.code(part.path, strings=False)
-        head = re.search(r"^class \w+:\n", code, re.MULTILINE)
+        head = re.search(r"^class \w+(?:\(\w+\))?:\n", code, re.MULTILINE)
         for found in re.compile(r"(?<=[=<>+] )\d+\b").finditer(code, part.start, part.end):
             if head is not None:
                 yield [
@@ -236,7 +236,10 @@ KINDS = (
     Kind("comment after a statement", within(_STATEMENT, r"\1\2  # so it is; x = 1", *BODIES)),
     Kind("comment that mentions markers", within(_STATEMENT, r"\1# see rebsync in the docs\n\1\2")),
     Kind("comment not indented", within(_STATEMENT, r"# so it is\n\1\2")),
-    Kind("docstring of a class", _in_sources(r"^(class \w+:\n)", r'\1    """What it is."""\n\n')),
+    Kind(
+        "docstring of a class",
+        _in_sources(r"^(class \w+(?:\(\w+\))?:\n)", r'\1    """What it is."""\n\n'),
+    ),
     Kind("docstring of a method", at_start('        """What it does."""\n', *BODIES)),
     Kind("blank lines", within(_STATEMENT, r"\n\1\2\n", *BODIES)),
     Kind("indented deeper", _rewritten(_indented)),
@@ -330,6 +333,7 @@ KINDS = (
     ),
     Kind("unused constant", _in_sources(r"^(_\w+ = Server.*\n)(?=\n)", r"\1_UNUSED = 3\n")),
     Kind("object as base", _in_sources(r"^(class \w+)(:\n)", r"\1(object)\2")),
+    Kind("object as another base", _in_sources(r"^(class \w+\(\w+)(\):\n)", r"\1, object\2")),
     Kind(
         "__repr__",
         _in_sources(
@@ -348,7 +352,7 @@ KINDS = (
     ),
     Kind("arguments by name", within(r"\bWhen\(after=", "When(deadline=None, after=")),
     Kind("comment at the end", _rewritten(lambda t: t + "\n# end\n")),
-    Kind("logged in the program", in_files("_node.py", r"^( *)(rebec = )", r'\1print("up")\n\1\2')),
+    Kind("logged in the program", in_program(r"^( *)(rebec = )", r'\1print("up")\n\1\2')),
     Kind("comment in the set-up", in_files("setup.py", r"^(setup\()", r"# mine\n\1")),
     Kind(
         "comment in the run-time part",

@@ -10,7 +10,7 @@ from tests.roundtrip.mutations.package import Edit, Kind, Maker, Mutant, Package
 from tests.roundtrip.mutations.surroundings import run_time
 
 
-def _program(pattern: str, text: str) -> Maker:
+def in_program(pattern: str, text: str) -> Maker:
     """In the programs that run rebecs."""
     compiled = re.compile(pattern, re.MULTILINE)
 
@@ -64,20 +64,20 @@ KINDS = (
     Kind("run-time part: statement removed", run_time(r"^( +)self\.\w+\.\w+\(.*\)\n", r"\1pass\n")),
     Kind("run-time part: file gone", gone("/mailbox.py")),
     Kind("module gone", gone("/values.py")),
-    Kind("program reads another parameter", _program(_GIVEN, r'\1_b"')),
+    Kind("program reads another parameter", in_program(_GIVEN, r'\1_b"')),
     Kind(
         "program exchanges parameters",
-        _program(_GIVEN + r"(, 0.*?,\s+)" + _GIVEN, r'\3"\2\1"'),
+        in_program(_GIVEN + r"(, 0.*?,\s+)" + _GIVEN, r'\3"\2\1"'),
     ),
-    Kind("program gives a number", _program(_NUMBER, r"\g<1>3")),
-    Kind("program does not serve", _program(r"^( *)rebec\.mailbox\.serve\(\)$", r"\1pass")),
+    Kind("program gives a number", in_program(_NUMBER, r"\g<1>3")),
+    Kind("program does not serve", in_program(r"^( *)rebec\.mailbox\.serve\(\)$", r"\1pass")),
     Kind("program of another class", _other_class),
-    Kind("program takes part in nothing", _program(r"^( *)(?:rospy|rclpy)\.init.*$", r"\1pass")),
+    Kind("program takes part in nothing", in_program(r"^( *)(?:rospy|rclpy)\.init.*$", r"\1pass")),
     Kind("program gone", _program_gone),
-    Kind("program leaves at once", _program(r"^( *)(rebec = )", r"\1raise SystemExit\n\1\2")),
+    Kind("program leaves at once", in_program(r"^( *)(rebec = )", r"\1raise SystemExit\n\1\2")),
     Kind(
         "program changes a class",
-        _program(r"^( *)(rebec = )(\w+)", r"\1\3.construct = print\n\1\2\3"),
+        in_program(r"^( *)(rebec = )(\w+)", r"\1\3.construct = print\n\1\2\3"),
     ),
     Kind("stand-in publishes elsewhere", _sensor(r'"~/?\w+",', '"/other",')),
     Kind(
@@ -121,7 +121,7 @@ ROSPY = (
     ),
     Kind("state not latched", in_files(".py", r"latch=True", "latch=False")),
     Kind("depth of the state", in_files(".py", r"queue_size=QUEUE_SIZE", "queue_size=1")),
-    Kind("program of another node", _program(r'(init_node\("\w+)"', r'\1", anonymous=True')),
+    Kind("program of another node", in_program(r'(init_node\("\w+)"', r'\1", anonymous=True')),
 )
 
 RCLPY = (
@@ -181,7 +181,7 @@ RCLPY = (
     ),
     Kind(
         "program renames topics",
-        _program(r'(\bNode\("\w+")', r'\1, cli_args=["--ros-args", "-r", "~/a:=b"]'),
+        in_program(r"rclpy\.init\(\)", 'rclpy.init(args=["own", "--ros-args", "-r", "~/a:=b"])'),
     ),
-    Kind("program without its arguments", _program(r"rclpy\.init\(\)", "rclpy.init(args=[])")),
+    Kind("program without its arguments", in_program(r"rclpy\.init\(\)", "rclpy.init(args=[])")),
 )

@@ -141,7 +141,7 @@ NEUTRAL = (
     Kind("logged in set-up", at_end(_LOG.format('"ready"'), _S)),
     Kind(
         "logged in the program",
-        _program(r"^(  rclcpp::spin)", r'  RCLCPP_INFO(rclcpp::get_logger("main"), "up");\n\1'),
+        _program(r"^( +rclcpp::spin)", r'  RCLCPP_INFO(rclcpp::get_logger("main"), "up");\n\1'),
     ),
     Kind(
         "parameters declared in another order",

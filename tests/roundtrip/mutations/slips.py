@@ -24,6 +24,7 @@ from tests.roundtrip.mutations.package import (
 from tests.roundtrip.mutations.surroundings import constants, run_time
 
 _S = "setup"
+_MESSAGES = r"^(?:generate_messages\(\)|rosidl_generate_interfaces\([^)]*\))\n"
 
 
 def _constant(text: str) -> Maker:
@@ -76,7 +77,6 @@ PYTHON = (
     Kind("self dropped where it is set", _in_bodies(r"\bself\.(?=_\w+ = )", "")),
     Kind("self dropped where it is read", _in_bodies(r"(?<=[ (])self\.(?=_\w+\b(?! =)(?!\.))", "")),
     Kind("self dropped from a send", _in_bodies(r"\bself\.(?=send_)", "")),
-    Kind("is for ==", _in_bodies(r"(?<=\w) == (?=\d{4,}\b)", " is ")),
     Kind("is not for ==", _in_bodies(r" == (?=True\b|False\b)", " is not ")),
     Kind("server of another name where defined", _defined("msgsrv")),
     Kind("handler of another name where defined", _defined("receive")),
@@ -104,8 +104,8 @@ RCLCPP = (
         "stand-in by the wall clock",
         in_files(
             "_stand_in.cpp",
-            r"rclcpp::create_timer\(node, node->get_clock\(\), (\w+_period)",
-            r"node->create_wall_timer(std::chrono::nanoseconds(\1.nanoseconds())",
+            r"rclcpp::create_timer\(node, node->get_clock\(\),\n *(\w+_period \* 0\.5)",
+            r"node->create_wall_timer((\1).to_chrono<std::chrono::nanoseconds>()",
         ),
     ),
     Kind(
@@ -117,8 +117,8 @@ RCLCPP = (
     Kind(
         "subscription in a group of its own",
         run_time(
-            r"(create_subscription<M>\(topic, reliable\(\),)",
-            r"\1 /* group */ group_,",
+            r"unfailing<rclcpp::SubscriptionOptions>\(topic\)",
+            r"of_own_group(topic)",
         ),
     ),
     Kind("another component", _other_component),
@@ -143,7 +143,7 @@ ANY = (
     Kind("constant made a truth", _constant(r"\1\2: true")),
     Kind("constant under another name", anywhere(_constant(r"\1\2_b: 1\3"))),
     Kind("unit of time made a text", in_files("params.yaml", r"(time_unit: ).*$", r"\1'slow'")),
-    Kind("no messages", in_files("CMakeLists.txt", r"^generate_messages\(\)\n", "")),
+    Kind("no messages", in_files("CMakeLists.txt", _MESSAGES, "")),
     Kind(
         "parameters not installed by CMake",
         in_files("CMakeLists.txt", r"DIRECTORY config launch", "DIRECTORY launch"),
@@ -175,11 +175,11 @@ LAUNCH_XML = kinds_in(
             r'\1value="\2" type="str"',
         ),
         "unit of time set again": (
-            r"\A<launch>\n",
-            '<launch>\n  <param name="mailbox/time_unit" value="2.0"/>\n',
+            r"^</launch>",
+            '  <param name="mailbox/time_unit" value="2.0"/>\n</launch>',
         ),
         "argument set again": (
-            r'^( *)(<param name="\w+" value=")(\d+)("/>)$',
+            r'^( *)(<param name="\w+" value=")(\d+)(" type="int"/>)$',
             r"\1\2\3\4\n\1\g<2>9\3\4",
         ),
     },

@@ -251,7 +251,7 @@ KINDS = (
     Kind("alias of a type", _alias),
     Kind(
         "another include of a source",
-        in_sources(r'\A(#include ".*\n)', r"\1\n#include <iostream>\n"),
+        in_sources(r'\A(\s*#include ".*\n)', r"\1\n#include <iostream>\n"),
     ),
     Kind("guard made a pragma", _no_guard),
     Kind("classes declared apart", _declared_later),
