@@ -265,7 +265,8 @@ class OutcomeWalk:
         inside = self._changed(facts, inner)
         before = self.body(node.prelude, inside) or inside
         self.value(node.test, before)
-        after = self.body(node.body, tested(before, node.test, True))
+        entered = inside if node.body_first else tested(before, node.test, True)
+        after = self.body(node.body, entered)
         self.body(node.step, self._changed(facts, inner) if after is None else after)
         left = tested(before, node.test, False)
         self.body(node.otherwise, left)
