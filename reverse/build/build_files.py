@@ -71,10 +71,6 @@ class BuildFiles:
         """The sources of a target and of all targets of the package that it is linked with."""
         return tuple(dict.fromkeys(s for t in self._linked(target) for s in t.sources))
 
-    def missing_of(self, target: BuildTarget) -> tuple[Open, ...]:
-        """Why `sources_of` is not all, if it is not."""
-        return tuple(dict.fromkeys(m for t in self._linked(target) for m in t.missing))
-
     def _linked(self, target: BuildTarget) -> tuple[BuildTarget, ...]:
         found = {target.name: target}
         waiting = [target]

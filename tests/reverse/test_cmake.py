@@ -67,7 +67,7 @@ def test_libraries_of_the_package_count() -> None:
     assert found.sources_of(node) == (
         *("src/node.cpp", "src/more.cpp", "src/core.cpp", "src/base.cpp"),
     )
-    assert found.missing_of(node) == ()
+    assert node.missing == ()
 
 
 def test_variables_and_lists() -> None:
