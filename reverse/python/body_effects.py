@@ -13,9 +13,10 @@ from rebsync.reverse.python.body_reading import Reading, has_nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_bindings import Binding
+from rebsync.reverse.python.py_callers import UNGIVEN
 from rebsync.reverse.python.py_index import Scope, last_name
 from rebsync.reverse.python.py_tree import decorators_of, field, named, nodes_in, text_of
-from rebsync.reverse.python.py_worth import Class, Function, Instance, Made, Value, Ways
+from rebsync.reverse.python.py_worth import Class, Function, Instance, Made, NoneValue, Value, Ways
 from rebsync.reverse.syntax.ancestors import ancestors, climb
 
 DEFINITIONS = frozenset({"function_definition", "class_definition", "decorated_definition"})
@@ -39,6 +40,8 @@ def is_harmless(reading: Reading, node: Node, frame: Frame) -> bool:
 def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     if node.type in _WORDS:
         return node.id in reading.stored
+    if node.type == "for_in_clause":
+        return _has_names(field(node, "left"))
     if node.type in ("binary_operator", "augmented_assignment"):
         return not _may_divide_by_zero(reading, node, frame)
     if node.type != "call":
@@ -53,13 +56,20 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     if own is not None:
         return is_still(reading, own)
     ways = reading.values.ways(function, frame.scope)
-    if not (all(is_quiet(reading, w) for w in ways) and _are_quiet(reading, name, function, ways)):
+    if not ways or not (
+        all(is_quiet(reading, w) for w in ways) and _are_quiet(reading, name, function, ways)
+    ):
         return False
     if waits_alone(node):
         return False
     return name in libraries.harmless() or (
         bool(name) and libraries.acting().match(name) is None and _ends(name)
     )
+
+
+def _has_names(target: Node) -> bool:
+    """Whether a target stores in names only."""
+    return not any(n.type in ("attribute", "subscript") for n in nodes_in(target))
 
 
 def waits_alone(call: Node) -> bool:
@@ -132,8 +142,10 @@ def is_quiet(reading: Reading, way: Value, depth: int = 0) -> bool:
             inner = [reading.code.scope_of(b.node, scope.py) for b in made if b.how == "scope"]
             is_node = scope in reading.nodes
             return not is_node and all(is_quiet_body(reading, s, depth) for s in inner)
-        case Instance():
+        case Instance() | NoneValue():
             return False  # an object is called
+        case Unresolved(why):
+            return why != UNGIVEN
         case Function(scope):
             return scope.owner not in reading.nodes and is_quiet_body(reading, scope, depth)
         case _:
@@ -170,6 +182,10 @@ def _is_quiet(reading: Reading, scope: Scope, depth: int) -> bool:
 def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bool:
     if node.type in _WORDS:
         return False
+    if node.type in ("for_statement", "for_in_clause"):
+        return _has_names(field(node, "left"))
+    if node.type in ("delete_statement", "as_pattern_target"):
+        return _has_names(node)
     if node.type in ("assignment", "augmented_assignment"):
         target = field(node, "left")
         if target.type == "attribute":
@@ -187,8 +203,10 @@ def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bo
         return False
     function = field(node, "function")
     ways = reading.values.ways(function, scope)
-    return all(is_quiet(reading, w, depth + 1) for w in ways) and _are_quiet(
-        reading, name, function, ways, depth + 1
+    return (
+        bool(ways)
+        and all(is_quiet(reading, w, depth + 1) for w in ways)
+        and _are_quiet(reading, name, function, ways, depth + 1)
     )
 
 

@@ -16,6 +16,7 @@ from rebsync.reverse.python.body_loops import with_else
 from rebsync.reverse.python.body_rounds import leaves_nothing
 from rebsync.reverse.python.body_scope import REAL, WHOLE, Key, Value, Var
 from rebsync.reverse.python.body_together import is_object, kept
+from rebsync.reverse.python.body_targets import check_target
 from rebsync.reverse.python.body_variables import forget, give
 from rebsync.reverse.python.py_index import arguments_of
 from rebsync.reverse.python.py_tree import field, is_label, named, text_of
@@ -34,6 +35,7 @@ Element: TypeAlias = "Callable[[m.Expression], Value | None]"
 def for_(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     """`for i in range(...)`, `for x in (1, 2)` as a loop of the model that counts."""
     span = reader.frame.span(node)
+    check_target(reader, field(node, "left"))
     target, over = field(node, "left"), field(node, "right")
     name = (
         reader.reading.external(field(over, "function"), reader.frame)
@@ -204,7 +206,9 @@ def _only_here(reader: BodyStatementReader, node: Node, variable: str) -> bool:
     """Whether a loop's variable is only read, and only in such loops over it."""
     scope = reader.frame.scope
     bindings = scope.names.get(variable, [])
-    if variable in scope.outer or scope.kind not in ("function", "lambda"):
+    if field(node, "left").type != "identifier" or variable in scope.outer:
+        return False
+    if scope.kind not in ("function", "lambda"):
         return False
     if any(b.how != "loop" for b in bindings):
         return False

@@ -8,6 +8,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.python.body_effects import is_harmless, may_be_of_message
 from rebsync.reverse.python.body_scope import Nobody
+from rebsync.reverse.python.body_targets import check_target
 from rebsync.reverse.python.body_variables import forget
 from rebsync.reverse.python.py_index import last_name
 from rebsync.reverse.python.py_tree import field, named
@@ -36,6 +37,7 @@ def leaves_nothing(reader: BodyStatementReader, loop: Node) -> bool:
     if not _is_plain_loop(reader, loop, targets):
         return False
     for target in targets:
+        check_target(reader, target)
         forget(reader, target)
     return True
 

@@ -22,6 +22,7 @@ from rebsync.reverse.python import (
     body_setup,
     body_stores,
     body_switches,
+    body_targets,
     body_variables,
 )
 from rebsync.reverse.python.body_effects import (
@@ -152,6 +153,7 @@ class PyStatements(BodyStatementReader):
                 yield m.ExpressionStatement(m.Call(None, "assertion", (asked,)), (), span)
             case "delete_statement":
                 for inner in named(node):
+                    body_targets.check_deleted(self, inner)
                     body_variables.forget(self, inner)
             case kind if kind in DEFINITIONS:
                 raise Unread(span, "what runs when this is defined may change the node")
@@ -295,7 +297,9 @@ class PyStatements(BodyStatementReader):
         for item in named(named(node)[0]):
             value = field(item, "value")
             if value.type == "as_pattern":
-                body_variables.forget(self, field(value, "alias").named_children[0])
+                target = field(value, "alias")
+                body_targets.check_target(self, target)
+                body_variables.forget(self, target.named_children[0])
         yield from self.statements(named(field(node, "body")))
 
 

@@ -29,6 +29,7 @@ from rebsync.reverse.python.body_scope import (
     Value,
     Var,
 )
+from rebsync.reverse.python.body_targets import check_target
 from rebsync.reverse.python.body_variables import change, forget, give, outside
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.texts import no_text
@@ -50,6 +51,8 @@ def assignment(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]
         value = value.child_by_field_name("right")
     if value is None:
         return
+    for target in targets:
+        check_target(reader, target)
     if value.type == "call":
         known = body_setup.asked(reader, value)
         if known is not None:
@@ -237,6 +240,7 @@ def _unpacked(
 def augmented(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
     target, value = field(node, "left"), field(node, "right")
     operator = text_of(field(node, "operator")).removesuffix("=")
+    check_target(reader, target)
     meaning, path = reader.expressions.meaning(target)
     try:
         if not isinstance(meaning, (Var, Message)):

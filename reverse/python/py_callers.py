@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.py_evaluator import PyEvaluator
 
 _MANY = 40
+# Of objects with which somebody else makes an object of a class nothing is known.
+UNGIVEN = "an argument of a constructor that nothing in these files calls"
+_UNCALLED = "an argument of a function that nothing in these files calls"
 
 
 def argument(values: PyEvaluator, function: Scope, index: int) -> Ways:
@@ -24,6 +27,9 @@ def argument(values: PyEvaluator, function: Scope, index: int) -> Ways:
     parameter = parameters[index]
     if index == 0 and function.self_name is not None and function.parent is not None:
         return (Instance(function.parent),)
+    is_constructor = function.is_method and function.name == "__init__"
+    if parameter.star and is_constructor and not callers(values, function):
+        return (values.unknown(UNGIVEN, function.node, function),)
     if function.kind == LAMBDA or parameter.star:
         return _default(values, function, parameter, "an argument that a caller gives")
     found: list[Ways] = []
@@ -36,8 +42,7 @@ def argument(values: PyEvaluator, function: Scope, index: int) -> Ways:
         else:
             found.append((values.unknown("an argument that is unpacked", call, scope),))
     if not found:
-        why = "an argument of a function that nothing in these files calls"
-        return _default(values, function, parameter, why)
+        return _default(values, function, parameter, UNGIVEN if is_constructor else _UNCALLED)
     return distinct(w for ways in found for w in ways)
 
 

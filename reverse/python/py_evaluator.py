@@ -119,6 +119,8 @@ def each_of(values: PyEvaluator, node: Node, scope: Scope) -> list[Ways]:
                 rounds += each
             case Table(pairs):
                 rounds += [key for key, _ in pairs]
+            case Unresolved():
+                rounds.append((Unresolved(value.why, value.place),))
             case _:
                 rounds.append((values.unknown("a loop over what is not known", node, scope),))
     return rounds

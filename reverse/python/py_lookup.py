@@ -146,6 +146,8 @@ def _unpacked(values: PyEvaluator, ways: Ways, binding: Binding, scope: Scope) -
                     inner += each[index]
                 case tuple() if index < len(value):
                     inner.append(value[index])
+                case Unresolved(why, place):
+                    inner.append(Unresolved(why, place))
                 case _:
                     inner.append(
                         values.unknown("a part of what is not known", binding.value, scope)
