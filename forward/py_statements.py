@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Set
+from itertools import chain, count
 
 from rebsync import model as m
 from rebsync.forward.hoisting import crossing_locals
 from rebsync.forward.py_expressions import PyExpressions
 from rebsync.forward.py_layout import INDENT
+from rebsync.forward.py_loops import counters, counting
 from rebsync.forward.py_operators import ATOM, UNARY
 from rebsync.forward.py_places import bare, compound, is_in_order, step
 from rebsync.forward.py_types import py_type, unset_value
@@ -54,18 +56,29 @@ class PyStatements:
                 return False
 
     def _name_locals(self, block: m.Block, parameters: tuple[m.Parameter, ...]) -> None:
-        """Python has one scope a function: what is declared again gets a name of its own."""
+        """Python has one scope a function: what is declared again gets a name of its own.
+
+        Loops that count, one after the other, may count by one name.
+        """
         names, e = self.expressions.names, self.expressions
         e.temporaries = 0
         taken = {names.local(p.name) for p in parameters}
+        counted = counters(block, e.analysis)
         for node in m.walk(block):
-            if isinstance(node, m.Declarator):
-                name = plain = names.local(node.name)
-                number = 2
-                while name in taken:
-                    name, number = f"{plain}__{number}", number + 1
+            if isinstance(node, m.Declarator) and id(node) not in counted:
+                e.locals[id(node)] = name = _free(names.local(node.name), taken)
                 taken.add(name)
-                e.locals[id(node)] = name
+        self._name_counters(block, taken)
+
+    def _name_counters(self, node: m.Node, taken: Set[str]) -> None:
+        """Names what the loops in a statement count by; `taken` has the names around it."""
+        counter = counting(node, self.expressions.analysis) if isinstance(node, m.For) else None
+        if counter is not None:
+            name = _free(self.expressions.names.local(counter.name), taken)
+            self.expressions.locals[id(counter)] = name
+            taken = taken | {name}
+        for inner in m.children(node):
+            self._name_counters(inner, taken)
 
     # --- sequences ------------------------------------------------------------------------------
 
@@ -213,6 +226,12 @@ class PyStatements:
         self.loop = outer
 
     def _for(self, statement: m.For) -> Iterator[str]:
+        counter = counting(statement, self.expressions.analysis)
+        if counter is not None:
+            yield from self._annotations(statement)
+            yield f"for {self._name(counter)} in range({self._ends(counter, statement)}):"
+            yield from self._looped(statement.body)
+            return
         if isinstance(statement.initial, m.Declaration):
             yield from self._local(statement.initial)
         else:
@@ -226,6 +245,14 @@ class PyStatements:
             yield f"{INDENT}if not {self.expressions.operand(statement.condition, UNARY)}:"
             yield f"{INDENT * 2}break"
         yield from self._looped(statement.body)
+
+    def _ends(self, counter: m.Declarator, loop: m.For) -> str:
+        """The arguments of `range` for what a loop counts from and to."""
+        start, end = counter.initial, loop.condition
+        assert isinstance(end, m.Binary) and not isinstance(start, m.ArrayInitializer | None)
+        first = self.expressions.text(start)
+        last = self.expressions.text(end.right)
+        return last if start == m.IntLiteral(0) else f"{first}, {last}"
 
     def _continue(self) -> Iterator[str]:
         """In a switch, `continue` means the loop around it."""
@@ -293,3 +320,9 @@ class PyStatements:
                 return self.expressions.text(right)
             case _:
                 return self.expressions.text(argument)
+
+
+def _free(plain: str, taken: Collection[str]) -> str:
+    """A name that nothing else has: a number behind it tells it from others."""
+    names = chain([plain], (f"{plain}__{number}" for number in count(2)))
+    return next(n for n in names if n not in taken)

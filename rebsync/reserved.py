@@ -115,7 +115,7 @@ PYTHON_GLOBALS = frozenset(
         *("to_short", "unflatten", "sensors"),
     }
 )
-_PYTHON_BUILTINS = frozenset({"bool", "float", "int", "lambda", "property", "super"})
+_PYTHON_BUILTINS = frozenset({"bool", "float", "int", "lambda", "property", "range", "super"})
 # What no local variable, parameter, handler or method may be called.
 PYTHON_RESERVED = (
     PYTHON_KEYWORDS

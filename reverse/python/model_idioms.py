@@ -34,7 +34,10 @@ _WHOLE = {"//": "divide", "/": "divide", "%": "remainder"}
 _QUIET = frozenset(
     {
         *("int8", "int16", "int32", "boolean", "divide", "remainder", "abs", "min", "max", "bool"),
-        *("int", "range", "len", "sum", "any", "all", "When", "print", "str"),
+        *("int", "range", "len", "sum", "any", "all", "When", "print", "str", "switch", "block"),
+        *("float32", "float64", "quotient", "modulus", "shift_left", "shift_right", "power"),
+        *("square_root", "to_byte", "to_short", "to_int", "to_float", "to_double", "to_boolean"),
+        *("to_rebec", "Array", "array", "copied", "rounds", "put", "put_item", "before"),
     }
 )
 
@@ -350,9 +353,11 @@ def _calls_own(reader: ModelExpressionReader, node: Node) -> bool:
 
 
 def stored_in(node: Node) -> set[str]:
-    """The local variables that a block stores something in."""
+    """The variables that a block stores something in."""
     found: set[str] = set()
     for each in node.named_children:
+        if each.type == "call" and text_of(field(each, "function")) == "put":
+            found |= _put(named(field(each, "arguments")))
         if each.type in ("assignment", "augmented_assignment", "for_statement", "named_expression"):
             left = each.child_by_field_name("left") or each.child_by_field_name("name")
             is_many = left is not None and left.type in ("pattern_list", "tuple_pattern")
@@ -360,3 +365,11 @@ def stored_in(node: Node) -> set[str]:
             found |= {base_of(n) for n in lefts if n is not None}
         found |= stored_in(each)
     return found
+
+
+def _put(arguments: list[Node]) -> set[str]:
+    """What `put(self, "_x", ...)` stores in."""
+    if len(arguments) < 2:
+        return set()
+    of, name = map(text_of, arguments[:2])
+    return {f"{of}.{name[1:-1]}"}

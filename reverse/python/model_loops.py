@@ -31,13 +31,18 @@ def counted(reader: ModelStatementReader, node: Node, name: str) -> m.For:
         index = _free(reader, node, name)
         body = _round(reader, node, [], index, [(name, m.Type("int"), m.Name(index))])
         return _for(reader, node, index, start, end, step, body)
-    body = _counting(reader, node, name)
-    return _for(reader, node, reader.local(name), start, end, step, body)
+    index = _counter(reader, node, name)
+    body = _round(reader, node, [(name, m.Type("int"))], index, [])
+    return _for(reader, node, index, start, end, step, body)
 
 
-def _counting(reader: ModelStatementReader, node: Node, name: str) -> m.Block:
-    """The body of a loop whose variable counts."""
-    return _round(reader, node, [(name, m.Type("int"))], reader.local(name), [])
+def _counter(reader: ModelStatementReader, node: Node, name: str) -> str:
+    """What a loop counts by in the model: there, `i` may be what `i__2` is in Python.
+
+    It is not where the body has another `i`.
+    """
+    plain = reader.without_number(name)
+    return reader.local(name if plain in idioms.names_in(field(node, "body")) else plain)
 
 
 def through(
@@ -130,8 +135,9 @@ def _backwards(reader: ModelStatementReader, node: Node, name: str, inner: Node)
     if len(ends) != len(arguments):
         raise reader.expressions.unread(node, "say with numbers how often this is done")
     low, high = (0, *ends) if len(ends) == 1 else (ends[0], ends[1])
-    place, index = m.Name(reader.local(name)), reader.local(name)
-    body = _counting(reader, node, name)
+    index = _counter(reader, node, name)
+    place = m.Name(index)
+    body = _round(reader, node, [(name, m.Type("int"))], index, [])
     declared = m.Declaration(m.Type("int"), (m.Declarator(index, m.IntLiteral(high - 1)),))
     condition = binary(">=", place, m.IntLiteral(low))
     span = reader.expressions.py.span(node)
@@ -153,9 +159,11 @@ def _round(
     if not all(n.isidentifier() and n not in taken for n, _ in names):
         raise reader.expressions.unread(node, "the variable of this loop is used elsewhere")
     known[f"index of {names[0][0]}"] = index
+    types = reader.expressions.types
+    hidden = dict(types)
     for name, type_ in names:
-        known[name] = reader.local(name)
-        reader.expressions.types[known[name]] = type_
+        known[name] = index if (name, type_) in counting else reader.local(name)
+        types[known[name]] = type_
     found = reader.suite(body)
     declared: tuple[m.Statement, ...] = tuple(
         m.ExpressionStatement(m.Assign("=", m.Name(known[name]), value))
@@ -163,8 +171,9 @@ def _round(
         else m.Local(m.Declaration(type_, (m.Declarator(known[name], value),)))
         for name, type_, value in first
     )
-    for name, _ in names:
+    for name, type_ in names:
         if name != lasting:
+            types[known[name]] = hidden.get(known[name], type_)
             del known[name]
     del known[f"index of {names[0][0]}"]
     return replace(found, statements=(*declared, *found.statements))
@@ -236,6 +245,8 @@ def _for(
     update: m.Expression = m.Postfix(operator * 2, place)
     if by.value != 1:
         update = m.Assign(f"{operator}=", place, by)
+    else:  # an integer is behind the last one that the body runs with, as `end` is an integer
+        update = reader.expressions.cuts.converted("int32", update, update=True)
     condition = binary(">" if is_down else "<", place, end)
     span = reader.expressions.py.span(node)
     return m.For(declared, condition, (update,), body, span=span)

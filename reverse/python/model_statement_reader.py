@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from abc import ABC, abstractmethod
 from dataclasses import field as with_default
 
@@ -15,6 +16,8 @@ from rebsync.reverse.findings import Findings
 from rebsync.reverse.python.model_expressions import Expressions
 from rebsync.reverse.python.model_names import Closure
 from rebsync.reverse.python.py_tree import named
+
+_AGAIN = re.compile(r"(.+?)__\d+\Z")
 
 
 @dataclass(eq=False, slots=True)
@@ -46,6 +49,11 @@ class ModelStatementReader(ABC):
         """The model's name of a local variable or parameter."""
         taken = self.types | {t.removesuffix("_v") for t in self.types}
         return uncarry_local(name, PYTHON_RESERVED | taken, self.types)
+
+    def without_number(self, name: str) -> str:
+        """The name of a local that Python must tell from another of this name: `i` for `i__2`."""
+        again = _AGAIN.match(name)
+        return again[1] if again is not None else name
 
     def suite(self, node: Node) -> m.Block:
         outer, self.cases = self.cases, []

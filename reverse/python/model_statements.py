@@ -36,7 +36,6 @@ from rebsync.reverse.python.model_types import (
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.statements import UNREADABLE
 
-_AGAIN = re.compile(r"(.+?)__\d+\Z")
 _HOISTED = "local "
 
 
@@ -212,8 +211,7 @@ class Statements(ModelStatementReader):
     def _declared(self, name: str, type_: m.Type, value: Node, node: Node) -> m.Local:
         span = self.expressions.py.span(node)
         initial = self._initial(value)
-        again = _AGAIN.match(name)
-        plain = self.local(again[1] if again is not None else name)
+        plain = self.local(self.without_number(name))
         self.expressions.locals[name] = plain
         self.expressions.types[plain] = type_
         declarator = m.Declarator(plain, initial, span)

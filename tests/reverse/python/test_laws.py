@@ -44,6 +44,35 @@ def test_examples_come_back(example: Path, target: str) -> None:
     assert_says(python_files(model, target), model)
 
 
+@pytest.mark.parametrize("target", TARGETS)
+def test_loops_come_back(target: str) -> None:
+    path = Path(__file__).parents[2] / "forward" / "cases" / "whiles_and_fors.rebeca"
+    model = parse_model(read_source(str(path))).model
+    assert_says(python_files(model, target), model)
+
+
+_COUNTED = "        for cell in range(8):\n"
+# As versions of rebsync before decision 86 wrote it.
+_STEPPED = """        cell: int = 0
+        for again_ in rounds():
+            if again_:
+                cell = int32.add(cell, 1)
+            if not (cell < 8):
+                break
+"""
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_loops_of_earlier_versions_are_read(target: str) -> None:
+    model = model_of(next(e for e in EXAMPLES if e.name == "warehouse"))
+    files = python_files(model, target)
+    (path,) = (p for p in files if p.endswith("/dispatcher.py"))
+    assert _COUNTED in files[path]
+    text = files[path].replace(_COUNTED, _STEPPED)
+    files[path] = text.replace("    remainder,\n", "    remainder,\n    rounds,\n")
+    assert_says(files, model)
+
+
 @given(models(), st.sampled_from(TARGETS))
 def test_drawn_models_come_back(model: m.Model, target: str) -> None:
     assert_says(python_files(model, target), model)

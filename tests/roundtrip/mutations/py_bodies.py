@@ -116,10 +116,10 @@ KINDS = (
     Kind(
         "raise in a branch", within(r"(\bif (?!case_).*:\n)( *)(?=\S)", r"\1\2raise ValueError\n\2")
     ),
-    Kind("break in a loop", within(r"^( *)(for again_ in .*:\n)", r"\1\2\1    break\n")),
-    Kind("loop starts later", within(r"^( *\w+: int = )0$", r"\g<1>1")),
-    Kind("loop in greater steps", within(r"int32\.add\((\w+), 1\)", r"int32.add(\1, 2)")),
-    Kind("loop ends earlier", within(r"(if not \(\w+ < )(\d+)\):", r"\g<1>1):")),
+    Kind("break in a loop", within(r"^( *)(for (?!case_)\w+ in .*:\n)", r"\1\2\1    break\n")),
+    Kind("loop starts later", within(r"\brange\((\d+)\)", r"range(1, \1)")),
+    Kind("loop in greater steps", within(r"\brange\((\d+)\)", r"range(0, \1, 2)")),
+    Kind("loop ends earlier", within(r"\brange\(\d+\)", "range(1)")),
     Kind("another result", within(r"return ([^\n]+)$", _other_result, "method")),
     Kind(
         "another rebec as result",
