@@ -16,7 +16,7 @@ from rebsync.checker.compiled import CompiledSearch
 from rebsync.checker.exploration import Event, Exploration, Limits, Unavailable
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
-from rebsync.checker.reduction import self_driven
+from rebsync.checker.reduction import PersistentSets, persistent_sets
 from rebsync.checker.search import Interpreted
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.checker.verify import verify
@@ -119,11 +119,11 @@ def _compiled(
     program: Program,
     view: Semantics,
     invariants: tuple[int, ...],
-    first: frozenset[int] = frozenset(),
+    persistent: PersistentSets = (),
     compacted: bool = False,
 ) -> CompiledSearch:
     try:
-        return CompiledSearch(program, view, invariants, first, hash_compaction=compacted)
+        return CompiledSearch(program, view, invariants, persistent, hash_compaction=compacted)
     except Unavailable as unavailable:
         pytest.skip(f"no compiled engine: {unavailable}")
 
@@ -168,8 +168,8 @@ def _compare(drawn: Drawn, view: Semantics, until: int | None) -> None:
     cut = Limits(until=until, states=1 + found.states // 2)
     halved = Interpreted(program, view, invariants)
     _same(program, view, halved, cut, halved.run(cut))
-    if first := self_driven(program):
-        reduced = Interpreted(program, view, invariants, first)
+    if persistent := persistent_sets(program, view):
+        reduced = Interpreted(program, view, invariants, persistent)
         _same(program, view, reduced, limits, reduced.run(limits))
 
 
@@ -179,7 +179,7 @@ def _same(
     """The compiled engine, with states in full and with fingerprints, on what was interpreted."""
     paths = range(0, found.states, 1 + found.states // 50)
     for compacted in (False, True):
-        compiled = _compiled(program, view, search.invariants, search.first, compacted)
+        compiled = _compiled(program, view, search.invariants, search.persistent, compacted)
         assert _figures(compiled.run(limits)) == _figures(found)
         assert [compiled.path(s) for s in paths] == [search.path(s) for s in paths]
         assert astuple(compiled.graph()) == astuple(search.graph())
