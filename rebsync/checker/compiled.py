@@ -36,6 +36,7 @@ from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, unwatched
 from rebsync.checker.memory import used_memory
 from rebsync.checker.program import Program
+from rebsync.checker.reduction import PersistentSets
 from rebsync.checker.search import FIRST, NO_MEMORY
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.checker.symmetry import Symmetry
@@ -56,8 +57,8 @@ class _Answer:
 class CompiledSearch:
     """A search of a program made native. `invariants` are the predicates whose failure is an event.
 
-    Of the rebecs in `first` one that can act without failing acts alone. With `hash_compaction`
-    only 64 bits of each state are remembered; with a `symmetry` only canonical states are.
+    Of `persistent` one rebec acts alone when it can. With `hash_compaction` only 64 bits of each
+    state are remembered; with a `symmetry` only canonical states are.
 
     Raises Unavailable when it cannot be built, or `build` is false and it has not been built
     before, or is not `wanted` any more meanwhile.
@@ -68,7 +69,7 @@ class CompiledSearch:
         program: Program,
         semantics: Semantics,
         invariants: tuple[int, ...] = (),
-        first: frozenset[int] = frozenset(),
+        persistent: PersistentSets = (),
         symmetry: Symmetry | None = None,
         *,
         hash_compaction: bool = False,
@@ -79,7 +80,7 @@ class CompiledSearch:
         self.program = program
         self.semantics: Semantics = semantics
         self.invariants = invariants
-        self.first = first
+        self.persistent = persistent
         self.symmetry = symmetry or Symmetry()
         self.hash_compaction = hash_compaction
         self._until: int | None = None
@@ -94,8 +95,8 @@ class CompiledSearch:
             hash_compaction,
             native.numbers(invariants),
             len(invariants),
-            native.numbers(sorted(first)),
-            len(first),
+            native.numbers(native.persistent_table(persistent, len(program.rebecs))),
+            len(persistent),
         )
         if not self._engine or not self._reduce():
             raise Unavailable("there is no memory for a search, or no place for its temporary file")
@@ -312,7 +313,7 @@ class CompiledSearch:
         """
         figures = self._figures()
         if self.hash_compaction:
-            exact = CompiledSearch(self.program, self.semantics, (), self.first, self.symmetry)
+            exact = CompiledSearch(self.program, self.semantics, (), self.persistent, self.symmetry)
             stopped = figures.states if figures.expanded < figures.states else None
             limits = Limits(stopped, until=self._until, instructions=self._instructions)
             exact.run(limits)

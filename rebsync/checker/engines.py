@@ -11,6 +11,7 @@ from rebsync.checker.exploration import Exploration, Limits, Report, Search, Una
 from rebsync.checker.look import Stopped
 from rebsync.checker.problem import Options
 from rebsync.checker.program import Program
+from rebsync.checker.reduction import PersistentSets
 from rebsync.checker.search import PAUSED, Interpreted, Pause
 from rebsync.checker.steps import Semantics
 from rebsync.checker.symmetry import Symmetry
@@ -24,33 +25,32 @@ def explore(
     program: Program,
     semantics: Semantics,
     invariants: tuple[int, ...],
-    first: frozenset[int],
+    persistent: PersistentSets,
     symmetry: Symmetry,
     options: Options,
     report: Report | None = None,
 ) -> tuple[Search, Exploration]:
     """Searches with the engine that was asked for.
 
-    `first` are the rebecs of which one acts alone when it can; states are canonical under the
-    `symmetry`.
+    Of `persistent` one rebec acts alone when it can; states are canonical under the `symmetry`.
 
     Raises Unavailable when the compiled engine was asked for and cannot be built.
     """
     if options.engine == "interpreted":
-        interpreted = Interpreted(program, semantics, invariants, first, symmetry)
+        interpreted = Interpreted(program, semantics, invariants, persistent, symmetry)
         return interpreted, interpreted.run(options.limits, report)
     if options.engine == "compiled":
-        known = program, semantics, invariants, first, symmetry
+        known = program, semantics, invariants, persistent, symmetry
         compiled = _compiled(*known, options, wanted=_in_time(options.limits))
         return compiled, compiled.run(options.limits, report)
-    return _auto(program, semantics, invariants, first, symmetry, options, report)
+    return _auto(program, semantics, invariants, persistent, symmetry, options, report)
 
 
 def _compiled(
     program: Program,
     semantics: Semantics,
     invariants: tuple[int, ...],
-    first: frozenset[int],
+    persistent: PersistentSets,
     symmetry: Symmetry,
     options: Options,
     build: bool = True,
@@ -62,7 +62,7 @@ def _compiled(
         program,
         semantics,
         invariants,
-        first,
+        persistent,
         symmetry,
         hash_compaction=options.hash_compaction,
         build=build,
@@ -85,7 +85,7 @@ def _auto(
     program: Program,
     semantics: Semantics,
     invariants: tuple[int, ...],
-    first: frozenset[int],
+    persistent: PersistentSets,
     symmetry: Symmetry,
     options: Options,
     report: Report | None,
@@ -94,12 +94,12 @@ def _auto(
 
     What has been compiled before is taken as soon as a model is not tiny.
     """
-    search = Interpreted(program, semantics, invariants, first, symmetry)
+    search = Interpreted(program, semantics, invariants, persistent, symmetry)
     found = search.run(options.limits, report, _after(GLANCE))
     if found.reason != PAUSED:
         return search, found
     try:
-        kept = _compiled(program, semantics, invariants, first, symmetry, options, build=False)
+        kept = _compiled(program, semantics, invariants, persistent, symmetry, options, build=False)
     except Unavailable:
         found = search.run(options.limits, report, _after(PATIENCE - GLANCE))
     else:
@@ -118,7 +118,7 @@ def _compile_aside(
 
     finished = Event()
     pauses = chain((HEAD_START,), repeat(0.0))
-    known = search.program, search.semantics, search.invariants, search.first, search.symmetry
+    known = search.program, search.semantics, search.invariants, search.persistent, search.symmetry
     with ThreadPoolExecutor(1) as pool:
         waiting = pool.submit(_compiled, *known, options, wanted=lambda: not finished.is_set())
         try:

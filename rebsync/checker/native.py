@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Literal
 
+from rebsync.checker.reduction import PersistentSets
 from rebsync.checker.steps import FailureKind, Semantics
 from rebsync.checker.symmetry import Symmetry, inverse
 
@@ -113,6 +114,13 @@ def numbers(values: Iterable[int]) -> ctypes.Array[ctypes.c_int32]:
     """Numbers as C reads them."""
     listed = tuple(values)
     return (ctypes.c_int32 * max(1, len(listed)))(*listed)
+
+
+def persistent_table(persistent: PersistentSets, rebecs: int) -> Iterator[int]:
+    """For each candidate its rebec, and then for every rebec whether that disturbs it."""
+    for candidate in persistent:
+        yield candidate.rebec
+        yield from (int(rebec in candidate.disturbers) for rebec in range(rebecs))
 
 
 class Symmetries(ctypes.Structure):

@@ -21,6 +21,7 @@ KINDS: tuple[Kind, ...] = ("byte", "short", "int", "float", "double", "boolean",
 NULL = -1
 UNRANKED = 2**31 - 1  # the priority of what has no @priority: after all others
 NO_DEADLINE = 2**62  # sorts after every deadline, and does not move with time
+ANYBODY, ITSELF, ITS_SENDER = -1, -2, -3  # receivers as the marks of a send have them
 
 
 class Instruction(NamedTuple):
@@ -29,8 +30,9 @@ class Instruction(NamedTuple):
     A CONST that stands for a constant of the model has its kind and name among the texts: `b` is
     the number of that text plus 1. Of a TABLE that is `a`, and `b` the first element.
 
-    The constants of a send are marks: whether its `after` is certainly more than 0, and whether
-    the receiver is the rebec itself; those of a delay are empty unless it certainly takes time.
+    The constants of a send are marks: whether its `after` is certainly more than 0, and who
+    receives it (the number of a known rebec, ITSELF, ITS_SENDER, or ANYBODY when it is not known);
+    those of a delay are empty unless it certainly takes time.
     """
 
     op: str

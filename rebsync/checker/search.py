@@ -27,6 +27,7 @@ from rebsync.checker.machine import Failed, Machine
 from rebsync.checker.memory import used_memory
 from rebsync.checker.orbits import Orbits
 from rebsync.checker.program import NO_DEADLINE, Program
+from rebsync.checker.reduction import PersistentSets
 from rebsync.checker.standstill import marks_of
 from rebsync.checker.state import Message, State
 from rebsync.checker.steps import Failure, Semantics, Step
@@ -49,16 +50,16 @@ class Interpreted:
         program: Program,
         semantics: Semantics,
         invariants: tuple[int, ...] = (),
-        first: frozenset[int] = frozenset(),
+        persistent: PersistentSets = (),
         symmetry: Symmetry | None = None,
     ) -> None:
         self.program = program
         self.semantics: Semantics = semantics
         self.symmetry = symmetry or Symmetry()
         self._orbits = Orbits(semantics, self.symmetry)
-        self.view = view_of(program, semantics, first)
+        self.view = view_of(program, semantics, persistent)
         self.invariants = invariants
-        self.first = first
+        self.persistent = persistent
         self.states: list[State] = []
         self.numbers: dict[State, int] = {}
         self._parents: list[int] = []  # -1 - ordinal for initial states

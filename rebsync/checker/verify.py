@@ -24,7 +24,7 @@ from rebsync.checker.naming import coverage_of, event_name
 from rebsync.checker.orbits import Orbits
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
-from rebsync.checker.reduction import self_driven
+from rebsync.checker.reduction import persistent_sets
 from rebsync.checker.result import Coverage, MeasureRange, Result, Verdict, Violation
 from rebsync.checker.standstill import ENDLESS, LEAVES, cycle_from, may_stand_still
 from rebsync.checker.steps import Failure, ViolationKind
@@ -41,6 +41,7 @@ FLOATING_CAVEAT = (
     "priorities undecided: use --semantics tts"
 )
 CYCLE_CAVEAT = "time can stand still for ever in a cycle of steps, which can also be left"
+ALL_ORDERS = "nothing is left out: what is reached beyond an overflow depends on the order of steps"
 
 _EDGE = 20  # bytes for each edge of a graph
 
@@ -74,17 +75,21 @@ def _searched(
     assertions = formulas[: len(problem.properties.assertions)]
     invariants = invariants_of(program, assertions, formulas)
     semantics = options.semantics or semantics_for(program, problem)
-    first: frozenset[int] = frozenset()
-    if options.reduce and len(assertions) == len(formulas) and not problem.is_measured:
-        first = self_driven(program)
+    reduces = options.reduce and len(assertions) == len(formulas) and not problem.is_measured
+    persistent = persistent_sets(program, semantics) if reduces else ()
     symmetry = symmetry_of(program, problem, options)
     faults = Faults(frozenset(asserted(assertions)), "deadlock" not in options.allowed)
     options = options.bounded(started, faults)
-    search, exploration = explore(program, semantics, invariants, first, symmetry, options, report)
+    known = program, semantics, invariants
+    search, exploration = explore(*known, persistent, symmetry, options, report)
+    if persistent and exploration.reason is None and _overflows(exploration):
+        persistent = ()
+        search, exploration = explore(*known, persistent, symmetry, options, report)
+        exploration = replace(exploration, notes=(*exploration.notes, ALL_ORDERS))
     if exploration.cut:
         reason = endless_reason(program, exploration.cut, problem.source)
         exploration = replace(exploration, reason=reason)
-    view = view_of(program, exploration.semantics, first)
+    view = view_of(program, exploration.semantics, persistent)
     view.limit(options.limits.instructions)
     exploration = over_orbits(exploration, symmetry, program)
     orbits = Orbits(exploration.semantics, symmetry) if symmetry.order > 1 else None
@@ -93,6 +98,12 @@ def _searched(
     answer = _Answer(problem, options, program, formulas, search, exploration, teller, watch)
     answer.collect()
     return limited(problem, answer.result(time.perf_counter() - started), teller)
+
+
+def _overflows(exploration: Exploration) -> bool:
+    """Whether a bag was too full in some run."""
+    causes = [event.cause for event in exploration.events]
+    return any(isinstance(cause, Failure) and cause.kind == "overflow" for cause in causes)
 
 
 def _nothing_found(problem: Problem, options: Options, reason: str, seconds: float) -> Result:

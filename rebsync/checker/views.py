@@ -13,6 +13,7 @@ from typing import TypeAlias, overload
 from rebsync.checker.machine import Coverage, Sent
 from rebsync.checker.outcomes import Actor, Outcome
 from rebsync.checker.program import NO_DEADLINE, Program
+from rebsync.checker.reduction import PersistentSets
 from rebsync.checker.state import Local, State, later
 from rebsync.checker.steps import TIME, Action, Failure, Semantics, Step
 
@@ -63,9 +64,9 @@ class _Bodies:
 
     semantics: Semantics
 
-    def __init__(self, program: Program, first: frozenset[int] = frozenset()) -> None:
+    def __init__(self, program: Program, persistent: PersistentSets = ()) -> None:
         self.program = program
-        self.first = sorted(first)
+        self.persistent = persistent
         self.coverage = Coverage()
         self.actors = [
             Actor(program, i, self.semantics, self.coverage) for i in range(len(program.rebecs))
@@ -127,11 +128,12 @@ class _Bodies:
         if not able:
             return tuple(self._idle(state))
         make = self._maker(state)
-        for index in self.first:
-            if ranks[index] is not None:
-                moves = list(self._acts(state, index))
-                if not any(isinstance(changes, Failure) for _, changes in moves):
-                    return Steps(make, moves)
+        for index, disturbers in self.persistent:
+            if ranks[index] is None or any(ranks[other] is not None for other in disturbers):
+                continue
+            moves = list(self._acts(state, index))
+            if not any(isinstance(changes, Failure) for _, changes in moves):
+                return Steps(make, moves)
         first = min(able)
         acting = (i for i, rank in enumerate(ranks) if rank == first)
         return Steps(make, [move for i in acting for move in self._acts(state, i)])
@@ -266,16 +268,16 @@ class Untimed(_Bodies):
 Views: TypeAlias = Exact | Floating | Untimed
 
 
-def view_of(program: Program, semantics: Semantics, first: frozenset[int] = frozenset()) -> Views:
+def view_of(program: Program, semantics: Semantics, persistent: PersistentSets = ()) -> Views:
     """The view by its name.
 
-    Of the rebecs in `first` one that can act without failing acts alone (partial-order reduction,
-    see `reduction.py`).
+    Of the rebecs in `persistent` one that nobody disturbs acts alone where it cannot fail
+    (partial-order reduction, see `reduction.py`).
     """
     match semantics:
         case "tts":
-            return Exact(program, first)
+            return Exact(program, persistent)
         case "ftts":
-            return Floating(program, first)
+            return Floating(program, persistent)
         case "core":
-            return Untimed(program, first)
+            return Untimed(program, persistent)

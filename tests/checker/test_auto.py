@@ -41,7 +41,7 @@ def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Program:
 
 
 def _explored(program: Program) -> Exploration:
-    return explore(program, "ftts", (), frozenset(), Symmetry(), Options())[1]
+    return explore(program, "ftts", (), (), Symmetry(), Options())[1]
 
 
 def test_what_was_compiled_before_is_taken_at_once(

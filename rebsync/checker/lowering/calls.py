@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
 from rebsync.checker.lowering import waiting
 from rebsync.checker.lowering.conversions import convert
 from rebsync.checker.lowering.emitter import Emitter, kind_of, size_of
-from rebsync.checker.program import Kind
-from rebsync.model import Call, Choice, Expression, Method, Self, StringLiteral, Type
+from rebsync.checker.program import ANYBODY, ITS_SENDER, ITSELF, Instruction, Kind
+from rebsync.model import Call, Choice, Expression, Method, StringLiteral, Type
 from rebsync.static.names import bare
 from rebsync.static.symbols import BuiltinFunctionSymbol, MethodSymbol, ServerSymbol
 from rebsync.static.types import DOUBLE, INT
@@ -45,17 +45,18 @@ def _arguments(
 
 
 def _send(node: Call, server: ServerSymbol, e: Emitter, value: Value) -> None:
+    start = e.here
     if node.target is None:
         e.emit("SELF")
     else:
         value(node.target, e)
+    receiver = _receiver(e.world.code[start:])
     cells = _arguments(node.arguments, server.signature, e, value)
     if node.after is None:
         e.emit("CONST", 0)
     else:
         convert(value(node.after, e), kind_of(INT), e)
-    own = isinstance(_target(node), Self | None)
-    marks = (int(_is_positive(node.after, e)), int(own))
+    marks = (int(_is_positive(node.after, e)), receiver)
     with e.at(node.span):
         if node.deadline is None:
             e.emit("SEND", e.world.selector(server), cells, marks)
@@ -64,8 +65,17 @@ def _send(node: Call, server: ServerSymbol, e: Emitter, value: Value) -> None:
             e.emit("SENDBY", e.world.selector(server), cells, marks)
 
 
-def _target(node: Call) -> Expression | None:
-    return bare(node.target) if node.target is not None else None
+def _receiver(pushed: Sequence[Instruction]) -> int:
+    """Who receives a message, by the instructions that push the receiver."""
+    match pushed:
+        case [Instruction("KNOWN", number)]:
+            return number
+        case [Instruction("SELF")]:
+            return ITSELF
+        case [Instruction("SENDER")]:
+            return ITS_SENDER
+        case _:
+            return ANYBODY
 
 
 def _is_positive(time: Expression | None, e: Emitter) -> bool:

@@ -216,8 +216,9 @@ struct engine {
     uint64_t *colours;
     uint32_t *turned, turn;
 
-    int32_t *invariants, *alone; /* predicates; rebecs that act alone when they can */
-    uint32_t invariant_count, alone_count;
+    int32_t *invariants; /* predicates */
+    int32_t *persistent; /* rebecs that act alone, each with a mark for every one that disturbs it */
+    uint32_t invariant_count, persistent_count;
     unsigned char *covered, *served, *uncounted;
     struct measured *measured;
     struct observed *observed;

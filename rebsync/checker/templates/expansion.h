@@ -187,12 +187,27 @@ static int fails(struct engine *e, uint32_t rebec)
     return 0;
 }
 
-/* Lets one of the rebecs that come first act alone: -1 none can, 0 a body does not end. */
-static int expand_alone(struct engine *e)
+static int is_able(struct engine *e, uint32_t rebec)
 {
-    for (uint32_t i = 0; i < e->alone_count; i++) {
-        uint32_t r = (uint32_t)e->alone[i];
-        if (!(component(e, r, e->ids[r])->flags & ABLE))
+    return (component(e, rebec, e->ids[rebec])->flags & ABLE) != 0;
+}
+
+/* Whether a rebec that can act disturbs another, by the marks of that one. */
+static int is_disturbed(struct engine *e, const int32_t *disturbs)
+{
+    for (uint32_t r = 0; r < e->rebecs; r++)
+        if (disturbs[r] && is_able(e, r))
+            return 1;
+    return 0;
+}
+
+/* Lets one rebec act alone whose steps are a persistent set: -1 none is, 0 a body does not end. */
+static int expand_persistent(struct engine *e)
+{
+    for (uint32_t i = 0; i < e->persistent_count; i++) {
+        const int32_t *candidate = e->persistent + (size_t)i * (e->rebecs + 1);
+        uint32_t r = (uint32_t)candidate[0];
+        if (!is_able(e, r) || is_disturbed(e, candidate + 1))
             continue;
         if (!know(e, r))
             return 0;
@@ -239,7 +254,7 @@ static int expand(struct engine *e)
         idle(e);
         return 1;
     }
-    int alone = e->alone_count ? expand_alone(e) : -1;
+    int alone = e->persistent_count ? expand_persistent(e) : -1;
     return alone >= 0 ? alone : expand_ranked(e, best);
 }
 

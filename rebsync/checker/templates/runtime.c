@@ -96,7 +96,7 @@ void rebsync_free(struct engine *e)
         e->machine.choices, e->machine.options, e->machine.sends, e->text.data, e->messages.data,
         e->outcomes.data, e->sends.data, e->events.data, e->message_table, e->states.data,
         e->parents.data, e->times.data, e->table, e->invariants,
-        e->alone, e->names, e->origins,
+        e->persistent, e->names, e->origins,
         e->positions, e->orbit, e->references, e->colours, e->turned, e->faults, e->measured, e->watch.cells.data, e->watch.frames.data};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
@@ -120,8 +120,8 @@ static void measure_nothing(struct engine *e)
 }
 
 struct engine *rebsync_new(const struct model *model, int semantics, int compact,
-                           const int32_t *invariants, int invariant_count, const int32_t *alone,
-                           int alone_count)
+                           const int32_t *invariants, int invariant_count,
+                           const int32_t *persistent, int persistent_count)
 {
     struct engine *e = calloc(1, sizeof *e);
     if (!e)
@@ -146,8 +146,8 @@ struct engine *rebsync_new(const struct model *model, int semantics, int compact
     e->invariant_count = (uint32_t)invariant_count;
     e->measured = zeroed(e, (size_t)model->measures, sizeof *e->measured);
     measure_nothing(e);
-    e->alone = copied(e, alone, (size_t)alone_count);
-    e->alone_count = (uint32_t)alone_count;
+    e->persistent = copied(e, persistent, (size_t)persistent_count * (e->rebecs + 1));
+    e->persistent_count = (uint32_t)persistent_count;
     return e;
 }
 
