@@ -133,10 +133,18 @@ class OutcomeAnalysis:
 
 
 def _within(body: Iterable[Node], span: Span) -> Iterator[s.Statement]:
-    """The outermost statements that stand at a place."""
+    """The outermost statements that stand at a place.
+
+    The rest of a block after a local, which its destruction ends, stands at the place of the local:
+    of that only the destruction is the local's own.
+    """
     for node in body:
         place = getattr(node, "place", NOWHERE)
-        if isinstance(node, STATEMENTS) and span.start <= place.start and place.end <= span.end:
+        is_there = span.start <= place.start and place.end <= span.end
+        if isinstance(node, s.Try) and any(isinstance(n, s.Destroy) for n in node.final):
+            yield from _within(node.body, span)
+            yield from node.final if is_there else _within(node.final, span)
+        elif isinstance(node, STATEMENTS) and is_there:
             yield node  # type: ignore[misc]
         else:
             yield from _within(parts(node), span)

@@ -45,6 +45,7 @@ if TYPE_CHECKING:
 
 _TIME_UNIT = "/mailbox/time_unit"
 _HINT = "give it a value of the type that the code asks for"
+_GIVE = "give it in the launch file"
 
 
 def unit_of_time(launch: Launch | None) -> Fraction:
@@ -239,8 +240,11 @@ class GeneratedSystem:
         self, node: LaunchedNode, key: str, type_: m.Type, within: str
     ) -> m.Expression | None:
         parameter = node.parameter(key)
-        value = plain_value(parameter) if parameter is not None else None
-        if parameter is None or value is None:
+        if parameter is None:
+            unread = Unread(node.span, f"nothing gives the argument `{key}`", _GIVE)
+            self.classes.findings.unreadable(node.source, unread, within)
+            return None
+        if (value := plain_value(parameter)) is None:
             return None
         if not self._is_taken(parameter, type_):
             self._list_other_kind(parameter, key, within)

@@ -15,6 +15,9 @@ def all_steps(trial: Trial) -> None:
         is_elsewhere(trial)
         is_left_alone(trial, 1)
         return
+    if trial.case.data.get("refused", False):
+        is_refused(trial)
+        return
     is_said(trial)
     comes_back(trial)
     model_goes_into_edited_code(trial)
@@ -34,6 +37,14 @@ def is_elsewhere(trial: Trial) -> None:
     assert verdict == "code ahead", (verdict, told, texts)
     for text in trial.case.elsewhere:
         assert any(text in each for each in texts), (text, texts)
+
+
+def is_refused(trial: Trial) -> None:
+    """The code has moved to what would break a rule of the model, which a sync says."""
+    assert trial.check()[0] == "code ahead"
+    text = trial.model.read_bytes()
+    is_left_alone(trial, 1)
+    assert trial.model.read_bytes() == text
 
 
 def is_left_alone(trial: Trial, status: int = 4) -> None:
@@ -65,6 +76,8 @@ def assert_says(trial: Trial, wanted: str) -> None:
     text = trial.model.read_text(encoding="utf-8")
     trial.model.write_text(wanted, encoding="utf-8")
     verdict, told, texts = trial.check()
+    if trial.case.data.get("alike", False):
+        texts = [text for text in texts if "does the same" not in text]
     assert (verdict, texts) == ("in step", []), (told, texts)
     trial.model.write_text(text, encoding="utf-8")
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.roundtrip.edits.steps import all_steps, is_elsewhere, is_listed, is_said
+from tests.roundtrip.edits.steps import all_steps, is_elsewhere, is_listed, is_refused, is_said
 from tests.roundtrip.edits.trial import FILES, HERE, Case, cases, made
 
 _EVERY = 8  # of how many edits one goes through all steps
@@ -39,5 +39,7 @@ def test_edits_are_what_they_mean(
         is_listed(trial)
     elif case.elsewhere:
         is_elsewhere(trial)
+    elif case.data.get("refused", False):
+        is_refused(trial)
     else:
         is_said(trial)
