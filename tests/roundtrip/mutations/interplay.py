@@ -45,9 +45,15 @@ def _from_another_file(package: Package) -> Iterator[Mutant]:
         head = "/**:\n  ros__parameters:\n    env:\n" if found[1] else ""
         for launch in (p for p in package.files if p.endswith((_XML, _PY))):
             text = package.files[launch]
-            text = re.sub(r"( *<rosparam command.*)params(.yaml.*\n)", r"\g<0>\1more\2", text)
+            text = re.sub(
+                r"( *<rosparam command.*/config/)params(.yaml.*\n)(.*params_file.*\n)",
+                r"\g<0>\1more\2",
+                text,
+            )
             text = re.sub(r"( *)params( = .*\")params(.yaml.*\n)", r"\g<0>\1more\2more\3", text)
-            text = re.sub(r"( +)system,\n", r"\g<0>\1more,\n", text)
+            text = re.sub(r"( +)system,\n", r"\g<0>\1more,\n", text).replace(
+                "system]", "system, more]"
+            )
             files = {path.replace("params.yaml", "more.yaml"): head + own, launch: text}
             yield Mutant(files, launch)
 

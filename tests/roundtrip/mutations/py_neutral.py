@@ -24,7 +24,7 @@ from tests.roundtrip.mutations.package import (
     in_files,
     within,
 )
-from tests.roundtrip.mutations.py_surroundings import in_program, programs
+from tests.roundtrip.mutations.py_surroundings import importing, in_program, programs
 
 _STYLES = {
     "of 60 columns": ("--line-length=60",),
@@ -309,7 +309,7 @@ KINDS = (
     ),
     Kind("print", at_start('        print("here")\n', *BODIES)),
     Kind("print of a state variable", _logged),
-    Kind("logging", at_start('        logging.getLogger(__name__).info("at %d", 1)\n', *BODIES)),
+    Kind("logging", importing("logging", 'logging.getLogger(__name__).info("at %d", 1)')),
     Kind("logged where received", at_start('        print("received", msg)\n', "receive")),
     Kind("logged where sent", at_start('        print("sent")\n', "send")),
     Kind("logged in set-up", at_end('        print("ready")\n', "setup")),
@@ -385,10 +385,15 @@ ROSPY = (
 RCLPY = (
     Kind(
         "logger of rclpy",
-        at_start('        rclpy.logging.get_logger("own").info(f"at {1}")\n', *BODIES),
+        importing("rclpy.logging", 'rclpy.logging.get_logger("own").info(f"at {1}")'),
     ),
     Kind("logger of the node", at_end('        self.get_logger().info("ready")\n', "setup")),
-    Kind("logger of the node kept", at_end("        self._log = self.get_logger()\n", "setup")),
+    Kind(
+        "logger of the node kept",
+        within(
+            r"^( *)(?=self\._mailbox\.construct\()", r"\1self._log = self.get_logger()\n\1", "setup"
+        ),
+    ),
     Kind("entry points reordered", swapped_lines(r'            "\w+ = [^\n]*', "setup.py")),
     Kind("version in the set-up", in_files("setup.py", r'version=".*"', 'version="9.9.9"')),
     Kind("more in the set-up", in_files("setup.py", r"^( +)(zip_safe)", r'\1license="MIT",\n\1\2')),

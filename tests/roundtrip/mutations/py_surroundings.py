@@ -6,7 +6,16 @@ import re
 from collections.abc import Iterator
 
 from tests.roundtrip.mutations.layout import gone
-from tests.roundtrip.mutations.package import Edit, Kind, Maker, Mutant, Package, in_files
+from tests.roundtrip.mutations.package import (
+    BODIES,
+    Edit,
+    Kind,
+    Maker,
+    Mutant,
+    Package,
+    at_start,
+    in_files,
+)
 from tests.roundtrip.mutations.surroundings import run_time
 
 
@@ -18,6 +27,20 @@ def in_program(pattern: str, text: str) -> Maker:
         for path in programs(package):
             for found in compiled.finditer(package.code(path)):
                 yield Edit(path, *found.span(), found.expand(text))
+
+    return make
+
+
+def importing(module: str, statement: str) -> Maker:
+    """A statement at the start of a body, and the import of the module that it uses."""
+
+    def make(package: Package) -> Iterator[list[Edit]]:
+        for made in at_start(f"        {statement}\n", *BODIES)(package):
+            assert isinstance(made, Edit)
+            head = re.search(r"^from (?!__future__)", package.files[made.path], re.MULTILINE)
+            if head is not None:
+                line = f"import {module}\n"
+                yield [Edit(made.path, head.start(), head.start(), line), made]
 
     return make
 
