@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from tree_sitter import Node
 
+from rebsync.reverse.calls.receivers import is_text
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.calls.ros_calls_facts import Facts
 from rebsync.reverse.calls.ros_calls_shapes import Asked, called_as, objects_of, types_of
@@ -22,7 +23,6 @@ from rebsync.reverse.libraries.routines import Routine
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_values import Values
 
-_TEXTS = frozenset({"string_literal", "concatenated_string", "raw_string_literal"})
 _AROUND = frozenset({"template_type", "template_function", "qualified_identifier"})
 _FIRST_NAMES = 5  # arguments among which the name is: up to four interfaces of a node come first
 
@@ -97,12 +97,8 @@ def _of_member(
 
 def _roles(values: Values, cpp: Cpp, given: tuple[Node, ...], routine: Routine) -> tuple[str, ...]:
     """The roles of arguments: the name is the first that is a text."""
-    at = next((i for i, a in enumerate(given[:_FIRST_NAMES]) if _is_text(values, cpp, a)), None)
+    at = next((i for i, a in enumerate(given[:_FIRST_NAMES]) if is_text(values, cpp, a)), None)
     if at is None:
         return routine.arguments
     first = routine.arguments[0] if at == 1 else ""
     return (*([first] if at else []), *([""] * (at - 1)), "name")
-
-
-def _is_text(values: Values, cpp: Cpp, node: Node) -> bool:
-    return node.type in _TEXTS or values.types.type_of(cpp, node) in ("std::string", "string")

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
+from rebsync.reverse.calls.receivers import says_enough
 from rebsync.reverse.calls.ros_calls_shapes import (
     MAKERS,
     TEMPLATES,
@@ -27,8 +28,6 @@ from rebsync.reverse.values.cpp_flow_types import unscoped_member
 from rebsync.reverse.values.cpp_values import Values
 
 _CALLED = frozenset({"template_method", "template_function", "dependent_name"})
-# Methods whose names say enough where nothing tells what they are called on.
-_MAKING = frozenset({Kind.PUBLISHER, Kind.SUBSCRIPTION, Kind.TIMER, Kind.SERVICE, Kind.CLIENT})
 
 
 def asked_of_nodes(
@@ -77,9 +76,12 @@ def _of_method(
     class_ = values.texts.class_near(type_, cpp) if type_ and is_own else None
     if class_ is not None:
         meant = _may_be_node(values, class_, name)
+    elif type_ in calls.known:
+        ask = calls.methods.get(type_, {}).get(name)
+        meant = ask is not None
     else:
-        meant = type_ in calls.nodes or _says_enough(ask, given)
-    if meant:
+        meant = type_ in calls.nodes or says_enough(values, cpp, ask, given)
+    if meant and ask is not None:
         yield Asked(ask, site_of(values, cpp, place, call), given, types_of(called), target)
 
 
@@ -120,10 +122,6 @@ def _bases(class_: CppClass) -> set[str]:
     """The last names of the bases of a class that may be nodes, which types of messages are not."""
     clauses = (n for n in class_.node.named_children if n.type == "base_class_clause")
     return {unscoped(b) for n in clauses for b in named(n) if not is_interface(text_of(b))}
-
-
-def _says_enough(ask: Routine, given: tuple[Node, ...]) -> bool:
-    return ask.kind in _MAKING and len(given) >= ask.least
 
 
 # --- nodes --------------------------------------------------------------------------------------

@@ -35,10 +35,10 @@ def _does(effect: Effect, *names: str, kind: Kind = Kind.OTHER) -> dict[str, Rou
 
 _GET = _parameter(Access.GET, "name", "variable", least=2)
 _PARAM = _parameter(Access.GET, "name", "variable", "default", least=3)
-_SET = _parameter(Access.SET, "name", "value")
-_HAS = _parameter(Access.HAS, "name")
-_DELETE = _parameter(Access.DELETE, "name")
-_SEARCH = _parameter(Access.SEARCH, "name", "found")
+_SET = _parameter(Access.SET, "name", "value", least=2)
+_HAS = _parameter(Access.HAS, "name", least=1)
+_DELETE = _parameter(Access.DELETE, "name", least=1)
+_SEARCH = _parameter(Access.SEARCH, "name", "found", least=2)
 
 _HANDLE = {
     "advertise": Routine(
