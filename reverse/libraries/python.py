@@ -160,6 +160,12 @@ def messages_of_any_type() -> frozenset[str]:
     return frozenset(n for library in _libraries() for n in library.plain)
 
 
+@derived
+def adapting() -> frozenset[str]:
+    """Functions that give a class of messages of the type that they are handed."""
+    return names_of(Kind.OTHER, result="type")
+
+
 # --- parameters and values ----------------------------------------------------------------------
 
 

@@ -130,7 +130,8 @@ class Routine:
     `arguments` are the roles of the arguments in their order, `keywords` those of arguments that
     are given by a name (a role stands for itself too). The arguments of the role `callback` are
     called later. `type` is the type of messages where the call has no other, `result` the class of
-    what it gives, or the unit of the time that it takes or tells; `wall` says that it goes by the
+    what it gives, or the unit of the time that it takes or tells, or `type` for a class of messages
+    of the type that it is handed; `wall` says that it goes by the
     clock on the wall. `options` is the class that may stand for all of the arguments.
 
     Names of `flat` routines are not under the namespace of a handle, and their arguments stand in

@@ -106,7 +106,8 @@ _METHODS = {
     "rclcpp::node_interfaces::NodeParametersInterface": {
         n: r for n, r in _NODE.items() if r.access is not None
     },
-    **dict.fromkeys(("rclcpp::SyncParametersClient", "rclcpp::AsyncParametersClient"), {}),
+    "rclcpp::SyncParametersClient": {},
+    "rclcpp::AsyncParametersClient": {},
     _SENT: {
         "publish": Routine(Kind.PUBLISH, ("message",)),
         **_does(Effect.NONE, "get_topic_name", "is_activated"),

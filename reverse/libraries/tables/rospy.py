@@ -74,6 +74,7 @@ _FUNCTIONS = {
         for level in ("debug", "info", "warn", "err", "fatal")
         for often in ("", "_once", "_throttle", "_throttle_identical")
     },
+    "rospy.numpy_msg.numpy_msg": Routine(arguments=("type",), result="type"),
     "message_filters.Subscriber": _asks(Kind.SUBSCRIPTION, "name", "type", "depth"),
     "actionlib.SimpleActionServer": _hook("", "", "callback", execute_cb="callback"),
     "actionlib.ActionServer": _hook(
