@@ -22,8 +22,9 @@ from rebsync.reverse.calls.ros_calls_shapes import (
     types_of,
 )
 from rebsync.reverse.calls.ros_calls_sites import owner_of, site_of
+from rebsync.reverse.calls.unmodelled_calls import unmodelled_in
 from rebsync.reverse.calls.words import words_in
-from rebsync.reverse.graph import Fact, Graph
+from rebsync.reverse.graph import Fact, Graph, UnmodelledFact
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.cpp_calls import Calls
 from rebsync.reverse.libraries.cpp_calls import calls as calls_of_libraries
@@ -75,7 +76,8 @@ class Asking:
             facts = Facts(self.values())
             every = (fact for asked in self.calls() for fact in facts.of(asked))
             found = without_unused(every, self.code.files)
-            self._graph = Graph(tuple(sorted(found, key=_order)))
+            used = without_unused(unmodelled_in(self.values()), self.code.files)
+            self._graph = Graph(tuple(sorted(found, key=_order)), tuple(sorted(used, key=_order)))
         return self._graph
 
 
@@ -126,7 +128,7 @@ def _at(
             yield asked
 
 
-def _order(fact: Fact) -> tuple[str, int]:
+def _order(fact: Fact | UnmodelledFact) -> tuple[str, int]:
     return fact.site.place.source.path, fact.site.place.span.start
 
 

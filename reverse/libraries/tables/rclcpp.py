@@ -179,9 +179,12 @@ LIBRARIES = (
         Language.CPP,
         _FUNCTIONS,
         _METHODS,
-        actions={
-            "rclcpp_action::create_server": _asks(Kind.SERVICE, "", "name"),
-            "rclcpp_action::create_client": _asks(Kind.CLIENT, "", "name"),
+        unmodelled={
+            "rclcpp_action::create_server": _asks(Kind.ACTION_SERVER, "", "name"),
+            "rclcpp_action::create_client": _asks(Kind.ACTION_CLIENT, "", "name"),
+            "tf2_ros::TransformBroadcaster": Routine(Kind.BROADCASTER),
+            "tf2_ros::StaticTransformBroadcaster": Routine(Kind.STATIC_BROADCASTER),
+            "tf2_ros::TransformListener": Routine(Kind.LISTENER),
         },
         nodes=frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"}),
         managed=frozenset({"rclcpp_lifecycle::LifecycleNode"}),

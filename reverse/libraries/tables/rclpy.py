@@ -187,13 +187,16 @@ LIBRARIES = (
         Language.PYTHON,
         _FUNCTIONS,
         _METHODS,
-        actions={
+        unmodelled={
             "rclpy.action.ActionServer": Routine(
-                Kind.SERVICE, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
+                Kind.ACTION_SERVER, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
             ),
             "rclpy.action.ActionClient": Routine(
-                Kind.CLIENT, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
+                Kind.ACTION_CLIENT, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
             ),
+            "tf2_ros.TransformBroadcaster": Routine(Kind.BROADCASTER),
+            "tf2_ros.StaticTransformBroadcaster": Routine(Kind.STATIC_BROADCASTER),
+            "tf2_ros.TransformListener": Routine(Kind.LISTENER),
         },
         nodes=frozenset(_NODES),
         managed=frozenset(n for n in _NODES if n.startswith("rclpy.lifecycle.")),

@@ -188,9 +188,15 @@ LIBRARIES = (
         Language.CPP,
         _FUNCTIONS,
         _METHODS,
-        actions={
-            "actionlib::SimpleActionServer": Routine(Kind.SERVICE, ("handle", "name")),
-            "actionlib::SimpleActionClient": Routine(Kind.CLIENT, ("handle", "name")),
+        unmodelled={
+            "actionlib::SimpleActionServer": Routine(Kind.ACTION_SERVER, ("handle", "name")),
+            "actionlib::ActionServer": Routine(Kind.ACTION_SERVER, ("handle", "name")),
+            "actionlib::SimpleActionClient": Routine(Kind.ACTION_CLIENT, ("handle", "name")),
+            "actionlib::ActionClient": Routine(Kind.ACTION_CLIENT, ("handle", "name")),
+            "tf::TransformBroadcaster": Routine(Kind.BROADCASTER),
+            "tf::TransformListener": Routine(Kind.LISTENER),
+            "dynamic_reconfigure::Server": Routine(Kind.CONFIGURED),
+            "dynamic_reconfigure::Client": Routine(Kind.CONFIGURING),
         },
         handles=frozenset({"ros::NodeHandle"}),
         copying=("ros", "tf", "tf2", "tf2_ros", "diagnostic_updater"),
