@@ -17,7 +17,7 @@ from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.source import Source
 
-CASES = sorted((Path(__file__).parent / "unmodelled").iterdir())
+CASES = sorted((Path(__file__).parent / "unmodelled_cases").iterdir())
 
 
 def _graph(source: Source) -> Graph:

@@ -3,7 +3,7 @@
 #include <tf/transform_listener.h>
 
 class Base {
-  Base() : server_(nh_, "drive", false) {  //= Base action server  "drive" "demo/Drive"
+  Base() : server_(nh_, "drive", false) {  //= Base action server  "drive" "demo/DriveAction"
     changed_ = new dynamic_reconfigure::Server<demo::BaseConfig>(nh_);  //= Base server changed_ "demo::BaseConfig"
   }
   ros::NodeHandle nh_;
