@@ -14,7 +14,8 @@ from rebsync.reverse.graph import Site, Unmodelled, UnmodelledFact
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.cpp_calls import last
 from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of
+from rebsync.reverse.values.cpp_flow import made_of
 from rebsync.reverse.values.cpp_values import Values
 
 _ACTIONS = frozenset({Kind.ACTION_SERVER, Kind.ACTION_CLIENT})
@@ -57,12 +58,20 @@ def _made(
     types = types_of(node)
     if above.type in _DECLARATIONS:
         for declarator in above.children_by_field_name("declarator"):
-            if declarator.type in _OBJECTS:
+            if declarator.type in _OBJECTS or _is_local_object(declarator):
                 name = declarator.child_by_field_name("declarator") or declarator
                 yield replace(_site(values, cpp, place, above), kept=text_of(name)), types
         return
     for call, _ in objects_of(node, above):
         yield _site(values, cpp, place, call), types
+
+
+def _is_local_object(declarator: Node) -> bool:
+    """Whether `T name(other)` in a body makes an object, though it is spelled as a function."""
+    block = declarator.parent.parent if declarator.parent is not None else None
+    if declarator.type != "function_declarator" or block is None:
+        return False
+    return block.type == "compound_statement" and bool(made_of(part(declarator, "declarator")))
 
 
 def _site(values: Values, cpp: Cpp, place: Node, call: Node) -> Site:

@@ -17,4 +17,7 @@ using namespace tf2_ros;
 
 int main(int argc, char** argv) {
   TransformBroadcaster sent;  //= main broadcaster sent
+  tf2_ros::Buffer buffer;
+  tf2_ros::TransformListener heard(buffer);  //= main listener heard
+  tf2_ros::TransformListener made();
 }
