@@ -99,4 +99,8 @@ def _graph(given: Chosen, extracted: Extracted) -> Graph:
     if asked is None or not (Path(asked.path).suffix in CODE or is_python(asked.path, asked)):
         return extracted.graph
     path = asked.path
-    return Graph(tuple(f for f in extracted.graph.facts if f.site.place.source.path == path))
+    graph = extracted.graph
+    return Graph(
+        tuple(f for f in graph.facts if f.site.place.source.path == path),
+        tuple(u for u in graph.unmodelled if u.site.place.source.path == path),
+    )

@@ -9,6 +9,7 @@ relative `x`, private `~x`; the namespace of a node handle is part of the name.
 from __future__ import annotations
 
 from dataclasses import field
+from enum import Enum
 from typing import TypeAlias
 
 from tree_sitter import Node as SyntaxNode
@@ -237,8 +238,41 @@ Fact: TypeAlias = (
 )
 
 
+class Unmodelled(Enum):
+    """What nodes make that has no place in a model, where what it does may be anything.
+
+    The two last are of dynamic_reconfigure: what lets others change parameters, and what does so.
+    """
+
+    ACTION_SERVER = "action server"
+    ACTION_CLIENT = "action client"
+    BROADCASTER = "broadcaster"
+    STATIC_BROADCASTER = "static broadcaster"
+    LISTENER = "listener"
+    CONFIGURED = "server"
+    CONFIGURING = "client"
+
+
+@dataclass(frozen=True, slots=True)
+class UnmodelledFact:
+    """An end of an action with its name and type; or what sends or gets transforms.
+
+    Of what lets others change parameters `type` is the class of its configuration, `name` the node
+    that has it. Both are None where there is no such thing, or it is the node's own.
+    """
+
+    site: Site
+    what: Unmodelled
+    name: Resolved | None = None
+    type: Resolved | None = None
+
+
 @dataclass(frozen=True, slots=True)
 class Graph:
-    """All that some files ask of ROS, in the order of files and places."""
+    """All that some files ask of ROS, in the order of files and places.
+
+    `unmodelled` is what is listed beside the facts; nothing that makes a model looks at it.
+    """
 
     facts: tuple[Fact, ...] = ()
+    unmodelled: tuple[UnmodelledFact, ...] = ()

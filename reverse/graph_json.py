@@ -29,6 +29,8 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
     Under,
+    Unmodelled,
+    UnmodelledFact,
     Unresolved,
 )
 from rebsync.reverse.policies import FOR_EVER, Period, Policies
@@ -46,15 +48,24 @@ LISTS = {
     ServiceFact: "services",
     ClientFact: "clients",
 }
+BESIDES = {
+    Unmodelled.ACTION_SERVER: "action_servers",
+    Unmodelled.ACTION_CLIENT: "action_clients",
+    **dict.fromkeys(
+        (Unmodelled.BROADCASTER, Unmodelled.STATIC_BROADCASTER, Unmodelled.LISTENER), "transforms"
+    ),
+    **dict.fromkeys((Unmodelled.CONFIGURED, Unmodelled.CONFIGURING), "reconfigurations"),
+}
 
 
 def graph_data(graph: Graph) -> dict[str, list[Item]]:
     """The facts by their kinds, and `unknowns`: every value that the code alone does not tell."""
     lists: dict[str, list[Item]] = {name: [] for name in LISTS.values()}
+    lists |= {name: [] for name in BESIDES.values()}
     unknowns: list[Item] = []
-    for fact in graph.facts:
-        name = LISTS[type(fact)]
-        item = fact_data(fact)
+    listed = [(LISTS[type(fact)], fact_data(fact)) for fact in graph.facts]
+    listed += [(BESIDES[u.what], unmodelled_data(u)) for u in graph.unmodelled]
+    for name, item in listed:
         lists[name].append(item)
         for key, value in item.items():
             for unknown in _unknowns_in(value):
@@ -81,6 +92,21 @@ def _unknowns_in(value: Data) -> Iterator[Item]:
 def fact_data(fact: Fact) -> Item:
     """One fact with its place; keys that say nothing are left out where a fact seldom has them."""
     return {**_site(fact.site), **_own(fact)}
+
+
+def unmodelled_data(fact: UnmodelledFact) -> Item:
+    """What has no place in a model, with its place; its role where a list has several."""
+    item = _site(fact.site)
+    if BESIDES[fact.what].startswith("action"):
+        return {**item, "name": _optional(fact.name), "type": _optional(fact.type)}
+    item["role"] = fact.what.value
+    if BESIDES[fact.what] == "reconfigurations":
+        item |= {"name": _optional(fact.name), "config": _optional(fact.type)}
+    return item
+
+
+def _optional(value: Resolved | None) -> Data:
+    return None if value is None else value_data(value)
 
 
 def _site(site: Site) -> Item:

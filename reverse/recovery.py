@@ -78,7 +78,8 @@ class Extracted:
     @property
     def graph(self) -> Graph:
         """What the code asks of ROS."""
-        return Graph(self.asking.graph.facts + self.in_python.facts)
+        in_cpp, in_python = self.asking.graph, self.in_python
+        return Graph(in_cpp.facts + in_python.facts, in_cpp.unmodelled + in_python.unmodelled)
 
 
 def extract(

@@ -7,10 +7,9 @@ from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 
 from rebsync.records import dataclass
-from rebsync.reverse.calls.action_calls import actions_in
 from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import BESIDE, CODE
-from rebsync.reverse.graph import ClientFact, Fact, NodeFact, ServiceFact
+from rebsync.reverse.graph import Fact, NodeFact, UnmodelledFact
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_programs import programs, with_nodes
 from rebsync.reverse.nodes.node_units import Start, Unit
@@ -21,7 +20,7 @@ from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.rosgraph.closed import is_closed
 from rebsync.rosgraph.ends import End, NodeCode, ParameterUse
-from rebsync.rosgraph.facts import action_end, distinct, end_of, first_place, parameter_of
+from rebsync.rosgraph.facts import distinct, end_of, ends_of_unmodelled, first_place, parameter_of
 from rebsync.source import Source
 
 _CODE = tuple(sorted(CODE))
@@ -35,7 +34,7 @@ def nodes_in_cpp(files: Mapping[str, Source], package: str) -> Iterator[NodeCode
     graph = asking.graph
     found = with_nodes(programs(code, files), graph)
     units, starts = all_units(code, graph, found, False, whole=True)
-    reading = _Reading(code, package, executables(files), list(actions_in(asking)))
+    reading = _Reading(code, package, executables(files), graph.unmodelled)
     yield from reading.started(starts)
     begun = {id(s.unit) for s in starts}
     for unit in units:
@@ -51,7 +50,7 @@ class _Reading:
     code: Code
     package: str
     known_as: Mapping[str, frozenset[str]]
-    actions: Sequence[ServiceFact | ClientFact]
+    unmodelled: Sequence[UnmodelledFact]
     seen: set[int] = field(default_factory=set)
 
     def started(self, starts: Sequence[Start]) -> Iterator[NodeCode]:
@@ -88,18 +87,19 @@ class _Reading:
         )
 
     def _ends(self, start: Start) -> Iterator[End]:
-        """The ends of an object, those of actions by the functions that they stand in."""
+        """The ends of an object, what is unmodelled by the functions that it stands in."""
         unit = start.unit
         self.seen |= {id(fact) for fact in unit.facts}
         for fact in unit.facts:
             if (end := end_of(fact)) is not None:
                 yield _of_start(start, end)
-        for action in self.actions:
-            owner, path = action.site.owner, action.site.place.source.path
+        for each in self.unmodelled:
+            owner, path = each.site.owner, each.site.place.source.path
             is_free = unit.owner is None and owner not in self.code.classes
             if (owner in unit.names) or (is_free and path in unit.files):
-                self.seen.add(id(action))
-                yield _of_start(start, action_end(action))
+                self.seen.add(id(each))
+                ends = ends_of_unmodelled(each, unit.flat)
+                yield from (_of_start(start, end) for end in ends)
 
     def _executables(self, start: Start) -> Iterator[str]:
         unit, program = start.unit, start.program
@@ -121,7 +121,8 @@ class _Reading:
         """What stands in no unit, by its files."""
         left = [f for f in facts if id(f) not in self.seen]
         ends = [e for f in left if (e := end_of(f)) is not None]
-        ends += [action_end(a) for a in self.actions if id(a) not in self.seen]
+        loose = (u for u in self.unmodelled if id(u) not in self.seen)
+        ends += [end for each in loose for end in ends_of_unmodelled(each, False)]
         uses = [p for f in left if (p := parameter_of(f)) is not None]
         yield from loose_code(self.package, ends, uses)
 

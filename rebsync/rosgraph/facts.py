@@ -8,16 +8,22 @@ from typing import TypeVar
 from rebsync.reverse.graph import (
     ClientFact,
     Fact,
+    OneOf,
     ParameterFact,
     Place,
     PublisherFact,
+    Resolved,
     ServiceFact,
     SubscriptionFact,
+    Unmodelled,
+    UnmodelledFact,
 )
 from rebsync.reverse.policies import NOT_KNOWN, Policies
 from rebsync.rosgraph.ends import End, ParameterUse, Role
 
 T = TypeVar("T")
+
+_TRANSFORMS = "tf2_msgs/TFMessage"
 
 # What a call is given whose policies may be set by parameters.
 _OVERRIDING = ("qos_overriding_options", "QosOverridingOptions")
@@ -49,10 +55,26 @@ def _policies(fact: Fact) -> Policies | None:
     return NOT_KNOWN if any(word in text for word in _OVERRIDING) else fact.policies
 
 
-def action_end(fact: ServiceFact | ClientFact) -> End:
-    """The end of an action."""
-    role = Role.ACTION_SERVER if isinstance(fact, ServiceFact) else Role.ACTION_CLIENT
-    return End(role, fact.name, fact.type, fact.site.place, fact.site.owner)
+def ends_of_unmodelled(fact: UnmodelledFact, is_flat: bool) -> Iterator[End]:
+    """The ends of what has no place in a model: of actions, and of the topics of transforms.
+
+    Messages with transforms are, in ROS 1 (not `is_flat`), of one of two types that are the same.
+    """
+    place, owner = fact.site.place, fact.site.owner
+    type_: Resolved = _TRANSFORMS if is_flat else OneOf((_TRANSFORMS, "tf/tfMessage"))
+    match fact.what:
+        case Unmodelled.ACTION_SERVER | Unmodelled.ACTION_CLIENT:
+            if fact.name is not None and fact.type is not None:
+                yield End(Role(fact.what.value), fact.name, fact.type, place, owner)
+        case Unmodelled.BROADCASTER:
+            yield End(Role.PUBLISHER, "/tf", type_, place, owner)
+        case Unmodelled.STATIC_BROADCASTER:
+            yield End(Role.PUBLISHER, "/tf_static", type_, place, owner)
+        case Unmodelled.LISTENER:
+            for topic in ("/tf", "/tf_static"):
+                yield End(Role.SUBSCRIPTION, topic, type_, place, owner)
+        case _:
+            return
 
 
 def parameter_of(fact: Fact) -> ParameterUse | None:

@@ -7,19 +7,18 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from rebsync.records import dataclass
 from rebsync.reverse.files.packages import BESIDE
-from rebsync.reverse.graph import ClientFact, Graph, NodeFact, ServiceFact
+from rebsync.reverse.graph import ClientFact, Graph, NodeFact, UnmodelledFact
 from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.body_started import is_module, scripts_of
 from rebsync.reverse.python.body_units import units_of
-from rebsync.reverse.python.py_actions import actions_in
-from rebsync.reverse.python.py_calls import graph_with
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import parse
+from rebsync.reverse.python.py_unmodelled import whole_graph
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.rosgraph.closed import is_closed
 from rebsync.rosgraph.ends import End, NodeCode
-from rebsync.rosgraph.facts import action_end, distinct, end_of, first_place, parameter_of
+from rebsync.rosgraph.facts import distinct, end_of, ends_of_unmodelled, first_place, parameter_of
 from rebsync.source import Source
 
 
@@ -29,12 +28,14 @@ def nodes_in_python(
     """The nodes in some files of code; `files` are all of the package."""
     read = PyCode.of([parse(s, path.startswith(BESIDE)) for path, s in sorted(code.items())])
     values = PyValues(read)
-    actions = list(actions_in(values))
-    facts = Graph((*graph_with(values).facts, *actions))
+    graph = whole_graph(values)
+    # What has no place in a model is a fact here, so that it comes to the unit that it stands in.
+    besides = [(ClientFact(u.site, u.name or "", u.type or ""), u) for u in graph.unmodelled]
+    facts = Graph((*graph.facts, *(fact for fact, _ in besides)))
     units = units_of(values, facts, lambda _: True, whole=True)
     own = {package, *(path.rpartition("/")[2].removesuffix(".py") for path in code)}
     own |= {path.partition("/")[0] for path in code}
-    reading = _Reading(package, scripts_of(files), actions, frozenset(own), code)
+    reading = _Reading(package, scripts_of(files), besides, frozenset(own), code)
     for group in _groups(units):
         node = reading.node(group)
         if node is not None:
@@ -43,11 +44,14 @@ def nodes_in_python(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Reading:
-    """Makes nodes of units; `own` are the names of the package's modules."""
+    """Makes nodes of units; `own` are the names of the package's modules.
+
+    `besides` are facts that stand for what has no place in a model.
+    """
 
     package: str
     scripts: Mapping[str, str]
-    actions: Sequence[ServiceFact | ClientFact]
+    besides: Sequence[tuple[ClientFact, UnmodelledFact]]
     own: frozenset[str]
     code: Mapping[str, Source]
 
@@ -76,8 +80,9 @@ class _Reading:
 
     def _ends(self, unit: PyUnit) -> Iterator[End]:
         for fact in unit.unit.facts:
-            if isinstance(fact, ServiceFact | ClientFact) and any(fact is a for a in self.actions):
-                yield action_end(fact)
+            found = next((u for known, u in self.besides if known is fact), None)
+            if found is not None:
+                yield from ends_of_unmodelled(found, unit.library.flat)
             elif (end := end_of(fact)) is not None:
                 yield end
 

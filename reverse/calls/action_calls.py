@@ -1,7 +1,7 @@
 """The ends of actions that C++ makes: their servers and clients, each with its name and type.
 
-They are no facts of `reverse.graph`: what an action does has no place in a model, and what makes
-one must stay a call that may do anything.
+What an action does has no place in a model, and what makes one must stay a call that may do
+anything.
 """
 
 from __future__ import annotations
@@ -11,33 +11,35 @@ from dataclasses import replace
 
 from tree_sitter import Node
 
-from rebsync.reverse.calls.ros_calls import Asking
+from rebsync.reverse.calls.receivers import is_text
 from rebsync.reverse.calls.ros_calls_facts import Facts
 from rebsync.reverse.calls.ros_calls_shapes import Asked, called_as, objects_of, types_of
 from rebsync.reverse.calls.ros_calls_sites import site_of
-from rebsync.reverse.graph import ClientFact, ServiceFact
+from rebsync.reverse.graph import ClientFact, ServiceFact, Unmodelled, UnmodelledFact
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.cpp_calls import last
-from rebsync.reverse.libraries.routines import Routine
+from rebsync.reverse.libraries.routines import Kind, Routine
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_values import Values
 
-_TEXTS = frozenset({"string_literal", "concatenated_string", "raw_string_literal"})
 _AROUND = frozenset({"template_type", "template_function", "qualified_identifier"})
+_AS_SERVICE = {Kind.ACTION_SERVER: Kind.SERVICE, Kind.ACTION_CLIENT: Kind.CLIENT}
 _FIRST_NAMES = 5  # arguments among which the name is: up to four interfaces of a node come first
 
 
-def actions_in(asking: Asking) -> Iterator[ServiceFact | ClientFact]:
-    """The servers and clients of actions, as those of services."""
-    values = asking.values()
+def actions_in(values: Values) -> Iterator[UnmodelledFact]:
+    """The servers and clients of actions, read as those of services are."""
     facts = Facts(values)
-    for full, (routine, library) in libraries.actions().items():
+    for full, (routine, library) in libraries.unmodelled().items():
+        if routine.kind not in _AS_SERVICE:
+            continue
+        ask, what = replace(routine, kind=_AS_SERVICE[routine.kind]), Unmodelled[routine.kind.name]
         scope = full.rpartition("::")[0]
         for cpp, place in values.texts.everywhere(last(full)):
-            for asked in _asked(values, cpp, place, routine, scope, library.flat):
+            for asked in _asked(values, cpp, place, ask, scope, library.flat):
                 for fact in facts.of(asked):
                     if isinstance(fact, ServiceFact | ClientFact):
-                        yield fact
+                        yield UnmodelledFact(fact.site, what, fact.name, fact.type)
 
 
 def _asked(
@@ -97,12 +99,8 @@ def _of_member(
 
 def _roles(values: Values, cpp: Cpp, given: tuple[Node, ...], routine: Routine) -> tuple[str, ...]:
     """The roles of arguments: the name is the first that is a text."""
-    at = next((i for i, a in enumerate(given[:_FIRST_NAMES]) if _is_text(values, cpp, a)), None)
+    at = next((i for i, a in enumerate(given[:_FIRST_NAMES]) if is_text(values, cpp, a)), None)
     if at is None:
         return routine.arguments
     first = routine.arguments[0] if at == 1 else ""
     return (*([first] if at else []), *([""] * (at - 1)), "name")
-
-
-def _is_text(values: Values, cpp: Cpp, node: Node) -> bool:
-    return node.type in _TEXTS or values.types.type_of(cpp, node) in ("std::string", "string")

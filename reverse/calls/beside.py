@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from typing import TypeVar
 
 from tree_sitter import Node
 
-from rebsync.reverse.graph import Fact
+from rebsync.reverse.graph import Fact, UnmodelledFact
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+
+F = TypeVar("F", bound="Fact | UnmodelledFact")
 
 _WORD = re.compile(rb"[A-Za-z_]\w*")
 _CLASSES = frozenset({"class_specifier", "struct_specifier", "class_definition"})
@@ -49,7 +52,7 @@ def used_names(files: Sequence[Cpp]) -> frozenset[bytes]:
     return frozenset(names)
 
 
-def without_unused(facts: Iterable[Fact], files: Sequence[Cpp]) -> Iterator[Fact]:
+def without_unused(facts: Iterable[F], files: Sequence[Cpp]) -> Iterator[F]:
     """The facts but for those of classes and functions of other packages that nothing uses."""
     used = used_names(files) if any(each.is_beside for each in files) else frozenset[bytes]()
     for fact in facts:

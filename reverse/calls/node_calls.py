@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
+from rebsync.reverse.calls.receivers import says_enough
 from rebsync.reverse.calls.ros_calls_shapes import (
     MAKERS,
     TEMPLATES,
@@ -16,17 +17,17 @@ from rebsync.reverse.calls.ros_calls_shapes import (
     types_of,
 )
 from rebsync.reverse.calls.ros_calls_sites import site_of
+from rebsync.reverse.calls.ros_calls_types import is_interface
 from rebsync.reverse.libraries.cpp_calls import Calls
 from rebsync.reverse.libraries.routines import Kind, Routine
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import CppClass
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow_types import unscoped_member
 from rebsync.reverse.values.cpp_values import Values
 
 _CALLED = frozenset({"template_method", "template_function", "dependent_name"})
-# Methods whose names say enough where nothing tells what they are called on.
-_MAKING = frozenset({Kind.PUBLISHER, Kind.SUBSCRIPTION, Kind.TIMER, Kind.SERVICE, Kind.CLIENT})
 
 
 def asked_of_nodes(
@@ -75,9 +76,12 @@ def _of_method(
     class_ = values.texts.class_near(type_, cpp) if type_ and is_own else None
     if class_ is not None:
         meant = _may_be_node(values, class_, name)
+    elif type_ in calls.known:
+        ask = calls.methods.get(type_, {}).get(name)
+        meant = ask is not None
     else:
-        meant = type_ in calls.nodes or _says_enough(ask, given)
-    if meant:
+        meant = type_ in calls.nodes or says_enough(values, cpp, ask, given)
+    if meant and ask is not None:
         yield Asked(ask, site_of(values, cpp, place, call), given, types_of(called), target)
 
 
@@ -111,12 +115,13 @@ def _may_be_node(values: Values, class_: CppClass, method: str) -> bool:
     if any(c.roots for c in lineage):
         return True
     known = {c.name for c in lineage}
-    bases = [b for c in lineage for b in c.bases if b not in known]
-    return any("Node" in b for b in bases)
+    return any("Node" in b for c in lineage for b in _bases(c) - known)
 
 
-def _says_enough(ask: Routine, given: tuple[Node, ...]) -> bool:
-    return ask.kind in _MAKING and len(given) >= ask.least
+def _bases(class_: CppClass) -> set[str]:
+    """The last names of the bases of a class that may be nodes, which types of messages are not."""
+    clauses = (n for n in class_.node.named_children if n.type == "base_class_clause")
+    return {unscoped(b) for n in clauses for b in named(n) if not is_interface(text_of(b))}
 
 
 # --- nodes --------------------------------------------------------------------------------------
@@ -140,7 +145,7 @@ def _node(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> Ite
         return  # a class of that name of their own
     if above.type == "field_initializer":
         class_ = values.texts.class_of(values.texts.function_around(cpp, place))
-        if class_ is not None and name in (*class_.roots, *class_.bases):
+        if class_ is not None and name in _bases(class_):
             lists = [n for n in above.named_children if n.type.endswith("_list")]
             given = tuple(named(lists[-1])) if lists else ()
             yield Asked(named_, site_of(values, cpp, place, above), given)

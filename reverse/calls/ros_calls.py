@@ -11,6 +11,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.calls.beside import without_unused
 from rebsync.reverse.calls.node_calls import asked_of_nodes
+from rebsync.reverse.calls.receivers import names_parameter, says_enough
 from rebsync.reverse.calls.ros_calls_facts import Facts
 from rebsync.reverse.calls.ros_calls_shapes import (
     TEMPLATES,
@@ -21,8 +22,9 @@ from rebsync.reverse.calls.ros_calls_shapes import (
     types_of,
 )
 from rebsync.reverse.calls.ros_calls_sites import owner_of, site_of
+from rebsync.reverse.calls.unmodelled_calls import unmodelled_in
 from rebsync.reverse.calls.words import words_in
-from rebsync.reverse.graph import Fact, Graph
+from rebsync.reverse.graph import Fact, Graph, UnmodelledFact
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.cpp_calls import Calls
 from rebsync.reverse.libraries.cpp_calls import calls as calls_of_libraries
@@ -74,7 +76,8 @@ class Asking:
             facts = Facts(self.values())
             every = (fact for asked in self.calls() for fact in facts.of(asked))
             found = without_unused(every, self.code.files)
-            self._graph = Graph(tuple(sorted(found, key=_order)))
+            used = without_unused(unmodelled_in(self.values()), self.code.files)
+            self._graph = Graph(tuple(sorted(found, key=_order)), tuple(sorted(used, key=_order)))
         return self._graph
 
 
@@ -125,7 +128,7 @@ def _at(
             yield asked
 
 
-def _order(fact: Fact) -> tuple[str, int]:
+def _order(fact: Fact | UnmodelledFact) -> tuple[str, int]:
     return fact.site.place.source.path, fact.site.place.span.start
 
 
@@ -209,19 +212,29 @@ def _of_method(
         lineage = values.texts.lineage(class_)
         descends = any(b in libraries.handles() for c in lineage for b in c.bases)
         ask = on_handle if descends else None
-    elif not type_ and on_handle is not None and _is_undeclared(values, cpp, target):
-        ask = on_handle if len(given) >= on_handle.least else None
+    elif on_handle is not None and not type_ and _is_undeclared(values, cpp, target):
+        ask = on_handle if says_enough(values, cpp, on_handle, given) else None
+    elif on_handle is not None and type_ not in calls.known:
+        ask = on_handle if names_parameter(values, cpp, on_handle, given) else None
     if ask is not None:
         yield Asked(ask, site_of(values, cpp, place, call), given, types_of(called), target)
 
 
 def _is_undeclared(values: Values, cpp: Cpp, target: Node) -> bool:
-    """Whether a name comes from outside of the files, as members of other packages' classes do."""
+    """Whether a name comes from outside of the files, as members of other packages' classes do.
+
+    So may what a variable of no written type stands for.
+    """
     if target.type == "pointer_expression":
         target = part(target, "argument")
     if target.type == "parenthesized_expression":
         return _is_undeclared(values, cpp, named(target)[-1])
-    return target.type == "identifier" and values.types.variable(cpp, target) is None
+    if target.type == "field_expression" and text_of(part(target, "argument")) == "this":
+        target = part(target, "field")
+    if target.type not in ("identifier", "field_identifier"):
+        return False
+    variable = values.types.variable(cpp, target)
+    return variable is None or (variable.type is not None and text_of(variable.type) == "auto")
 
 
 def _nodelet(ask: Routine, values: Values, cpp: Cpp, place: Node) -> Iterator[Asked]:

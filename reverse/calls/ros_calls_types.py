@@ -37,6 +37,11 @@ _ADAPTED = frozenset({"TypeAdapter"})
 _ENDINGS = ("ConstPtr", "Ptr", "Request", "Response")
 
 
+def is_interface(name: str) -> bool:
+    """Whether a scoped name of C++ is of a message, service or action: `a::msg::B`."""
+    return not _KINDS.isdisjoint("".join(name.split()).split("::")[:-1])
+
+
 @dataclass(slots=True)
 class CppMessageTypes:
     """Finds out which message a type of C++ is."""

@@ -159,9 +159,9 @@ def profiles() -> Mapping[str, int]:
 
 
 @derived
-def actions() -> Mapping[str, tuple[Routine, Library]]:
-    """By full names what makes the end of an action, and of which library."""
-    return {n: (r, library) for library in _libraries() for n, r in library.actions.items()}
+def unmodelled() -> Mapping[str, tuple[Routine, Library]]:
+    """By full names what makes something that has no place in a model, and of which library."""
+    return {n: (r, library) for library in _libraries() for n, r in library.unmodelled.items()}
 
 
 @derived

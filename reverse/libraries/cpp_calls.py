@@ -26,7 +26,8 @@ class Calls:
     `functions` are by their scope and name; `objects` those of classes that ask for something when
     an object is made, with the scopes these classes may have, `filters` those that subscribe;
     `nodes` those that make nodes, in `node_scopes`; `macros` have no scope. `methods` are by the
-    class of their object and their name, without the methods of nodes and handles.
+    class of their object and their name, without the methods of nodes and handles; `known` are all
+    classes whose methods the library has, which do nothing of the kind but what is said of them.
 
     `classes` are the words of which objects are made; the others are called. `words` are all words
     that are looked for, without those that count only after a scope; `scopes` the outermost ones.
@@ -42,6 +43,7 @@ class Calls:
     on_nodes: Mapping[str, Routine]
     on_handles: Mapping[str, Routine]
     methods: Mapping[str, Mapping[str, Routine]]
+    known: frozenset[str]
     classes: frozenset[str]
     words: frozenset[bytes]
     scoped_words: frozenset[bytes]
@@ -77,6 +79,7 @@ def _calls_of(library: Library) -> Calls:
         on_nodes=on_nodes,
         on_handles=on_handles,
         methods=others,
+        known=frozenset(map(last, library.methods.keys() - library.nodes - library.handles)),
         classes=frozenset({*objects, *nodes}),
         words=words,
         scoped_words=frozenset(n.encode() for _, n in functions) - words,

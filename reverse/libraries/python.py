@@ -160,6 +160,12 @@ def messages_of_any_type() -> frozenset[str]:
     return frozenset(n for library in _libraries() for n in library.plain)
 
 
+@derived
+def adapting() -> frozenset[str]:
+    """Functions that give a class of messages of the type that they are handed."""
+    return names_of(Kind.OTHER, result="type")
+
+
 # --- parameters and values ----------------------------------------------------------------------
 
 
@@ -222,9 +228,9 @@ def profiles() -> Mapping[str, int]:
 
 
 @derived
-def actions() -> Mapping[str, tuple[Routine, Library]]:
-    """By full names what makes the end of an action, and of which library."""
-    return {n: (r, library) for library in _libraries() for n, r in library.actions.items()}
+def unmodelled() -> Mapping[str, tuple[Routine, Library]]:
+    """By full names what makes something that has no place in a model, and of which library."""
+    return {n: (r, library) for library in _libraries() for n, r in library.unmodelled.items()}
 
 
 @derived

@@ -69,6 +69,15 @@ class Kind(Enum):
     QUALITY = "make a quality of service"
     CHANGE = "change a quality of service, and give it"
     VALUE = "give what a parameter holds"
+
+    ACTION_SERVER = "action server"
+    ACTION_CLIENT = "action client"
+    BROADCASTER = "broadcaster"
+    STATIC_BROADCASTER = "static broadcaster"
+    LISTENER = "listener"
+    CONFIGURED = "configured"
+    CONFIGURING = "configuring"
+
     OTHER = "other"
 
 
@@ -130,7 +139,8 @@ class Routine:
     `arguments` are the roles of the arguments in their order, `keywords` those of arguments that
     are given by a name (a role stands for itself too). The arguments of the role `callback` are
     called later. `type` is the type of messages where the call has no other, `result` the class of
-    what it gives, or the unit of the time that it takes or tells; `wall` says that it goes by the
+    what it gives, or the unit of the time that it takes or tells, or `type` for a class of messages
+    of the type that it is handed; `wall` says that it goes by the
     clock on the wall. `options` is the class that may stand for all of the arguments.
 
     Names of `flat` routines are not under the namespace of a handle, and their arguments stand in
@@ -242,8 +252,9 @@ class Library:
     in other libraries. `versions` are macros that compare the library's version with their
     arguments; `included` is the folder that its headers are in where that has another name. What
     is `generated` is called by code that rebsync makes, and its names mean
-    something there only. `actions` make the ends of actions, by their full names: what these do
-    has no place in a model, so that they are no functions.
+    something there only. `unmodelled` make what has no place in a model, by their full names: ends
+    of actions, what sends and gets transforms, what lets others change parameters. They are no
+    functions, as what they do may be anything.
     """
 
     name: str
@@ -270,4 +281,4 @@ class Library:
     included: str = ""
     strict: bool = False
     generated: bool = False
-    actions: Mapping[str, Routine] = field(default_factory=dict)
+    unmodelled: Mapping[str, Routine] = field(default_factory=dict)

@@ -27,6 +27,7 @@ from rebsync.reverse.graph import (
     TimerFact,
     Unresolved,
 )
+from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_asks import PyRosCall, asked_in
@@ -81,6 +82,8 @@ class _Facts:
                 yield from self._declared(asked)
             case Kind.SET:
                 yield from self._set(asked)
+            case Kind.READ:
+                yield from self._read(asked)
             case Kind.PARAMETER:
                 yield self._parameter(asked)
             case Kind.PUBLISHER | Kind.SUBSCRIPTION | Kind.SINGLE:
@@ -168,6 +171,23 @@ class _Facts:
         if not items:
             yield ParameterFact(site, self._unknown(asked, "a list that is computed"), access)
 
+    def _read(self, asked: PyRosCall) -> Iterator[Fact]:
+        """What `get_parameters` gets, or all parameters whose names begin so."""
+        site, access = site_of(asked), asked.ask.access
+        assert access is not None
+        if (prefix := asked.given.get("prefix")) is not None:
+            text = self.values.text(prefix, asked.scope)
+            why = "all parameters whose names begin so"
+            name = Unresolved(why, site.place, f"{text}.*" if text else None)
+            yield ParameterFact(site, name, access)
+            return
+        node = asked.given.get("names")
+        items = named(node) if node is not None and node.type in ("list", "tuple") else []
+        for item in items:
+            yield ParameterFact(site, self.values.value(item, asked.scope), access)
+        if not items:
+            yield ParameterFact(site, self._unknown(asked, "a list that is computed"), access)
+
     # --- arguments ------------------------------------------------------------------------------
 
     def _name(self, asked: PyRosCall) -> Resolved:
@@ -197,17 +217,25 @@ class _Facts:
         node = asked.given.get("type")
         if node is None:
             return self._unknown(asked, "the type is not given")
-        found: list[Value] = []
-        for way in self.values.ways(node, asked.scope):
-            if isinstance(way, External) and (name := interface_of(way.name)) is not None:
-                found.append(name)
-            elif isinstance(way, Unresolved):
-                found.append(way)
-            elif not isinstance(way, NoneValue):
-                found.append(self.values.unknown("this is no type of ROS", node, asked.scope))
+        found = self._types(node, asked.scope)
         return resolved(
             distinct(found), self.values.unknown("the type is not known", node, asked.scope)
         )
+
+    def _types(self, node: Node, scope: Scope) -> list[Value]:
+        """The types of ROS that an expression may be, or be made of: `numpy_msg(Odometry)`."""
+        found: list[Value] = []
+        for way in self.values.ways(node, scope):
+            if isinstance(way, External) and (name := interface_of(way.name)) is not None:
+                found.append(name)
+            elif isinstance(way, Made) and way.by in libraries.adapting():
+                for each in arguments_of(way.call)[0][:1]:
+                    found += self._types(each, way.scope)
+            elif isinstance(way, Unresolved):
+                found.append(way)
+            elif not isinstance(way, NoneValue):
+                found.append(self.values.unknown("this is no type of ROS", node, scope))
+        return found
 
     def _callbacks(self, asked: PyRosCall) -> Callbacks:
         node = asked.given.get("callback")

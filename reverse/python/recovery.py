@@ -40,10 +40,11 @@ from rebsync.reverse.python.model_classes import ModelClasses
 from rebsync.reverse.python.model_env import integer_constants
 from rebsync.reverse.python.model_parameters import constant, parameter_read
 from rebsync.reverse.python.model_types import class_name
-from rebsync.reverse.python.py_calls import graph_with, owner_of
+from rebsync.reverse.python.py_calls import owner_of
 from rebsync.reverse.python.py_hooks import hooks_in
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import field, named, parse, text_of, unparsed
+from rebsync.reverse.python.py_unmodelled import whole_graph
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.python.sensor_effects import list_sensor_effects
@@ -164,7 +165,7 @@ def read_python(
     Python's, and `served` what its generated classes in both languages serve.
     """
     values, classes = python.values, python.classes
-    graph = graph_with(values)
+    graph = whole_graph(values)
     asked = python.sources.get(only) if only is not None else None
     path = asked.path if asked is not None else None
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})

@@ -26,6 +26,8 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
     Under,
+    Unmodelled,
+    UnmodelledFact,
     Unresolved,
 )
 from rebsync.reverse.graph_json import fact_data, graph_data, value_data
@@ -50,6 +52,34 @@ UNKNOWN_DATA = {
 CALLBACK = Callback("Talker::heard", BELOW)
 CALLED = {"function": "Talker::heard", "file": "src/talker.cpp", "line": 4}
 
+# What has no place in a model: the fact, its list, and what the list says.
+BESIDES: list[tuple[UnmodelledFact, str, dict[str, Any]]] = [
+    (
+        UnmodelledFact(SITE, Unmodelled.ACTION_SERVER, "go", "demo/Go"),
+        "action_servers",
+        {"name": "go", "type": "demo/Go"},
+    ),
+    (
+        UnmodelledFact(SITE, Unmodelled.ACTION_CLIENT, UNKNOWN, "demo/Go"),
+        "action_clients",
+        {"name": UNKNOWN_DATA, "type": "demo/Go"},
+    ),
+    (
+        UnmodelledFact(SITE, Unmodelled.STATIC_BROADCASTER),
+        "transforms",
+        {"role": "static broadcaster"},
+    ),
+    (
+        UnmodelledFact(SITE, Unmodelled.CONFIGURED, None, "demo::DemoConfig"),
+        "reconfigurations",
+        {"role": "server", "name": None, "config": "demo::DemoConfig"},
+    ),
+    (
+        UnmodelledFact(SITE, Unmodelled.CONFIGURING, "other"),
+        "reconfigurations",
+        {"role": "client", "name": "other", "config": None},
+    ),
+]
 FACTS: list[tuple[Fact, dict[str, Any]]] = [
     (NodeFact(SITE, "talker"), {"name": "talker", "anonymous": False, "nodelet": None}),
     (
@@ -164,17 +194,27 @@ def test_a_value(value: Resolved, data: object) -> None:
 
 
 def test_all_facts_are_as_the_schema_says() -> None:
-    lists = graph_data(Graph(tuple(fact for fact, _ in FACTS)))
-    assert sum(map(len, lists.values())) == len(FACTS) + len(lists["unknowns"])
+    besides = tuple(fact for fact, _, _ in BESIDES)
+    lists = graph_data(Graph(tuple(fact for fact, _ in FACTS), besides))
+    assert sum(map(len, lists.values())) == len(FACTS) + len(BESIDES) + len(lists["unknowns"])
     report = {"grade": "exact", "bodies": [], "findings": []}
     whole: dict[str, object] = {"package": "a", "path": ".", "file": None, "model": None}
     whole |= {"texts": [], "report": report}
     validator = jsonschema.Draft202012Validator(SCHEMA)
     validator.check_schema(SCHEMA)
     validator.validate(whole | lists)
-    for name in ("publishers", "timers", "unknowns"):
+    listed = ("action_servers", "transforms", "reconfigurations")
+    for name in ("publishers", "timers", "unknowns", *listed):
         broken = [*lists[name], {**lists[name][0], "oddity": 1}]
         assert not validator.is_valid(whole | lists | {name: broken})
+
+
+@pytest.mark.parametrize(("fact", "name", "data"), BESIDES, ids=lambda x: str(x)[:40])
+def test_what_has_no_place_in_a_model(
+    fact: UnmodelledFact, name: str, data: dict[str, Any]
+) -> None:
+    lists = graph_data(Graph(unmodelled=(fact,)))
+    assert lists[name] == [{**AT_SITE, **data}]
 
 
 def test_unknowns_say_of_what_they_are() -> None:

@@ -51,13 +51,15 @@ _NODE = {
     "create_service": _asks(Kind.SERVICE, "name", "callback", least=2),
     "create_client": _asks(Kind.CLIENT, "name", least=1, result="rclcpp::Client"),
     "declare_parameter": _asks(Kind.PARAMETER, "name", "default", access=Access.DECLARE, least=1),
-    "declare_parameters": _asks(Kind.DECLARED, "name", "default", access=Access.DECLARE),
-    "get_parameter": _asks(Kind.PARAMETER, "name", "variable", access=Access.GET),
-    "get_parameter_or": _asks(Kind.PARAMETER, "name", "variable", "default", access=Access.GET),
-    "get_parameters": _asks(Kind.READ, "name", access=Access.GET),
-    "has_parameter": _asks(Kind.PARAMETER, "name", access=Access.HAS),
-    "undeclare_parameter": _asks(Kind.PARAMETER, "name", access=Access.DELETE),
-    "set_parameter": _asks(Kind.SET, "name", access=Access.SET),
+    "declare_parameters": _asks(Kind.DECLARED, "name", "default", access=Access.DECLARE, least=2),
+    "get_parameter": _asks(Kind.PARAMETER, "name", "variable", access=Access.GET, least=1),
+    "get_parameter_or": _asks(
+        Kind.PARAMETER, "name", "variable", "default", access=Access.GET, least=2
+    ),
+    "get_parameters": _asks(Kind.READ, "name", access=Access.GET, least=1),
+    "has_parameter": _asks(Kind.PARAMETER, "name", access=Access.HAS, least=1),
+    "undeclare_parameter": _asks(Kind.PARAMETER, "name", access=Access.DELETE, least=1),
+    "set_parameter": _asks(Kind.SET, "name", access=Access.SET, least=1),
     "now": Routine(Kind.CLOCK),
     **_does(Effect.NONE, "get_logger"),
 }
@@ -100,6 +102,12 @@ _FUNCTIONS = {
 }
 _METHODS = {
     "rclcpp::Node": _NODE,
+    # The part of a node that has its parameters, and what asks other nodes for theirs.
+    "rclcpp::node_interfaces::NodeParametersInterface": {
+        n: r for n, r in _NODE.items() if r.access is not None
+    },
+    "rclcpp::SyncParametersClient": {},
+    "rclcpp::AsyncParametersClient": {},
     _SENT: {
         "publish": Routine(Kind.PUBLISH, ("message",)),
         **_does(Effect.NONE, "get_topic_name", "is_activated"),
@@ -171,9 +179,12 @@ LIBRARIES = (
         Language.CPP,
         _FUNCTIONS,
         _METHODS,
-        actions={
-            "rclcpp_action::create_server": _asks(Kind.SERVICE, "", "name"),
-            "rclcpp_action::create_client": _asks(Kind.CLIENT, "", "name"),
+        unmodelled={
+            "rclcpp_action::create_server": _asks(Kind.ACTION_SERVER, "", "name"),
+            "rclcpp_action::create_client": _asks(Kind.ACTION_CLIENT, "", "name"),
+            "tf2_ros::TransformBroadcaster": Routine(Kind.BROADCASTER),
+            "tf2_ros::StaticTransformBroadcaster": Routine(Kind.STATIC_BROADCASTER),
+            "tf2_ros::TransformListener": Routine(Kind.LISTENER),
         },
         nodes=frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"}),
         managed=frozenset({"rclcpp_lifecycle::LifecycleNode"}),

@@ -16,6 +16,7 @@ _KEYWORDS = (
     *(("node_name", "name"), ("msg_type", "type"), ("srv_type", "type"), ("srv_name", "name")),
     *(("topic", "name"), ("qos_profile", "depth"), ("timer_period_sec", "period")),
     *(("frequency", "hz"), ("alternative_value", "default"), ("topic_name", "name")),
+    *(("parameter_list", "parameters"),),
 )
 
 _ACTION_KEYWORDS = (("action_type", "type"), ("action_name", "name"))
@@ -51,7 +52,12 @@ _NODE = {
     "get_parameter_or": _asks(Kind.PARAMETER, "name", "default", access=Access.GET, least=2),
     "has_parameter": _asks(Kind.PARAMETER, "name", access=Access.HAS, least=1),
     "undeclare_parameter": _asks(Kind.PARAMETER, "name", access=Access.DELETE, least=1),
-    "set_parameters": _asks(Kind.SET, "parameters", access=Access.SET),
+    "get_parameters": _asks(Kind.READ, "names", access=Access.GET, least=1),
+    "get_parameters_by_prefix": _asks(Kind.READ, "prefix", access=Access.GET, least=1),
+    **dict.fromkeys(
+        ("set_parameters", "set_parameters_atomically"),
+        _asks(Kind.SET, "parameters", access=Access.SET),
+    ),
     "get_name": Routine(Kind.NAME, result="~"),
     "get_namespace": Routine(Kind.NAME),
     "get_clock": Routine(Kind.VALUE, does=Effect.NONE),
@@ -181,13 +187,16 @@ LIBRARIES = (
         Language.PYTHON,
         _FUNCTIONS,
         _METHODS,
-        actions={
+        unmodelled={
             "rclpy.action.ActionServer": Routine(
-                Kind.SERVICE, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
+                Kind.ACTION_SERVER, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
             ),
             "rclpy.action.ActionClient": Routine(
-                Kind.CLIENT, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
+                Kind.ACTION_CLIENT, ("", "type", "name"), _ACTION_KEYWORDS, flat=True
             ),
+            "tf2_ros.TransformBroadcaster": Routine(Kind.BROADCASTER),
+            "tf2_ros.StaticTransformBroadcaster": Routine(Kind.STATIC_BROADCASTER),
+            "tf2_ros.TransformListener": Routine(Kind.LISTENER),
         },
         nodes=frozenset(_NODES),
         managed=frozenset(n for n in _NODES if n.startswith("rclpy.lifecycle.")),

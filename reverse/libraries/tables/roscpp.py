@@ -35,10 +35,10 @@ def _does(effect: Effect, *names: str, kind: Kind = Kind.OTHER) -> dict[str, Rou
 
 _GET = _parameter(Access.GET, "name", "variable", least=2)
 _PARAM = _parameter(Access.GET, "name", "variable", "default", least=3)
-_SET = _parameter(Access.SET, "name", "value")
-_HAS = _parameter(Access.HAS, "name")
-_DELETE = _parameter(Access.DELETE, "name")
-_SEARCH = _parameter(Access.SEARCH, "name", "found")
+_SET = _parameter(Access.SET, "name", "value", least=2)
+_HAS = _parameter(Access.HAS, "name", least=1)
+_DELETE = _parameter(Access.DELETE, "name", least=1)
+_SEARCH = _parameter(Access.SEARCH, "name", "found", least=2)
 
 _HANDLE = {
     "advertise": Routine(
@@ -188,9 +188,15 @@ LIBRARIES = (
         Language.CPP,
         _FUNCTIONS,
         _METHODS,
-        actions={
-            "actionlib::SimpleActionServer": Routine(Kind.SERVICE, ("handle", "name")),
-            "actionlib::SimpleActionClient": Routine(Kind.CLIENT, ("handle", "name")),
+        unmodelled={
+            "actionlib::SimpleActionServer": Routine(Kind.ACTION_SERVER, ("handle", "name")),
+            "actionlib::ActionServer": Routine(Kind.ACTION_SERVER, ("handle", "name")),
+            "actionlib::SimpleActionClient": Routine(Kind.ACTION_CLIENT, ("handle", "name")),
+            "actionlib::ActionClient": Routine(Kind.ACTION_CLIENT, ("handle", "name")),
+            "tf::TransformBroadcaster": Routine(Kind.BROADCASTER),
+            "tf::TransformListener": Routine(Kind.LISTENER),
+            "dynamic_reconfigure::Server": Routine(Kind.CONFIGURED),
+            "dynamic_reconfigure::Client": Routine(Kind.CONFIGURING),
         },
         handles=frozenset({"ros::NodeHandle"}),
         copying=("ros", "tf", "tf2", "tf2_ros", "diagnostic_updater"),

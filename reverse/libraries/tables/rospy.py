@@ -74,6 +74,7 @@ _FUNCTIONS = {
         for level in ("debug", "info", "warn", "err", "fatal")
         for often in ("", "_once", "_throttle", "_throttle_identical")
     },
+    "rospy.numpy_msg.numpy_msg": Routine(arguments=("type",), result="type"),
     "message_filters.Subscriber": _asks(Kind.SUBSCRIPTION, "name", "type", "depth"),
     "actionlib.SimpleActionServer": _hook("", "", "callback", execute_cb="callback"),
     "actionlib.ActionServer": _hook(
@@ -105,16 +106,21 @@ LIBRARIES = (
         plain=frozenset({"rospy.AnyMsg", "rospy.msg.AnyMsg"}),
         flat=False,
         threads=True,
-        actions={
-            "actionlib.SimpleActionServer": Routine(
-                Kind.SERVICE, ("name", "type"), (("ActionSpec", "type"),)
+        unmodelled={
+            **dict.fromkeys(
+                ("actionlib.SimpleActionServer", "actionlib.ActionServer"),
+                Routine(Kind.ACTION_SERVER, ("name", "type"), (("ActionSpec", "type"),)),
             ),
-            "actionlib.ActionServer": Routine(
-                Kind.SERVICE, ("name", "type"), (("ActionSpec", "type"),)
+            **dict.fromkeys(
+                ("actionlib.SimpleActionClient", "actionlib.ActionClient"),
+                Routine(
+                    Kind.ACTION_CLIENT, ("name", "type"), (("ns", "name"), ("ActionSpec", "type"))
+                ),
             ),
-            "actionlib.SimpleActionClient": Routine(
-                Kind.CLIENT, ("name", "type"), (("ns", "name"), ("ActionSpec", "type"))
-            ),
+            "tf.TransformBroadcaster": Routine(Kind.BROADCASTER),
+            "tf.TransformListener": Routine(Kind.LISTENER),
+            "dynamic_reconfigure.server.Server": Routine(Kind.CONFIGURED, ("type",)),
+            "dynamic_reconfigure.client.Client": Routine(Kind.CONFIGURING, ("name",)),
         },
     ),
 )

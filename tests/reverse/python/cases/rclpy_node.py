@@ -16,6 +16,10 @@ class Talker(Node):
         text = self.get_parameter("period").get_parameter_value().string_value  #= parameter get "period"
         other = self.get_parameter_or("other", 3)  #= parameter get "other" = 3
         self.set_parameters([Parameter("period", Parameter.Type.DOUBLE, 2.0)])  #= parameter set "period" := 2.0
+        self.set_parameters_atomically([Parameter("period", value=3.0)])  #= parameter set "period" := 3.0
+        self.get_parameters(["one", "two"])  #= parameter get "one" //= parameter get "two"
+        self.get_parameters(names)  #= parameter get ?
+        self.get_parameters_by_prefix("arm")  #= parameter get ? "arm.*"
         self.timer = self.create_timer(period, self.tick)  #= timer {"period" = 0.5} -> Talker.tick
         latched = QoSProfile(depth=1, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
         self.pub = self.create_publisher(String, "chatter", latched)  #= publisher "chatter" "std_msgs/String" 1 latched=true

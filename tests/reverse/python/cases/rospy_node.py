@@ -4,6 +4,7 @@ from functools import partial
 import message_filters
 import rospy
 from demo.srv import Reset, ResetResponse
+from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import Image, LaserScan
 
 pub = None
@@ -34,6 +35,7 @@ class Watcher(Base):
         rospy.search_param("deep")  #= parameter search "deep"
         self.a = rospy.Subscriber("scan", LaserScan, self.scan, queue_size=3)  #= subscription "scan" "sensor_msgs/LaserScan" 3 -> Watcher.scan
         rospy.Subscriber("b", LaserScan, callback=self.on_base)  #= subscription "b" "sensor_msgs/LaserScan" ? -> Base.on_base
+        rospy.Subscriber("n", numpy_msg(LaserScan), self.scan, queue_size=3)  #= subscription "n" "sensor_msgs/LaserScan" 3 -> Watcher.scan
         rospy.Subscriber("c", LaserScan, lambda m: self.scan(m), queue_size=1)  #= subscription "c" "sensor_msgs/LaserScan" 1 -> lambda
         rospy.Subscriber("d", LaserScan, partial(heard, more=1), queue_size=1)  #= subscription "d" "sensor_msgs/LaserScan" 1 -> heard
         rospy.Subscriber("e", LaserScan, Handler(), queue_size=1)  #= subscription "e" "sensor_msgs/LaserScan" 1 -> Handler.__call__ by Handler
