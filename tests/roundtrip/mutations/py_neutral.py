@@ -119,30 +119,19 @@ def _renamed_parameter(package: Package) -> Iterator[list[Edit]]:
         yield [Edit(part.path, *use.span(), "message") for use in uses]
 
 
-def _constant(package: Package) -> Iterator[list[Edit]]:
-    """A number in a body that becomes a named constant."""
-    for part in (p for p in package.parts if p.kind in BODIES):
-        code = package.code(part.path, strings=False)
-        head = re.search(r"^_\w+ = Server", code, re.MULTILINE)
-        for found in re.compile(r"(?<=[=<>+] )\d+\b").finditer(code, part.start, part.end):
-            if head is not None:
-                yield [
-                    Edit(part.path, head.start(), head.start(), f"_OWN = {found[0]}\n"),
-                    Edit(part.path, *found.span(), "_OWN"),
-                ]
+def _constant(head: str, line: str, use: str) -> Maker:
+    """A number in a body that gets a name, in a line after what begins as the head does."""
 
+    def make(package: Package) -> Iterator[list[Edit]]:
+        for part in (p for p in package.parts if p.kind in BODIES):
+            code = package.code(part.path, strings=False)
+            at = re.search(head, code, re.MULTILINE)
+            assert at is not None
+            for found in re.compile(r"(?<=[=<>+] )\d+\b").finditer(code, part.start, part.end):
+                new = Edit(part.path, at.end(), at.end(), line.format(found[0]))
+                yield [new, Edit(part.path, *found.span(), use)]
 
-def _class_constant(package: Package) -> Iterator[list[Edit]]:
-    """A number in a body that becomes a constant of the class."""
-    for part in (p for p in package.parts if p.kind in BODIES):
-        code = package.code(part.path, strings=False)
-        head = re.search(r"^class \w+(?:\(\w+\))?:\n", code, re.MULTILINE)
-        for found in re.compile(r"(?<=[=<>+] )\d+\b").finditer(code, part.start, part.end):
-            if head is not None:
-                yield [
-                    Edit(part.path, head.end(), head.end(), f"    _OWN = {found[0]}\n\n"),
-                    Edit(part.path, *found.span(), "self._OWN"),
-                ]
+    return make
 
 
 def _methods(text: str) -> list[tuple[int, int]]:
@@ -278,8 +267,11 @@ KINDS = (
     ),
     Kind("local renamed", _renamed_local),
     Kind("parameter of plumbing renamed", _renamed_parameter),
-    Kind("constant extracted", _constant),
-    Kind("constant of the class", _class_constant),
+    Kind("constant extracted", _constant(r"^(?=_\w+ = Server)", "_OWN = {}\n", "_OWN")),
+    Kind(
+        "constant of the class",
+        _constant(r"^class \w+(?:\(\w+\))?:\n", "    _OWN = {}\n\n", "self._OWN"),
+    ),
     Kind("types of results left out", _rewritten(_some_hints)),
     Kind("no future import", _in_sources(r"^from __future__ import annotations\n\n", "")),
     Kind(
