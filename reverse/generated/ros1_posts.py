@@ -19,7 +19,7 @@ from rebsync.reverse.generated.ros1_annotations import PRIORITIES, set_up_of
 from rebsync.reverse.generated.ros1_descriptors import priority_of, server_of, tells_priority
 from rebsync.reverse.generated.ros1_names import declared_type, has_mailbox, plain_name
 from rebsync.reverse.generated.ros1_roles import Roles, call_in, parameters_of
-from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, string_of
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, part, text_of
 
@@ -54,10 +54,17 @@ def post_of(code: Code, owner: CppClass, function: CppFunction, call: CppCall) -
     if not (_holds(owner, serve, given) and tells_arguments(told, given)):
         return None
     own = {f.name for c in code.lineage(owner.name) for f in c.fields}
-    if own & {constant, handler} or _hides(function, {constant, handler, "mailbox_", "text"}):
+    names = {constant, "mailbox_", "text"} | ({handler} if not _is_of_object(serve) else set())
+    if own & {constant, handler} or _hides(function, names):
         return None
     priority = tuple(priority_of(code, cpp, constant))
     return CppPost(server, constant, priority, handler, tuple(given), when)
+
+
+def _is_of_object(serve: Node) -> bool:
+    """Whether what serves a message is called as `this->handler(...)`: no local hides that."""
+    call = next(calls_in(serve.child_by_field_name("body")), None)
+    return call is not None and call.target is not None and call.target.type == "this"
 
 
 def _hides(function: CppFunction, names: Collection[str]) -> bool:

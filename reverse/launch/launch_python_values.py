@@ -241,7 +241,7 @@ class PythonValues:
         """A parameter with the value that an expression gives it."""
         value, span = self.resolved(item), self.span(item)
         found = literal(value)
-        if isinstance(found, str):  # launch_ros reads it as YAML
+        if isinstance(value, ast.Constant) and isinstance(found, str):  # launch_ros: YAML
             return LaunchParameter(name, Words((found,), span), span)
         if found is not None:
             return LaunchParameter(name, found, span)

@@ -92,17 +92,17 @@ HAND = [
 # Of loops in `PLAIN`: an edit of the code, and a line of the model then.
 LOOPS = {
     "body": (
-        "self._a + k)",
-        "self._a + 2 * k)",
+        "self._a + k__2)",
+        "self._a + 2 * k__2)",
         "for (int k = 0; k < 3; k++) { a = a + 2 * k; }",
     ),
-    "start": ("k: int = 0", "k: int = 2", "for (int k = 2; k < 3; k++) { a = a + k; }"),
+    "start": ("range(3)", "range(2, 3)", "for (int k = 2; k < 3; k++) { a = a + k; }"),
     "start in a branch": (
-        "k__2: int = 5",
-        "k__2: int = 6",
+        "k: int = 5",
+        "k: int = 6",
         "if (a > 3) for (int k = 6; k > 3;",
     ),
-    "behind the start": ("k: int = 0", "k: int = 1\n        self._a = 7", "    int k = 1;"),
+    "behind the start": ("k: int = 5", "k: int = 1\n            self._a = 7", "    int k = 1;"),
     "bound": ("(i < 3)", "(i < 4)", "for (i = 0; i < 4; i += 1) a--;"),
 }
 

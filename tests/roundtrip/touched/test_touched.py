@@ -27,6 +27,7 @@ KNOWN = (
     ("tests/forward/cases/annotations.rebeca", "ros2-cpp"),
     ("tests/roundtrip/differences/cases/elements.right.rebeca", "ros1-cpp"),
     ("tests/forward/cases/names.rebeca", "mixed-others"),
+    ("tests/forward/cases/names.rebeca", "ros1-cpp"),
     ("tests/new/cases/fleet.rebeca", "mixed"),
     ("tests/new/cases/fleet.rebeca", "mixed-others"),
     ("tests/roundtrip/touched/timers.rebeca", "mixed-others"),
