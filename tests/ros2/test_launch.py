@@ -47,7 +47,8 @@ return LaunchDescription([
     # rebsync: annotation @priority(1)
     # rebsync: rebec R1
     Node(package="a", executable="robot_node", name=who, namespace="hall",
-         parameters=[params, common, {"knownrebecs.c": "c", "x": -1, "on": ParameterValue("on")}],
+         parameters=[params, common, {"knownrebecs.c": "c", "x": -1, "on": ParameterValue("on")},
+                     {"n": "2", "text": ParameterValue("2", value_type=str)}],
          remappings=[("~/c/go", "c/go")]),
 ])"""
     )
@@ -60,6 +61,8 @@ return LaunchDescription([
         "knownrebecs/c": "c",
         "x": -1,
         "on": "on",
+        "n": 2,
+        "text": "2",
     }
     assert [(r.private, r.target) for r in node.remaps] == [("~/c/go", "c/go")]
     assert node.markers == ("annotation @priority(1)", "rebec R1")
