@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -19,7 +20,7 @@ from tests.ros1.test_startup import (
     test_time_0_is_when_the_last_is_ready,
 )
 from tests.ros2py.playing import installed
-from tests.ros2py.world import World
+from tests.ros2py.world import Launched, Node, World
 
 # What is waited for in real time, restarts and namespaces need a real ROS.
 __all__ = [
@@ -75,3 +76,36 @@ def test_nobody_begins_before_all_know_of_one_another(probe: Player, tmp_path: P
     assert recording.reports() == ()
     assert recording.order("a")[:2] == ["plain(0)@0", "plain(0)@1"]
     assert all(b.stamp - b.now * 0.1 < 0.09 for b in recording.bodies("a"))
+
+
+class _Held:
+    """A publisher that holds its first message back while a later one may overtake it."""
+
+    def __init__(self) -> None:
+        self.sent: list[int] = []
+        self.first, self.second = threading.Event(), threading.Event()
+
+    def publish(self, message: Any) -> None:  # noqa: ANN401
+        if self.first.is_set():
+            self.second.set()
+        else:
+            self.first.set()
+            self.second.wait(0.5)
+        self.sent.append(message.zero)
+
+
+def test_a_sign_of_life_does_not_arrive_after_a_later_one(probe: Player) -> None:
+    """It would tell that time 0 is not known yet, and the others would wait again."""
+    folder, world = cast(Any, probe).folder, World()
+    with installed(world, folder, folder / "probe_interfaces"):
+        node = Node(world, Launched("a"))
+        startup = import_module("probe.startup").Startup(node)
+        startup._announcement = held = _Held()
+        startup._stamp = 1
+        watchdog = threading.Thread(target=startup.beat)
+        watchdog.start()
+        held.first.wait()
+        startup._zero = 7
+        startup.beat()
+        watchdog.join()
+    assert held.sent == [0, 7]

@@ -9,11 +9,12 @@ import re
 import shutil
 import signal
 import subprocess
-from collections.abc import Iterator, Sequence
+import time
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, TypeVar
 from urllib.request import ProxyHandler, Request, build_opener
 
 _OPTIONS = (
@@ -28,6 +29,9 @@ _OPTIONS = (
     "--hide-scrollbars",
 )
 _ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
+T = TypeVar("T")
+
+_PATIENCE = 60.0  # s, what a busy machine may need
 _ENDS = 20.0  # s, within which a driver ends its browser and itself
 _NAMES = ("chromium", "chromium-browser", "google-chrome")
 
@@ -73,6 +77,14 @@ class Browser:
         mouse = {"type": "pointer", "id": "mouse", "actions": [move, *press]}
         self.run("arguments[0].scrollIntoView({block: 'center', inline: 'center'})", found)
         self.command("POST", "actions", {"actions": [mouse]})
+
+    def until(self, read: Callable[[Browser], T], holds: Callable[[T], bool]) -> T:
+        """What is read in the page once it holds: what a click has asked for may come later."""
+        end = time.monotonic() + _PATIENCE
+        while not holds(found := read(self)):
+            assert time.monotonic() < end, f"never: {found}"
+            time.sleep(0.05)
+        return found
 
     def resize(self, width: int, height: int) -> None:
         """Gives the window a size."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import time
-from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -82,17 +81,6 @@ def state(chromium: Browser) -> dict[str, Any]:
     return found
 
 
-def until(chromium: Browser, holds: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
-    """The state in which something holds, within a time that a busy machine needs."""
-    ends = time.monotonic() + 60
-    while time.monotonic() < ends:
-        found = state(chromium)
-        if holds(found):
-            return found
-        time.sleep(0.05)
-    raise AssertionError(f"never: {found}")
-
-
 def agrees(shown: dict[str, Any], unsafe: tuple[Trace, Movement]) -> None:
     """The drawing shows the robots where they are at its time, and the values of its step."""
     trace, movement = unsafe
@@ -154,11 +142,11 @@ def test_it_plays_to_the_end_and_again_from_the_start(
     chromium.run("document.querySelector('.speed').value = '10'")
     chromium.click("[data-act=play]")
     assert state(chromium)["button"] == "Pause"
-    shown = until(chromium, lambda s: s["button"] == "Play")
+    shown = chromium.until(state, lambda s: s["button"] == "Play")
     assert shown["time"] == unsafe[1].end
     assert shown["step"] == unsafe[0].steps[-1].number
     chromium.click("[data-act=play]")
-    assert until(chromium, lambda s: 0 < s["time"] < 3)["button"] == "Pause"
+    assert chromium.until(state, lambda s: 0 < s["time"] < 3)["button"] == "Pause"
     chromium.press("p")
     shown = state(chromium)
     assert shown["button"] == "Play"
@@ -170,7 +158,7 @@ def test_robots_are_between_cells_while_time_passes(
 ) -> None:
     chromium.open(page, "#v1-s0")
     chromium.press("p")
-    between = until(chromium, lambda s: 1.1 < s["time"] < 1.9)
+    between = chromium.until(state, lambda s: 1.1 < s["time"] < 1.9)
     chromium.press("p")
     paused = state(chromium)
     assert 0.05 < between["drawn"][0][0] < 0.95

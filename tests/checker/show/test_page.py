@@ -116,7 +116,7 @@ def test_tabs_and_addresses_select_runs(chromium: Browser, page: Path) -> None:
     chromium.open(page, "#v3-s17")
     assert marked(chromium)["rows"] == ["v3-s17"]
     chromium.click("nav a[data-run='2']")
-    found = marked(chromium)
+    found = chromium.until(marked, lambda found: found["visible"] == ["v2"])
     assert (found["visible"], found["rows"]) == (["v2"], ["v2-s6"])
     assert chromium.run("return document.querySelector('nav [aria-current]').textContent") == (
         "property Ends"

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import json
-import time
 from pathlib import Path
 
 from rebsync.cli import watch
 from tests.checker.show.browser import Browser
 
-_PATIENCE = 60  # s, of a machine that is busy
 _SHOWN = "return document.getElementById('part').src.split('/').pop() + ' ' + "
 _BUTTONS = "[...document.querySelectorAll('nav button')].map((b) => b.textContent).join(', ')"
 
@@ -24,10 +22,7 @@ def tell(folder: Path, version: int, **states: str) -> None:
 
 def waits_for(browser: Browser, wanted: str) -> None:
     """Looks until the page shows something."""
-    end = time.monotonic() + _PATIENCE
-    while (shown := browser.run(_SHOWN + _BUTTONS)) != wanted:
-        assert time.monotonic() < end, shown
-        time.sleep(0.05)
+    browser.until(lambda each: each.run(_SHOWN + _BUTTONS), lambda shown: shown == wanted)
 
 
 def test_the_page_follows(chromium: Browser, tmp_path: Path) -> None:

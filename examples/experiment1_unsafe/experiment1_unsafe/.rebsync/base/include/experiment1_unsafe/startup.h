@@ -96,6 +96,8 @@ class Startup {
 
   /// Announces this rebec once more: it lives.
   void beat() const {
+    // What was true before must not arrive after what is true now.
+    const std::lock_guard<std::mutex> in_order(beating_);
     Announcement announcement;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -266,6 +268,7 @@ class Startup {
   std::vector<std::string> rebecs_;
   std::chrono::duration<double> timeout_{};
   mutable std::mutex mutex_;
+  mutable std::mutex beating_;  // taken before the other
   std::condition_variable changed_;
   Names unmatched_;
   std::map<std::string, Peer> peers_;
