@@ -12,6 +12,7 @@ from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
+from rebsync.reverse.bodies.cpp_unread_calls import UnreadCalls
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.cpp.functions import lambda_names
 from rebsync.reverse.ir.cpp.lowering import CppLowering
@@ -44,6 +45,11 @@ class CppForm:
 
     def __init__(self, code: Code) -> None:
         self._code = code
+
+    @cached_property
+    def unread_calls(self) -> UnreadCalls:
+        """Which calls may run what no file has."""
+        return UnreadCalls(self._code)
 
     @cached_property
     def _lowering(self) -> CppLowering:

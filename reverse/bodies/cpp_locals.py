@@ -18,6 +18,7 @@ from rebsync.reverse.bodies import (
     cpp_plain_locals,
 )
 from rebsync.reverse.bodies.building import is_calm
+from rebsync.reverse.bodies.cpp_call_effects import check_object
 from rebsync.reverse.bodies.cpp_conversions import converted_to, type_in
 from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, number_of, only_value, taken_apart
 from rebsync.reverse.bodies.cpp_effects import Effects
@@ -32,7 +33,7 @@ from rebsync.reverse.bodies.known_functions import is_matrix, type_takes_values
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
 from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.texts import TEXT, is_constant
 from rebsync.static.constants import constant
 from rebsync.static.types import BYTE, INT, SHORT
@@ -116,8 +117,10 @@ def _hidden(reader: CppStatementReader, declared: DeclaratorParts) -> Outside:
 def _outside(reader: CppStatementReader, declared: DeclaratorParts, unread: Unread) -> None:
     """A local of which the model knows no value: only what sets it may matter."""
     try:
+        effects = Effects(reader.cpp, reader.scope, frozenset(reader.own))
+        if declared.kind not in _REFERS:
+            check_object(effects, declared.node, declared.type)
         if declared.value is not None:
-            effects = Effects(reader.cpp, reader.scope, frozenset(reader.own))
             _check_value(reader, effects, declared)
             reader.demote(effects.written, unread)
         elif isinstance(unread, Touches):
@@ -392,9 +395,3 @@ def _called_or_made(reader: CppStatementReader, declared: DeclaratorParts) -> It
                 why = f'this may change "{argument}"'
                 raise Touches(reader.cpp.span(declared.node), why)
     raise reader.unread(declared.node, f'the model has no type "{declared.text}"')
-
-
-def is_hoisting(node: Node) -> bool:
-    """Whether a block only holds locals of a switch, and the switch."""
-    comments = (text_of(c) for c in node.named_children if c.type == "comment")
-    return any(t.startswith("local ") for t in markers_in(comments))

@@ -12,7 +12,7 @@ from rebsync.reverse.bodies import cpp_messages
 from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.bodies.shared import WORDS
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
 from rebsync.source import Span
 
 if TYPE_CHECKING:
@@ -133,3 +133,9 @@ def declared_names(node: Node) -> Iterator[str]:
     for declarator in node.children_by_field_name("declarator"):
         inner = declarator.child_by_field_name("declarator")
         yield text_of(inner or declarator)
+
+
+def is_hoisting(node: Node) -> bool:
+    """Whether a block only holds locals of a switch, and the switch."""
+    comments = (text_of(c) for c in node.named_children if c.type == "comment")
+    return any(t.startswith("local ") for t in markers_in(comments))

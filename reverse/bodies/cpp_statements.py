@@ -247,7 +247,7 @@ class CppStatements(CppStatementReader):
         match kind:
             case "compound_statement" | "initializer_list":
                 block = m.Block(self.branch(node).statements, annotations, span)
-                yield from block.statements if cpp_locals.is_hoisting(node) else (block,)
+                yield from block.statements if cpp_plain_locals.is_hoisting(node) else (block,)
             case "if_statement" if cpp_users.only_logs(self, node):
                 pass
             case "if_statement":

@@ -25,7 +25,7 @@ _MAPS = frozenset({"map", "unordered_map"})
 # Methods that give what a holder has, and those that give the type they are called with.
 _HELD = frozenset({"get", "front", "back", "at", "lock", "value"})
 _TYPED = frozenset({"as", "get", "cast", "param", "value"})
-_POINTERS = frozenset(
+POINTERS = frozenset(
     {
         *("Ptr", "ConstPtr", "SharedPtr", "ConstSharedPtr", "UniquePtr", "ConstUniquePtr"),
         *("WeakPtr", "ConstWeakPtr"),
@@ -165,7 +165,7 @@ class Types:
 
     def _named_type(self, cpp: Cpp, type_: Node, last: Node, depth: int) -> str:
         name = text_of(last)
-        if name in _POINTERS and type_.type == "qualified_identifier":
+        if name in POINTERS and type_.type == "qualified_identifier":
             return "".join(text_of(type_).split()).rpartition("::")[0]
         aliases = self.texts.code.aliases.get(name)
         if aliases and name not in self.texts.code.all_classes:

@@ -1,0 +1,204 @@
+"""Whether calls in C++ can touch what the model has: of functions, of methods, of what is held."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync.reverse.bodies import known_functions
+from rebsync.reverse.bodies.cpp_algorithms import looked_at
+from rebsync.reverse.bodies.cpp_kinds import OF_TEXTS
+from rebsync.reverse.bodies.cpp_macros import macro_bodies
+from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
+from rebsync.reverse.bodies.cpp_roots import is_modelled
+from rebsync.reverse.bodies.scope import (
+    Called,
+    Ignored,
+    Inline,
+    Itself,
+    Lambda,
+    Meaning,
+    Outside,
+    Publishes,
+    Record,
+    Runtime,
+    TimerOf,
+    Variable,
+    meant_by,
+)
+from rebsync.reverse.bodies.serving import Serves
+from rebsync.reverse.bodies.touches import Touches
+from rebsync.reverse.bodies.unknown_names import is_method_of_unknown, is_unknown_function
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.syntax.cpp_calls import CppCall
+from rebsync.reverse.syntax.cpp_declarations import CppFunction
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.macros import hides
+
+if TYPE_CHECKING:
+    from rebsync.reverse.bodies.cpp_effects import Effects
+
+
+def check_call(effects: Effects, node: Node) -> None:
+    """Raises `Touches` where a call may touch what the model has."""
+    call = effects.scope.call(node)
+    if call is None or call.name.startswith("["):
+        raise effects.touches(node, "this runs a function of its own")
+    name, known = call.name.rpartition("::")[2], False
+    of, meaning = effects.root_of(call.target) if call.target is not None else ("", None)
+    if call.target is None or isinstance(meaning, Itself):
+        known = _function(effects, call, name)
+        known = _is_matrix(effects, node, name, call) or known
+    else:
+        _method(effects, call, name, of, meaning)
+    does = known_functions.acts(effects.cpp, call, has_mailbox(effects.scope))
+    if does is not None:
+        raise effects.touches(node, f'"{text_of(part(node, "function"))}" {does}')
+    if looked_at(call):
+        return
+    if known or known_functions.takes_values(call):
+        for argument in call.arguments:
+            effects.check(argument)
+        return
+    effects.arguments(call.arguments)
+
+
+def _check_read(effects: Effects, call: CppCall) -> None:
+    """Raises `Touches` where a call may run what was not read: that may do anything."""
+    form = effects.scope.form
+    why = form.unread_calls.of_call(effects.cpp, call) if form is not None else None
+    if why is not None:
+        what = text_of(part(call.node, "function"))
+        raise effects.touches(call.node, f'what "{what}" does is not known: {why}')
+
+
+def check_operator(effects: Effects, node: Node) -> None:
+    """Raises `Touches` where an operator may run what was not read."""
+    form = effects.scope.form
+    why = form.unread_calls.of_operator(effects.cpp, node) if form is not None else None
+    if why is not None:
+        raise effects.touches(node, f'what "{text_of(node)}" does is not known: {why}')
+
+
+def check_object(effects: Effects, node: Node, type_: Node | None) -> None:
+    """Raises `Touches` where to make an object, or to end it, may run what was not read."""
+    form = effects.scope.form
+    why = form.unread_calls.of_type(effects.cpp, type_) if form is not None else None
+    if why is not None and type_ is not None:
+        raise effects.touches(node, f'what "{text_of(type_)}" does is not known: {why}')
+
+
+def check_deleted(effects: Effects, node: Node) -> None:
+    """Raises `Touches` where to end an object may run what was not read."""
+    form, pointer = effects.scope.form, named(node)[-1]
+    why = form.unread_calls.of_deleted(effects.cpp, pointer) if form is not None else None
+    if why is not None:
+        raise effects.touches(node, f'what "{text_of(node)}" does is not known: {why}')
+    effects.check(pointer)
+
+
+def _function(effects: Effects, call: CppCall, name: str) -> bool:
+    """Whether a function of the code only looks; `Touches` if it acts on more than it gets."""
+    meant: tuple[CppFunction, ...] = ()
+    match effects.scope.functions.get(name):
+        case None if hides(name):
+            if _is_calm_macro(effects, name):
+                return True
+            raise effects.touches(call.node, f'"{name}" may be a macro that hides statements')
+        case None | Ignored():
+            if is_unknown_function(effects.scope, effects.inner, call):
+                raise effects.touches(call.node, f'nobody here knows what "{call.name}" does')
+            _check_read(effects, call)
+            return False
+        case Called() | Inline() as known:
+            meant = meant_by(known, call.name, len(call.arguments))
+    if not meant or not all(_is_calm(effects, f) for f in meant):
+        raise effects.touches(call.node, f'"{name}" may change what the model has')
+    return not any(known_functions.may_change(p) for f in meant for p in f.parameters)
+
+
+def _is_matrix(effects: Effects, node: Node, name: str, call: CppCall) -> bool:
+    """Whether a matrix is called; a function that somebody has put there may do anything.
+
+    But for one that only gets an object that is outside, as a distribution gets a generator.
+    """
+    meaning = None if name in effects.inner else effects.scope.meaning(name)
+    if isinstance(meaning, Outside):
+        only = call.arguments[0] if len(call.arguments) == 1 else None
+        if meaning.indexed or (only and isinstance(effects.root_of(only)[1], Outside)):
+            return meaning.indexed
+    if meaning is not None:
+        raise effects.touches(node, f'"{name}" may change what the model has')
+    return False
+
+
+def _is_calm_macro(effects: Effects, name: str) -> bool:
+    """Whether a macro only looks at what it gets, and touches nothing else, at this place."""
+    bodies = macro_bodies(effects.scope, effects.cpp.source.path, name)
+    try:
+        for each in bodies:
+            inner = effects.inner - each.parameters
+            effects.anew(each.cpp, each.scope, inner).check(each.statements)
+    except Unread:
+        return False
+    return bool(bodies)
+
+
+def _is_calm(effects: Effects, function: CppFunction) -> bool:
+    """Whether a body touches nothing but what it declares, or gets."""
+    if function.body is None:
+        return False
+    scope, looks = effects.scope, partial(_looks, effects, function, function.body)
+    return scope.calm.of(function.body.id, scope.members, scope.functions, looks)
+
+
+def _looks(effects: Effects, function: CppFunction, body: Node) -> bool:
+    inner, scope = {p.name for p in function.parameters}, replace(effects.scope, locals={})
+    try:
+        effects.anew(function.cpp, scope, inner, returning=True).check(body)
+    except (Touches, RecursionError):  # what leads too deep may do anything
+        return False
+    return True
+
+
+def _method(effects: Effects, call: CppCall, name: str, of: str, meaning: Meaning | None) -> None:
+    """A call of a function of some object."""
+    target = call.target
+    assert target is not None
+    match meaning:
+        case None if is_method_of_unknown(effects.scope, effects.inner, of, name):
+            raise effects.touches(call.node, f'nobody here knows what "{text_of(target)}" is')
+        case None | Outside(reaches=False):
+            if name in libraries.named(Kind.PUBLISH) and (
+                meaning is not None or not of or of in effects.inner
+            ):
+                raise effects.touches(call.node, "what is published here is not known")
+            _check_read(effects, call)
+        case Outside():
+            raise effects.touches(call.node, f'"{text_of(target)}" may act on the node')
+        case Publishes(targets):
+            if name in libraries.named(Kind.PUBLISH) and not targets:
+                return
+            if name not in libraries.looking():
+                raise effects.touches(call.node, "this sends, or ends that the node can send")
+        case Serves() | TimerOf():
+            if name not in libraries.looking():
+                raise effects.touches(call.node, "this changes a timer, subscription or service")
+        case Variable(type=type_) if name == "load" and type_ and not type_.dimensions:
+            pass  # of an atomic number
+        case Record() | Variable():
+            if name not in (libraries.looking() | OF_TEXTS) and is_modelled(target, meaning):
+                effects.changes(call.node, of, f'this may change "{of}"')
+            elif not is_modelled(target, meaning):
+                _check_read(effects, call)
+        case Runtime() | Lambda() | Itself() if name not in libraries.looking():
+            raise effects.touches(call.node, f'"{of}" acts on the node')
+        case _:
+            if name not in libraries.looking() and is_modelled(target, meaning):
+                raise effects.touches(call.node, f'this may change "{of}"')
+    effects.check(target)

@@ -1,0 +1,371 @@
+"""Calls that may run code of which no file that was read has the body: unresolved calls.
+
+Such code may do anything to what it can reach: it may change what the node has, publish, or throw.
+What the files declare without a body, or leave to whoever derives a class, is code of theirs, which
+knows their variables. An object that somebody else made, and handed to the node, may have been told
+of it. What a library has, and got nothing of the node, can reach nothing of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+from tree_sitter import Node
+
+from rebsync.reverse.bodies.cpp_provenance import Provenance, ProvenanceAnalysis
+from rebsync.reverse.bodies.known_functions import is_known, is_matrix
+from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.syntax.cpp_calls import CppCall
+from rebsync.reverse.syntax.cpp_declarations import CppFunction, function_of
+from rebsync.reverse.syntax.cpp_index import CONTAINERS, Code, CppClass
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.values.cpp_flow import Texts, made_of
+from rebsync.reverse.values.cpp_flow_calls import Calls
+from rebsync.reverse.values.cpp_flow_types import Types, Variable, unscoped_member
+from rebsync.reverse.values.cpp_static_types import (
+    POINTING,
+    StaticType,
+    StaticTypes,
+    is_arrow,
+)
+
+_UNDEFINED = "no file that was read defines it"
+_OVERRIDDEN = "a class that was not read may override it"
+_INHERITED = "a class that was not read may have it"
+_GIVEN = "nothing that was read makes the object"
+_HELD = "which function is held there is not known"
+_CALLED = frozenset({"function", "move_only_function", "signal", "packaged_task"})
+# Functions of libraries that do not call what they get.
+_KEEPING = frozenset(
+    {"move", "forward", "ref", "cref", "bind", "swap", "exchange", "ignore_unused"}
+)
+# Bases of nodes that are the client libraries' own, or have no functions to be called.
+_PLAIN_BASES = frozenset({"Nodelet", "Node", "LifecycleNode", "noncopyable"})
+_PLAIN_BASES |= {"enable_shared_from_this"}
+_WITHOUT_BODY = frozenset({"default_method_clause", "delete_method_clause"})
+# What may be a call of an operator, with the operands whose class says which.
+OPERATORS = {
+    "binary_expression": ("left", "right"),
+    "assignment_expression": ("left",),
+    "update_expression": ("argument",),
+    "unary_expression": ("argument",),
+    "pointer_expression": ("argument",),
+    "subscript_expression": ("argument",),
+    "field_expression": ("argument",),
+}
+_SIGNS = {"subscript_expression": "[]", "field_expression": "->"}
+
+
+class UnreadCalls:
+    """Which calls of some code may run what was not read, and why; None for all others."""
+
+    def __init__(self, code: Code) -> None:
+        self._code = code
+        self._texts = Texts(code)
+        self._types = Types(self._texts)
+        self._statics = StaticTypes(self._types)
+        self._calls = Calls(self._texts, self._types)
+        self._provenance = ProvenanceAnalysis(self._texts, self._calls, self._statics)
+        self._found: dict[int, str | None] = {}
+
+    def of_call(self, cpp: Cpp, call: CppCall) -> str | None:
+        """Why a call of a function or method may run what was not read."""
+        key = call.node.id
+        if key not in self._found:
+            found = self._free(cpp, call) if call.target is None else self._method(cpp, call)
+            self._found[key] = found
+        return self._found[key]
+
+    def of_operator(self, cpp: Cpp, node: Node) -> str | None:
+        """Why an operator may: of a class of the files, or declared by these alone."""
+        if not self._operators or node.type not in OPERATORS:
+            return None
+        if node.type == "field_expression" and not is_arrow(node):
+            return None
+        sign = text_of(node.child_by_field_name("operator") or node.children[0])
+        name = f"operator{_SIGNS.get(node.type, sign)}"
+        if name not in self._operators:
+            return None
+        for operand in OPERATORS[node.type]:
+            owner = self._statics.class_of(self._statics.of(cpp, part(node, operand)))
+            if owner is None:
+                continue
+            if name in self._declared:
+                return _UNDEFINED
+            if self._declares(owner, name):
+                return self._of_class(owner, name, Provenance.MADE)
+        return None
+
+    def of_type(self, cpp: Cpp, type_: Node | None) -> str | None:
+        """Why to make or end an object of a type may."""
+        return self._of_object(self._statics.class_of(self._statics.written(cpp, type_)))
+
+    def of_deleted(self, cpp: Cpp, pointer: Node) -> str | None:
+        """Why to end what a pointer leads to may."""
+        type_ = self._statics.dereferenced(self._statics.of(cpp, pointer))
+        return self._of_object(self._statics.class_of(type_))
+
+    def _of_object(self, owner: CppClass | None) -> str | None:
+        if owner is None or not self._has_undefined:
+            return None
+        names = (n for c in self._texts.lineage(owner) for n in (c.name, f"~{c.name}"))
+        return _UNDEFINED if any(self._lacks_body(owner, n) for n in names) else None
+
+    # --- functions outside of classes, and what is held in variables ----------------------------
+
+    def _free(self, cpp: Cpp, call: CppCall) -> str | None:
+        function = part(call.node, "function")
+        if function.type not in ("identifier", "qualified_identifier", "template_function"):
+            return None if function.type == "primitive_type" else self._held(cpp, function)
+        scope, _, name = call.name.rpartition("::")
+        last = function
+        while last.type == "qualified_identifier":
+            last = part(last, "name")
+        types = named(part(last, "arguments")) if last.type == "template_function" else ()
+        if types and text_of(part(last, "name")).startswith("make_"):
+            return self.of_type(cpp, types[0])
+        if scope:
+            return self._of_scope(cpp, scope, name, call.arguments)
+        variable = self._types.variable(cpp, function) if function.type == "identifier" else None
+        if variable is not None:
+            return self._variable(cpp, function, variable)
+        around = self._texts.class_of(self._texts.function_around(cpp, call.node))
+        if around is not None and self._declares(around, name):
+            return self._of_class(around, name, Provenance.MADE)
+        if name in self._code.all_classes:
+            return self._of_object(self._texts.class_near(name, cpp))
+        if self._is_function_pointer(name):
+            return _HELD
+        if name in self._declared:
+            return _UNDEFINED
+        if name in self._code.macros or name in self._defined or is_known(call):
+            return None
+        if around is not None and not name.isupper() and self._unread_base(around):
+            return _INHERITED if self._is_plain(name) else None
+        return None
+
+    def _is_function_pointer(self, name: str) -> bool:
+        """Whether something of a name is declared as `void (*name)(int)`."""
+        for _, place in self._texts.everywhere(name):
+            star = place.parent
+            around = star.parent if star is not None else None
+            if star is None or around is None or around.parent is None:
+                continue
+            if star.type == "pointer_declarator" and around.type == "parenthesized_declarator":
+                return around.parent.type == "function_declarator"
+            if star.type == "pointer_expression" and around.type == "argument_list":
+                # `void (*name)();` outside of a function, which the grammar takes for a call.
+                function = around.parent.child_by_field_name("function")
+                if function is not None and function.type == "primitive_type":
+                    return True
+        return False
+
+    def _is_plain(self, name: str) -> bool:
+        """Whether a name is none that the tables of libraries have."""
+        known = (libraries.node_methods(), libraries.looking(), libraries.keeping_arguments())
+        is_type = name in self._code.all_classes or name[:1].isupper()
+        return not is_type and not any(name in names for names in known)
+
+    def _of_scope(self, cpp: Cpp, scope: str, name: str, arguments: tuple[Node, ...]) -> str | None:
+        if _is_library(f"{scope}::{name}"):
+            is_held = name not in _KEEPING and any(self._is_held(cpp, a) for a in arguments)
+            return _HELD if is_held else None
+        owner = self._texts.class_near(scope.partition("<")[0].rpartition("::")[2], cpp)
+        if owner is not None:
+            return self._of_class(owner, name, Provenance.MADE)
+        return _UNDEFINED if name in self._declared else None
+
+    def _is_held(self, cpp: Cpp, argument: Node) -> bool:
+        """Whether an argument holds a function, which `std::invoke` and algorithms call."""
+        if argument.type == "identifier" and self._is_function_pointer(text_of(argument)):
+            return True
+        type_ = self._statics.of(cpp, argument)
+        return type_ is not None and not type_.pointers and type_.last in _CALLED
+
+    def _variable(self, cpp: Cpp, node: Node, variable: Variable) -> str | None:
+        given = made_of(variable.name) if variable.kind == "local" else None
+        if given and given[0].type == "lambda_expression":
+            return None  # whose body stands there
+        type_ = self._statics.declared(variable)
+        if type_ is not None and not type_.pointers:
+            owner = self._statics.class_of(type_)
+            if owner is not None and not _is_library(type_.name):
+                return self._of_class(owner, "operator()", Provenance.MADE)
+            is_object = "::" in type_.name or bool(type_.arguments)
+            if is_object and type_.last not in _CALLED:
+                return None  # an object of a library
+        return None if is_matrix(text_of(variable.type or node)) else _HELD
+
+    def _held(self, cpp: Cpp, node: Node) -> str | None:
+        """`fns_[0]()`, `(*f)()`, `(this->*f)()`."""
+        if node.type in ("lambda_expression", "template_type", "dependent_name"):
+            return None
+        type_ = self._statics.of(cpp, node)
+        owner = self._statics.class_of(type_)
+        if owner is not None:
+            return self._of_class(owner, "operator()", Provenance.MADE)
+        is_object = type_ is not None and not type_.pointers and type_.last not in _CALLED
+        return None if is_object else _HELD
+
+    # --- methods --------------------------------------------------------------------------------
+
+    def _method(self, cpp: Cpp, call: CppCall) -> str | None:
+        assert call.target is not None
+        function = part(call.node, "function")
+        name = unscoped_member(part(function, "field")).rpartition("::")[2]
+        type_ = self._statics.of(cpp, call.target)
+        if type_ is not None and is_arrow(function):
+            type_ = self._statics.dereferenced(type_)
+        if call.target.type == "this":
+            around = self._texts.class_of(self._texts.function_around(cpp, call.node))
+            return self._of_class(around, name, Provenance.MADE) if around is not None else None
+        if type_ is None:
+            return self._by_name(name)
+        if name in ("first", "second") and type_.last == "pair":
+            return self._held(cpp, function)
+        if type_.pointers or _is_library(type_.name):
+            return self._ended(type_) if name == "reset" else None
+        owner = self._statics.class_of(type_)
+        if owner is not None:
+            return self._of_class(owner, name, self._provenance.of(cpp, call.target))
+        if type_.last in self._forward:
+            return _UNDEFINED
+        if name in libraries.looking():
+            return None
+        is_given = self._provenance.of(cpp, call.target) is Provenance.GIVEN
+        return _GIVEN if is_given else None
+
+    def _ended(self, type_: StaticType) -> str | None:
+        """Why to end what a pointer owns may run what was not read."""
+        if type_.last not in POINTING or not type_.arguments:
+            return None
+        return self.of_type(type_.cpp, type_.arguments[0])
+
+    def _by_name(self, name: str) -> str | None:
+        """Of an object whose class is not known: whether a class has such a method, unread."""
+        return _UNDEFINED if name in self._undefined else None
+
+    def _of_class(self, owner: CppClass, name: str, made: Provenance) -> str | None:
+        for class_ in self._texts.lineage(owner):
+            if (member := self._types.member(class_, name)) is not None:
+                return self._member(member)
+            declared = [f for f in class_.functions if f.name == name]
+            if not declared:
+                if any(f.name == f"(*{name})" for f in class_.functions):
+                    return _HELD
+                continue
+            below = [
+                b for c in self._texts.descendants(class_) for b in self._calls.bodies(c, name)
+            ]
+            if self._lacks_body(class_, name):
+                is_read = bool(below) and made is Provenance.MADE
+                return None if is_read and _is_virtual(declared) else _UNDEFINED
+            if _is_virtual(declared) and made is not Provenance.MADE:
+                return _OVERRIDDEN
+            return None
+        return _INHERITED if self._unread_base(owner) else None
+
+    def _member(self, member: Variable) -> str | None:
+        """A function that is a member variable of an object."""
+        type_ = self._statics.declared(member)
+        is_object = type_ is not None and not type_.pointers and type_.last not in _CALLED
+        return None if is_object else _HELD
+
+    def _declares(self, owner: CppClass, name: str) -> bool:
+        of_class = (f.name for c in self._texts.lineage(owner) for f in c.functions)
+        return any(each in (name, f"(*{name})") for each in of_class)
+
+    def _lacks_body(self, owner: CppClass, name: str) -> bool:
+        """Whether a class declares more functions of a name than the files define."""
+        declared = [f for f in owner.functions if f.name == name]
+        open_ = [f for f in declared if f.body is None and not _is_defaulted(f)]
+        apart = self._code.definitions.get((owner.name, name), ())
+        return len(open_) > len(apart)
+
+    def _unread_base(self, owner: CppClass) -> bool:
+        """Whether a class descends from one that no file has, and that no table knows."""
+        for class_ in self._texts.lineage(owner):
+            for base in _bases(class_):
+                last = base.partition("<")[0].rpartition("::")[2]
+                is_read = self._texts.class_near(last, class_.cpp) is not None
+                if not (is_read or last in _PLAIN_BASES or _is_library(base)):
+                    return True
+        return False
+
+    # --- what the files declare -----------------------------------------------------------------
+
+    @cached_property
+    def _top(self) -> list[tuple[Cpp, Node]]:
+        """What stands outside of functions and classes."""
+        found: list[tuple[Cpp, Node]] = []
+        waiting = [(cpp, cpp.root) for cpp in self._code.files]
+        while waiting:
+            cpp, node = waiting.pop()
+            for child in node.named_children:
+                (waiting if child.type in CONTAINERS else found).append((cpp, child))
+        return found
+
+    @cached_property
+    def _defined(self) -> frozenset[str]:
+        return frozenset(name for _, name in self._code.definitions)
+
+    @cached_property
+    def _declared(self) -> frozenset[str]:
+        """The functions outside of classes that are only declared."""
+        nodes = ((cpp, node) for cpp, node in self._top if node.type == "declaration")
+        found = (function_of(cpp, node, "") for cpp, node in nodes)
+        return frozenset(f.name for f in found if f is not None) - self._defined
+
+    @cached_property
+    def _forward(self) -> frozenset[str]:
+        """The classes that are declared without their members."""
+        kinds = ("class_specifier", "struct_specifier")
+        found = (node for _, node in self._top if node.type in kinds)
+        names = (n for node in found if (n := node.child_by_field_name("name")) is not None)
+        return frozenset(map(text_of, names)) - self._code.all_classes.keys()
+
+    @cached_property
+    def _undefined(self) -> frozenset[str]:
+        """The names of methods of which a class has no body, and of functions that are members."""
+        every = [c for classes in self._code.all_classes.values() for c in classes]
+        lacking = {f.name for c in every for f in c.functions if self._lacks_body(c, f.name)}
+        return frozenset(lacking)
+
+    @cached_property
+    def _has_undefined(self) -> bool:
+        every = [c for classes in self._code.all_classes.values() for c in classes]
+        return any(self._lacks_body(c, n) for c in every for n in (c.name, f"~{c.name}"))
+
+    @cached_property
+    def _operators(self) -> frozenset[str]:
+        """The operators that lack a body."""
+        names = self._undefined | self._declared
+        return frozenset(n for n in names if n.startswith("operator"))
+
+
+def _is_library(name: str) -> bool:
+    """Whether a full name is of a library that the tables know, or of a message."""
+    first, scope, rest = name.removeprefix("::").partition("::")
+    if not scope:
+        return False
+    known = {s.removesuffix("::") for s in libraries.scopes()} | libraries.copying_scopes()
+    is_message = any(f"{kind}::" in rest for kind in ("msg", "srv", "action"))
+    return first in known or is_message or first.endswith(("_msgs", "_srvs"))
+
+
+def _is_virtual(functions: list[CppFunction]) -> bool:
+    return any(f.pure or f.overrides or text_of(f.node).startswith("virtual") for f in functions)
+
+
+def _is_defaulted(function: CppFunction) -> bool:
+    """Whether it is `= default` or `= delete`, which no file need say more of."""
+    return any(child.type in _WITHOUT_BODY for child in function.node.named_children)
+
+
+def _bases(class_: CppClass) -> Iterator[str]:
+    for clause in class_.node.named_children:
+        if clause.type == "base_class_clause":
+            for base in named(clause):
+                if base.type in ("type_identifier", "qualified_identifier", "template_type"):
+                    yield "".join(text_of(base).split())
