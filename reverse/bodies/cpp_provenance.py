@@ -64,7 +64,7 @@ class ProvenanceAnalysis:
                 return Provenance.MADE
             case "null" | "number_literal" | "nullptr":
                 return Provenance.MADE
-            case "identifier" | "field_expression" | "qualified_identifier":
+            case "identifier" | "field_expression" | "qualified_identifier" | "type_identifier":
                 variable = self.statics.variable(cpp, node)
                 if variable is not None:
                     return self.variable(variable, depth)

@@ -63,7 +63,7 @@ class StaticTypes:
         if depth > _DEEPEST:
             return None
         match node.type:
-            case "identifier" | "qualified_identifier" | "field_identifier":
+            case name if name in _NAMES:
                 variable = self.types.variable(cpp, node)
                 return self.declared(variable, depth) if variable else self._bound(cpp, node, depth)
             case "field_expression":
@@ -287,7 +287,8 @@ class StaticTypes:
         return self.written(function.cpp, function.result, pointers)
 
 
-_NAMES = frozenset({"identifier", "qualified_identifier", "field_identifier"})
+# `C c(x);` is a function to the grammar, and `x` the type of a parameter.
+_NAMES = frozenset({"identifier", "qualified_identifier", "field_identifier", "type_identifier"})
 
 
 def is_arrow(node: Node) -> bool:

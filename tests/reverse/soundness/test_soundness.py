@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_effects, cpp_widths
+from rebsync.reverse.bodies import cpp_call_effects, cpp_widths
 from tests.reverse.soundness.comparing import CALLS, recovered, tallied
 from tests.reverse.soundness.effects import compare
 from tests.reverse.soundness.nodes import LIBRARY_FROM, WIDE_FROM, draw_node
@@ -52,7 +52,7 @@ def test_models_of_what_uses_macros_can_do_what_the_code_does(tmp_path: Path) ->
 
 
 def test_macros_that_do_more_are_found_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cpp_effects.Effects, "_is_calm_macro", lambda *_: True)
+    monkeypatch.setattr(cpp_call_effects, "_is_calm_macro", lambda *_: True)
     assert tallied(tmp_path, (LIBRARY_FROM + 116,)).unsound
 
 

@@ -2,7 +2,7 @@
 #include "rclcpp/rclcpp.hpp"
 #include "std_msgs/msg/int32.hpp"
 
-double measured();
+#include "sensors/measured.h"
 
 class Pump : public rclcpp::Node {
 public:
@@ -16,7 +16,7 @@ private:
   void onValve(const std_msgs::msg::Int32 & msg) {
     if (msg.data > 1) {
       geometry_msgs::msg::Point point;
-      point.x = measured();
+      point.x = sensors::measured();
       point.z = 2.0;
       flow_->publish(point);
     }

@@ -1,0 +1,27 @@
+"""Calls that may run what was not read are listed in each place; harmless twins in none."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.reverse.unread import LIBRARIES, all_places, node, places, rows, unreadable
+
+_HARMFUL = {name: row for name, row in rows().items() if "why" in row}
+_HARMLESS = {name: row for name, row in rows().items() if "why" not in row}
+
+
+@pytest.mark.parametrize("library", LIBRARIES)
+@pytest.mark.parametrize("name", _HARMFUL)
+def test_what_may_do_anything_is_listed_in_each_place(name: str, library: str) -> None:
+    row = _HARMFUL[name]
+    found = places(node(library, row, row["call"]))
+    assert row["why"] in found["timer"]
+    assert found.keys() >= set(all_places(library))
+
+
+@pytest.mark.parametrize("library", LIBRARIES)
+@pytest.mark.parametrize("name", _HARMLESS)
+def test_what_is_known_is_not_listed(name: str, library: str) -> None:
+    row = _HARMLESS[name]
+    made = sorted(f.why for f in unreadable(node(library, row, row["call"])))
+    assert made == sorted(f.why for f in unreadable(node(library, row, "")))
