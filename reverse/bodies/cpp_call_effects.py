@@ -43,6 +43,23 @@ from rebsync.reverse.syntax.macros import hides
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_effects import Effects
 
+RENAMED = "the object itself gets another name here"
+
+
+def gives_itself(node: Node) -> bool:
+    """Whether a value is a pointer to the object, or may be."""
+    match node.type:
+        case "this":
+            return True
+        case "parenthesized_expression" | "conditional_expression":
+            return any(map(gives_itself, named(node)))
+        case "cast_expression":
+            return gives_itself(part(node, "value"))
+        case "call_expression" if "_cast<" in text_of(part(node, "function")):
+            return any(map(gives_itself, named(part(node, "arguments"))))
+        case _:
+            return False
+
 
 def check_call(effects: Effects, node: Node) -> None:
     """Raises `Touches` where a call may touch what the model has."""
@@ -61,6 +78,8 @@ def check_call(effects: Effects, node: Node) -> None:
         raise effects.touches(node, f'"{text_of(part(node, "function"))}" {does}')
     if looked_at(call):
         return
+    if call.target is not None and any(map(gives_itself, call.arguments)):
+        raise effects.touches(node, RENAMED)  # also a container, which only copies it
     if known or known_functions.takes_values(call):
         for argument in call.arguments:
             effects.check(argument)

@@ -10,15 +10,16 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.bodies import cpp_roots, known_functions
 from rebsync.reverse.bodies.cpp_call_effects import (
+    RENAMED,
     check_call,
     check_deleted,
     check_object,
     check_operator,
+    gives_itself,
 )
 from rebsync.reverse.bodies.cpp_endings import ENDLESS, ends
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOPS, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
-from rebsync.reverse.bodies.cpp_places import is_this
 from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, is_number, root
 from rebsync.reverse.bodies.cpp_unread_calls import OPERATORS
 from rebsync.reverse.bodies.scope import (
@@ -110,8 +111,8 @@ class Effects:
     def _assignment(self, node: Node) -> None:
         value = node.child_by_field_name("right")  # None of `x++`
         self._write(part(node, "argument" if value is None else "left"))
-        if value is not None and is_this(value):
-            raise self.touches(node, "the object itself gets another name here")
+        if value is not None and gives_itself(value):
+            raise self.touches(node, RENAMED)
         if value is not None:
             self.check(value)
 
@@ -197,8 +198,8 @@ class Effects:
                 check_object(self, declarator, written)
             inner = declarator.child_by_field_name("declarator")
             target = inner if declarator.type == "init_declarator" and inner else declarator
-            if value is not None and is_this(value):
-                raise self.touches(node, "the object itself gets another name here")
+            if value is not None and gives_itself(value):
+                raise self.touches(node, RENAMED)
             refers = target.type == "reference_declarator"
             if refers and value is None:
                 raise self.touches(node, "this looks like a declaration, but it is none")

@@ -16,6 +16,7 @@ from tree_sitter import Node
 from rebsync.reverse.bodies.cpp_provenance import Provenance, ProvenanceAnalysis
 from rebsync.reverse.bodies.known_functions import is_known, is_matrix
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.tables.standard import OF_C
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppFunction, function_of
 from rebsync.reverse.syntax.cpp_index import CONTAINERS, Code, CppClass
@@ -126,7 +127,7 @@ class UnreadCalls:
         if types and text_of(part(last, "name")).startswith("make_"):
             return self.of_type(cpp, types[0])
         if scope:
-            return self._of_scope(cpp, scope, name, call.arguments)
+            return self._of_scope(cpp, scope, name, call)
         variable = self._types.variable(cpp, function) if function.type == "identifier" else None
         if variable is not None:
             return self._variable(cpp, function, variable)
@@ -139,9 +140,9 @@ class UnreadCalls:
             return _HELD
         if name in self._declared:
             return _UNDEFINED
-        if name in self._code.macros or name in self._defined or is_known(call):
+        if name in self._code.macros or name in self._defined or is_known(call) or name in OF_C:
             return None
-        if around is not None and not name.isupper() and self._unread_base(around):
+        if around is not None and not name.isupper() and self._unread_bases(around):
             return _INHERITED if self._is_plain(name) else None
         return None
 
@@ -167,13 +168,17 @@ class UnreadCalls:
         is_type = name in self._code.all_classes or name[:1].isupper()
         return not is_type and not any(name in names for names in known)
 
-    def _of_scope(self, cpp: Cpp, scope: str, name: str, arguments: tuple[Node, ...]) -> str | None:
+    def _of_scope(self, cpp: Cpp, scope: str, name: str, call: CppCall) -> str | None:
         if _is_library(f"{scope}::{name}"):
-            is_held = name not in _KEEPING and any(self._is_held(cpp, a) for a in arguments)
+            is_held = name not in _KEEPING and any(self._is_held(cpp, a) for a in call.arguments)
             return _HELD if is_held else None
         owner = self._texts.class_near(scope.partition("<")[0].rpartition("::")[2], cpp)
         if owner is not None:
             return self._of_class(owner, name, Provenance.MADE)
+        around = self._texts.class_of(self._texts.function_around(cpp, call.node))
+        last = scope.rpartition("::")[2]
+        if around is not None and last in self._unread_bases(around):
+            return _INHERITED if self._is_plain(name) else None
         return _UNDEFINED if name in self._declared else None
 
     def _is_held(self, cpp: Cpp, argument: Node) -> bool:
@@ -264,7 +269,7 @@ class UnreadCalls:
             if _is_virtual(declared) and made is not Provenance.MADE:
                 return _OVERRIDDEN
             return None
-        return _INHERITED if self._unread_base(owner) else None
+        return _INHERITED if self._unread_bases(owner) else None
 
     def _member(self, member: Variable) -> str | None:
         """A function that is a member variable of an object."""
@@ -283,15 +288,16 @@ class UnreadCalls:
         apart = self._code.definitions.get((owner.name, name), ())
         return len(open_) > len(apart)
 
-    def _unread_base(self, owner: CppClass) -> bool:
-        """Whether a class descends from one that no file has, and that no table knows."""
+    def _unread_bases(self, owner: CppClass) -> frozenset[str]:
+        """The classes that a class descends from that no file has, and that no table knows."""
+        found = set()
         for class_ in self._texts.lineage(owner):
             for base in _bases(class_):
                 last = base.partition("<")[0].rpartition("::")[2]
                 is_read = self._texts.class_near(last, class_.cpp) is not None
                 if not (is_read or last in _PLAIN_BASES or _is_library(base)):
-                    return True
-        return False
+                    found.add(last)
+        return frozenset(found)
 
     # --- what the files declare -----------------------------------------------------------------
 

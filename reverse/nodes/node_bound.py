@@ -12,6 +12,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.calm import Calm
+from rebsync.reverse.bodies.cpp_call_effects import check_object
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_roots import is_modelled, root
 from rebsync.reverse.bodies.known_functions import may_change
@@ -54,6 +55,16 @@ def note_bound(bodies: Bodies) -> None:
                 bodies.findings.unreadable(
                     cpp.source, Unread(cpp.span(place), why), bodies.unit.name
                 )
+            if isinstance(scope.members.get(member.name), Outside):
+                for touches in _made_by(Effects(cpp, scope), value):
+                    bodies.findings.unreadable(cpp.source, touches, bodies.unit.name)
+        for member in members.values():
+            scope = bodies.scope(member.cpp, None)
+            if isinstance(scope.members.get(member.name), Outside) and not _refers(member):
+                try:
+                    check_object(Effects(member.cpp, scope), member.node, member.type)
+                except Touches as touches:
+                    bodies.findings.unreadable(member.cpp.source, touches, bodies.unit.name)
 
 
 @dataclass(slots=True)
@@ -159,6 +170,18 @@ def _given(code: Code, member: CppField, scope: Scope, value: Node) -> Iterator[
                 reached = False
         if reached or (refers and is_modelled(place, meaning)):
             yield place
+
+
+def _made_by(effects: Effects, value: Node) -> Iterator[Touches]:
+    """What the calls do that make a member, and the functions that these get."""
+    if value.type in ("argument_list", "initializer_list"):
+        for each in named(value):
+            yield from _made_by(effects, each)
+    elif value.type in ("call_expression", "new_expression", "lambda_expression"):
+        try:
+            effects.arguments([value])
+        except Touches as touches:
+            yield touches.with_traceback(None)
 
 
 def _is_constant(member: CppField) -> bool:
