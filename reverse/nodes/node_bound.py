@@ -29,9 +29,11 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.calls.beside import used_names
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_reach import called_by
 from rebsync.reverse.nodes.node_units import Unit
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_declarations import CppField
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
@@ -56,7 +58,7 @@ def note_bound(bodies: Bodies) -> None:
                     cpp.source, Unread(cpp.span(place), why), bodies.unit.name
                 )
             if isinstance(scope.members.get(member.name), Outside):
-                for touches in _made_by(Effects(cpp, scope), value):
+                for touches in _made_by(bodies.code, Effects(cpp, scope), value):
                     bodies.findings.unreadable(cpp.source, touches, bodies.unit.name)
         for member in members.values():
             scope = bodies.scope(member.cpp, None)
@@ -172,16 +174,33 @@ def _given(code: Code, member: CppField, scope: Scope, value: Node) -> Iterator[
             yield place
 
 
-def _made_by(effects: Effects, value: Node) -> Iterator[Touches]:
+def _made_by(code: Code, effects: Effects, value: Node) -> Iterator[Touches]:
     """What the calls do that make a member, and the functions that these get."""
     if value.type in ("argument_list", "initializer_list"):
         for each in named(value):
-            yield from _made_by(effects, each)
+            yield from _made_by(code, effects, each)
     elif value.type in ("call_expression", "new_expression", "lambda_expression"):
+        call = call_of(value)
+        given = [value]
+        if call is not None and _is_made_with_node(code, call):
+            given = [each for each in call.arguments if each.type != "this"]
         try:
-            effects.arguments([value])
+            effects.arguments(given)
         except Touches as touches:
             yield touches.with_traceback(None)
+
+
+def _is_made_with_node(code: Code, call: CppCall) -> bool:
+    """Whether a call makes an object of a class of the files that takes any node of the library.
+
+    Such an object knows nothing of the variables of the node that it gets.
+    """
+    name = call.name.partition("<")[2].removesuffix(">") or call.name
+    made = code.classes.get(name.rpartition("::")[2])
+    constructors = [f for f in code.functions_of(made) if f.name == made.name] if made else []
+    places = [n for n, each in enumerate(call.arguments) if each.type == "this"]
+    given = [f.parameters[n].type for f in constructors for n in places if n < len(f.parameters)]
+    return bool(given) and all(text_of(type_) in libraries.roots() for type_ in given)
 
 
 def _is_constant(member: CppField) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 
 from tree_sitter import Node
@@ -13,6 +13,7 @@ from rebsync.reverse.bodies.cpp_roots import identifiers_in
 from rebsync.reverse.bodies.rewriting import renamed
 from rebsync.reverse.bodies.scope import Itself, Member, Outside, Stores
 from rebsync.reverse.graph import TimerFact
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.nodes.node_defaults import (
     Defaults,
     DefaultValues,
@@ -26,9 +27,9 @@ from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_reach import called_by
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_units import Start, Unit
-from rebsync.reverse.syntax.cpp_calls import calls_in
+from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 
 _ENTRY = "onInit"
 
@@ -111,7 +112,24 @@ def used_in_main(start: Start) -> list[Node]:
 
 
 def _uses(node: Node, variable: str) -> bool:
-    return any(c.on.removeprefix("this->") == variable for c in calls_in(node))
+    """Whether a statement calls a method of an object, hands it on, or stores in it."""
+    calls = list(calls_in(node))
+    handed = [c for c in calls if not _is_client_library(c) and _names(c.arguments, variable)]
+    if handed or any(c.on.removeprefix("this->") == variable for c in calls):
+        return True
+    stores = inside(node, "assignment_expression", "update_expression")
+    return any(_names([n], variable) for n in stores)
+
+
+def _is_client_library(call: CppCall) -> bool:
+    """Whether a function makes an object serve messages, and does no more to it."""
+    name = call.name.partition("<")[0].rpartition("::")[2]
+    serving = libraries.waiting() | libraries.running_callbacks() | {"remove_node"}
+    return call.name.startswith(libraries.scopes()) or name in serving
+
+
+def _names(nodes: Iterable[Node], variable: str) -> bool:
+    return any(text_of(n) == variable for each in nodes for n in identifiers_in(each))
 
 
 def opening(unit: Unit, state: State, start: Start | None, together: Sequence[Start]) -> Opening:
