@@ -20,6 +20,7 @@ from rebsync.reverse.nodes.node_bodies import Bodies, Common
 from rebsync.reverse.nodes.node_bound import Helpers, note_bound, note_helpers
 from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
 from rebsync.reverse.nodes.node_components import executables
+from rebsync.reverse.nodes.node_entries import note_entry
 from rebsync.reverse.nodes.node_handed import note_handed
 from rebsync.reverse.nodes.node_hidden import note_hidden
 from rebsync.reverse.nodes.node_joined import Joined, Part
@@ -250,6 +251,7 @@ class _ClassReader:
         note_life_cycle(unit, findings)
         note_bound(node.bodies)
         note_hidden(node.bodies)
+        note_entry(node.bodies, alike[0].start if alike else None)
         note_locks(node.bodies)
         note_unmodelled(node.bodies)
         note_handed(node.bodies)

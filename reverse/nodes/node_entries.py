@@ -1,0 +1,83 @@
+"""What `main` does beside the object of a node, once it is made, and before it or others end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.reverse.bodies.cpp_effects import touching
+from rebsync.reverse.bodies.scope import Called, Inline, Scope
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.nodes.node_bodies import Bodies
+from rebsync.reverse.nodes.node_starts import used_in_main
+from rebsync.reverse.nodes.node_units import Start
+from rebsync.reverse.syntax.cpp_calls import CppCall
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
+
+
+def note_entry(bodies: Bodies, start: Start | None) -> None:
+    """Lists calls in `main` that act on what the model has, or that may run what was not read.
+
+    What it does with the object itself is read as part of the node's start.
+    """
+    entry = start.entry if start is not None else None
+    made = start.made.statement if start is not None and start.made is not None else None
+    if start is None or entry is None or entry.body is None or made is None:
+        return
+    if entry.name != "main":
+        return
+    read = used_in_main(start)
+    scope = bodies.scope(entry.cpp, entry)
+    for call in bodies.code.calls_in(entry.cpp, entry.body):
+        at = call.node.start_byte
+        if at < made.end_byte or any(each.start_byte <= at < each.end_byte for each in read):
+            continue
+        for why in _acts(entry.cpp, scope, call):
+            unread = Unread(entry.cpp.span(call.node), why)
+            bodies.findings.unreadable(entry.cpp.source, unread, bodies.unit.name)
+    for node in inside(entry.body, "declaration"):
+        if node.start_byte >= made.end_byte and _hands_on(bodies, start, node):
+            unread = Unread(entry.cpp.span(node), "what this does to the object is not known")
+            bodies.findings.unreadable(entry.cpp.source, unread, bodies.unit.name)
+
+
+def _hands_on(bodies: Bodies, start: Start, declaration: Node) -> bool:
+    """Whether an object of a class of the files is made that gets the node as one of its class.
+
+    What takes any node of the library knows nothing of the variables of this one.
+    """
+    made, code = start.made, bodies.code
+    words = {
+        text_of(n)
+        for n in inside(declaration, "identifier", "type_identifier", "namespace_identifier")
+    }
+    if made is None or made.variable not in words:
+        return False
+    classes = (code.classes[w] for w in words if w in code.classes and w not in bodies.unit.names)
+    constructors = (f for c in classes for f in code.functions_of(c) if f.name == c.name)
+    taken = {
+        text_of(n)
+        for f in constructors
+        for p in f.parameters
+        for n in inside(p.type, "type_identifier")
+    }
+    return not taken.isdisjoint({above.name for above in bodies.unit.lineage})
+
+
+def _acts(cpp: Cpp, scope: Scope, call: CppCall) -> Iterator[str]:
+    form = scope.form
+    why = form.unread_calls.of_call(cpp, call) if form is not None else None
+    if why is not None:
+        yield f'what "{_function(call.node)}" does is not known: {why}'
+    elif (
+        call.target is None
+        and isinstance(scope.functions.get(call.name), Called | Inline)
+        and touching(cpp, scope, call.node) is not None
+    ):
+        yield f'"{call.name}" may change what the model has'
+
+
+def _function(node: Node) -> str:
+    function = node.child_by_field_name("function")
+    return text_of(function) if function is not None else text_of(node)
