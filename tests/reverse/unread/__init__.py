@@ -17,13 +17,22 @@ else:
 
 HERE = Path(__file__).parent
 CALLS = HERE / "calls.toml"
+PROGRAMS = HERE / "programs.toml"
 LIBRARIES = ("roscpp", "rclcpp")
 _PLACE = re.compile(r"CALL +// (\w+)")
 
 
-def rows() -> dict[str, dict[str, str]]:
-    """The calls by their names, each with what it needs around it."""
-    return tomllib.loads(CALLS.read_text(encoding="utf-8"))
+def rows(path: Path) -> dict[str, dict[str, str]]:
+    """The rows of a table by their names, each with what it needs around it."""
+    return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
+def program(row: dict[str, str]) -> Source:
+    """A program that makes a node, with what a row has in its places."""
+    text = (HERE / "program.txt").read_text(encoding="utf-8")
+    for place in ("extra", "members", "started", "after"):
+        text = text.replace(place.upper(), row.get(place, ""))
+    return Source("node.cpp", text)
 
 
 def node(library: str, row: dict[str, str], call: str) -> Source:

@@ -4,10 +4,20 @@ from __future__ import annotations
 
 import pytest
 
-from tests.reverse.unread import LIBRARIES, all_places, node, places, rows, unreadable
+from tests.reverse.unread import (
+    CALLS,
+    LIBRARIES,
+    PROGRAMS,
+    all_places,
+    node,
+    places,
+    program,
+    rows,
+    unreadable,
+)
 
-_HARMFUL = {name: row for name, row in rows().items() if "why" in row}
-_HARMLESS = {name: row for name, row in rows().items() if "why" not in row}
+_HARMFUL = {name: row for name, row in rows(CALLS).items() if "why" in row}
+_HARMLESS = {name: row for name, row in rows(CALLS).items() if "why" not in row}
 
 
 @pytest.mark.parametrize("library", LIBRARIES)
@@ -25,3 +35,10 @@ def test_what_is_known_is_not_listed(name: str, library: str) -> None:
     row = _HARMLESS[name]
     made = sorted(f.why for f in unreadable(node(library, row, row["call"])))
     assert made == sorted(f.why for f in unreadable(node(library, row, "")))
+
+
+@pytest.mark.parametrize("name", rows(PROGRAMS))
+def test_what_reaches_a_node_is_listed(name: str) -> None:
+    row = rows(PROGRAMS)[name]
+    found = [finding.why for finding in unreadable(program(row))]
+    assert row["why"] in found if "why" in row else not found
