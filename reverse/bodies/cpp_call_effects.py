@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.bodies import known_functions
 from rebsync.reverse.bodies.cpp_algorithms import looked_at
+from rebsync.reverse.bodies.cpp_effect_reader import EffectReader
 from rebsync.reverse.bodies.cpp_kinds import OF_TEXTS
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
@@ -40,9 +40,6 @@ from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.syntax.macros import hides
 
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_effects import Effects
-
 RENAMED = "the object itself gets another name here"
 
 
@@ -61,7 +58,7 @@ def gives_itself(node: Node) -> bool:
             return False
 
 
-def check_call(effects: Effects, node: Node) -> None:
+def check_call(effects: EffectReader, node: Node) -> None:
     """Raises `Touches` where a call may touch what the model has."""
     call = effects.scope.call(node)
     if call is None or call.name.startswith("["):
@@ -87,7 +84,7 @@ def check_call(effects: Effects, node: Node) -> None:
     effects.arguments(call.arguments)
 
 
-def _check_read(effects: Effects, call: CppCall) -> None:
+def _check_read(effects: EffectReader, call: CppCall) -> None:
     """Raises `Touches` where a call may run what was not read: that may do anything."""
     form = effects.scope.form
     why = form.unread_calls.of_call(effects.cpp, call) if form is not None else None
@@ -96,7 +93,7 @@ def _check_read(effects: Effects, call: CppCall) -> None:
         raise effects.touches(call.node, f'what "{what}" does is not known: {why}')
 
 
-def check_operator(effects: Effects, node: Node) -> None:
+def check_operator(effects: EffectReader, node: Node) -> None:
     """Raises `Touches` where an operator may run what was not read."""
     form = effects.scope.form
     why = form.unread_calls.of_operator(effects.cpp, node) if form is not None else None
@@ -104,7 +101,7 @@ def check_operator(effects: Effects, node: Node) -> None:
         raise effects.touches(node, f'what "{text_of(node)}" does is not known: {why}')
 
 
-def check_object(effects: Effects, node: Node, type_: Node | None) -> None:
+def check_object(effects: EffectReader, node: Node, type_: Node | None) -> None:
     """Raises `Touches` where to make an object, or to end it, may run what was not read."""
     form = effects.scope.form
     why = form.unread_calls.of_type(effects.cpp, type_) if form is not None else None
@@ -112,7 +109,7 @@ def check_object(effects: Effects, node: Node, type_: Node | None) -> None:
         raise effects.touches(node, f'what "{text_of(type_)}" does is not known: {why}')
 
 
-def check_deleted(effects: Effects, node: Node) -> None:
+def check_deleted(effects: EffectReader, node: Node) -> None:
     """Raises `Touches` where to end an object may run what was not read."""
     form, pointer = effects.scope.form, named(node)[-1]
     why = form.unread_calls.of_deleted(effects.cpp, pointer) if form is not None else None
@@ -121,7 +118,7 @@ def check_deleted(effects: Effects, node: Node) -> None:
     effects.check(pointer)
 
 
-def _function(effects: Effects, call: CppCall, name: str) -> bool:
+def _function(effects: EffectReader, call: CppCall, name: str) -> bool:
     """Whether a function of the code only looks; `Touches` if it acts on more than it gets."""
     meant: tuple[CppFunction, ...] = ()
     match effects.scope.functions.get(name):
@@ -141,7 +138,7 @@ def _function(effects: Effects, call: CppCall, name: str) -> bool:
     return not any(known_functions.may_change(p) for f in meant for p in f.parameters)
 
 
-def _is_matrix(effects: Effects, node: Node, name: str, call: CppCall) -> bool:
+def _is_matrix(effects: EffectReader, node: Node, name: str, call: CppCall) -> bool:
     """Whether a matrix is called; a function that somebody has put there may do anything.
 
     But for one that only gets an object that is outside, as a distribution gets a generator.
@@ -156,7 +153,7 @@ def _is_matrix(effects: Effects, node: Node, name: str, call: CppCall) -> bool:
     return False
 
 
-def _is_calm_macro(effects: Effects, name: str) -> bool:
+def _is_calm_macro(effects: EffectReader, name: str) -> bool:
     """Whether a macro only looks at what it gets, and touches nothing else, at this place."""
     bodies = macro_bodies(effects.scope, effects.cpp.source.path, name)
     try:
@@ -168,7 +165,7 @@ def _is_calm_macro(effects: Effects, name: str) -> bool:
     return bool(bodies)
 
 
-def _is_calm(effects: Effects, function: CppFunction) -> bool:
+def _is_calm(effects: EffectReader, function: CppFunction) -> bool:
     """Whether a body touches nothing but what it declares, or gets."""
     if function.body is None:
         return False
@@ -176,7 +173,7 @@ def _is_calm(effects: Effects, function: CppFunction) -> bool:
     return scope.calm.of(function.body.id, scope.members, scope.functions, looks)
 
 
-def _looks(effects: Effects, function: CppFunction, body: Node) -> bool:
+def _looks(effects: EffectReader, function: CppFunction, body: Node) -> bool:
     inner, scope = {p.name for p in function.parameters}, replace(effects.scope, locals={})
     try:
         effects.anew(function.cpp, scope, inner, returning=True).check(body)
@@ -185,7 +182,9 @@ def _looks(effects: Effects, function: CppFunction, body: Node) -> bool:
     return True
 
 
-def _method(effects: Effects, call: CppCall, name: str, of: str, meaning: Meaning | None) -> None:
+def _method(
+    effects: EffectReader, call: CppCall, name: str, of: str, meaning: Meaning | None
+) -> None:
     """A call of a function of some object."""
     target = call.target
     assert target is not None

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from dataclasses import field, replace
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -17,15 +17,15 @@ from rebsync.reverse.bodies.cpp_call_effects import (
     check_operator,
     gives_itself,
 )
+from rebsync.reverse.bodies.cpp_effect_reader import EffectReader
 from rebsync.reverse.bodies.cpp_endings import ENDLESS, ends
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOPS, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
-from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, is_number, root
+from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, is_number
 from rebsync.reverse.bodies.cpp_unread_calls import OPERATORS
 from rebsync.reverse.bodies.scope import (
     Ignored,
     Itself,
-    Meaning,
     Record,
     Scope,
     Variable,
@@ -35,17 +35,9 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 
 
 @dataclass(slots=True)
-class Effects:
-    """Looks through pieces of one body; that its `own` locals change is only noted, in `written`,
-    with `everything` that any variable does."""
+class Effects(EffectReader):
+    """Looks through pieces of one body."""
 
-    cpp: Cpp
-    scope: Scope
-    own: frozenset[str] = frozenset()
-    written: set[str] = field(default_factory=set)
-    everything: bool = False
-    returning: bool = False
-    inner: set[str] = field(default_factory=set)
     _around: tuple[str, ...] = ()  # the types of the loops and switches
 
     def check(self, node: Node) -> None:
@@ -87,26 +79,11 @@ class Effects:
         self._block(node)
         self._around = self._around[:-1]
 
-    def touches(self, node: Node, why: str, hint: str = "") -> Touches:
-        """What to raise where a place touches what the model has."""
-        touches = Touches(self.cpp.span(node), why, hint)
-        touches.texts = cpp_roots.texts_in(node, self.root_of(node)[1])
-        if not self.inner:
-            touches.at = node.start_byte, node.end_byte
-        return touches
-
     def anew(
         self, cpp: Cpp, scope: Scope, inner: Collection[str], returning: bool = False
     ) -> Effects:
         """For another body, of which `inner` are the names that it declares."""
         return Effects(cpp, scope, returning=returning, inner=set(inner))
-
-    def root_of(self, node: Node) -> tuple[str, Meaning | None]:
-        """The variable that an expression is part of, with what it stands for."""
-        return root(self.scope, self.inner, node)
-
-    def _is_noted(self, name: str) -> bool:
-        return self.everything or (name in self.own and name in self.scope.locals)
 
     def _assignment(self, node: Node) -> None:
         value = node.child_by_field_name("right")  # None of `x++`
@@ -115,12 +92,6 @@ class Effects:
             raise self.touches(node, RENAMED)
         if value is not None:
             self.check(value)
-
-    def changes(self, node: Node, name: str, why: str, path: str = "") -> None:
-        """Notes that a local of the body changes; what else the model has may not."""
-        if not self._is_noted(name):
-            raise self.touches(node, why)
-        self.written.add(f"{name}.{path}" if path else name)
 
     def _write(self, node: Node) -> None:
         name, meaning = self.root_of(node)
@@ -240,7 +211,7 @@ class Effects:
 
     # --- calls ----------------------------------------------------------------------------------
 
-    def arguments(self, arguments: tuple[Node, ...] | list[Node]) -> None:
+    def arguments(self, arguments: Sequence[Node]) -> None:
         """Arguments of a function that is not known: it may keep or change what it gets."""
         for argument in arguments:
             if argument.type == "lambda_expression":
@@ -252,7 +223,7 @@ class Effects:
                 self.check(argument)
             elif isinstance(meaning, Record) and meaning.constant:
                 continue
-            elif self._is_noted(name):
+            elif self.is_noted(name):
                 self.written.add(name)
             else:
                 if isinstance(meaning, Itself):
