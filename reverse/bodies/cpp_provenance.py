@@ -60,7 +60,9 @@ class ProvenanceAnalysis:
         if depth > _DEEPEST:
             return Provenance.GIVEN
         match node.type:
-            case "new_expression" | "lambda_expression" | "compound_literal_expression":
+            case "new_expression" | "compound_literal_expression":
+                return self._made(cpp, part(node, "type"))
+            case "lambda_expression":
                 return Provenance.MADE
             case "null" | "number_literal" | "nullptr":
                 return Provenance.MADE
@@ -170,7 +172,8 @@ class ProvenanceAnalysis:
         else:
             name = unscoped_member(last)
         if name in _MAKES:
-            return Provenance.MADE
+            types = named(part(last, "arguments")) if last.type == "template_function" else ()
+            return self._made(cpp, types[0]) if types else Provenance.LIBRARY
         if (name in _PASSING or name.endswith("_cast")) and given:
             return self.of(cpp, given[-1], depth + 1)
         if reached := self.calls.functions(cpp, node):
@@ -184,8 +187,13 @@ class ProvenanceAnalysis:
         if function.type == "field_expression":
             holder = self.of(cpp, part(function, "argument"), depth + 1)
             return holder if name in _HELD else max(holder, Provenance.LIBRARY)
-        is_class = name in self.texts.code.all_classes or name[:1].isupper()
+        is_class = name in self.texts.code.all_classes
         return Provenance.MADE if is_class else Provenance.LIBRARY
+
+    def _made(self, cpp: Cpp, type_: Node) -> Provenance:
+        """Where an object of a type comes from: its class may be one that no file has."""
+        owner = self.statics.class_of(self.statics.written(cpp, type_))
+        return Provenance.MADE if owner is not None else Provenance.LIBRARY
 
 
 _NONE = Provenance.MADE

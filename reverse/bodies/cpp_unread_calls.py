@@ -8,18 +8,16 @@ of it. What a library has, and got nothing of the node, can reach nothing of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import cached_property
-
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_provenance import Provenance, ProvenanceAnalysis
+from rebsync.reverse.bodies.cpp_undefined import Undefined, is_library
 from rebsync.reverse.bodies.known_functions import is_known, is_matrix
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.tables.standard import OF_C
 from rebsync.reverse.syntax.cpp_calls import CppCall
-from rebsync.reverse.syntax.cpp_declarations import CppFunction, function_of
-from rebsync.reverse.syntax.cpp_index import CONTAINERS, Code, CppClass
+from rebsync.reverse.syntax.cpp_declarations import CppFunction
+from rebsync.reverse.syntax.cpp_index import Code, CppClass
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts, made_of
 from rebsync.reverse.values.cpp_flow_calls import Calls
@@ -41,10 +39,6 @@ _CALLED = frozenset({"function", "move_only_function", "signal", "packaged_task"
 _KEEPING = frozenset(
     {"move", "forward", "ref", "cref", "bind", "swap", "exchange", "ignore_unused"}
 )
-# Bases of nodes that are the client libraries' own, or have no functions to be called.
-_PLAIN_BASES = frozenset({"Nodelet", "Node", "LifecycleNode", "noncopyable"})
-_PLAIN_BASES |= {"enable_shared_from_this"}
-_WITHOUT_BODY = frozenset({"default_method_clause", "delete_method_clause"})
 # What may be a call of an operator, with the operands whose class says which.
 OPERATORS = {
     "binary_expression": ("left", "right"),
@@ -68,6 +62,7 @@ class UnreadCalls:
         self._statics = StaticTypes(self._types)
         self._calls = Calls(self._texts, self._types)
         self._provenance = ProvenanceAnalysis(self._texts, self._calls, self._statics)
+        self._open = Undefined(code, self._texts)
         self._found: dict[int, str | None] = {}
 
     def of_call(self, cpp: Cpp, call: CppCall) -> str | None:
@@ -80,19 +75,19 @@ class UnreadCalls:
 
     def of_operator(self, cpp: Cpp, node: Node) -> str | None:
         """Why an operator may: of a class of the files, or declared by these alone."""
-        if not self._operators or node.type not in OPERATORS:
+        if not self._open.operators or node.type not in OPERATORS:
             return None
         if node.type == "field_expression" and not is_arrow(node):
             return None
         sign = text_of(node.child_by_field_name("operator") or node.children[0])
         name = f"operator{_SIGNS.get(node.type, sign)}"
-        if name not in self._operators:
+        if name not in self._open.operators:
             return None
         for operand in OPERATORS[node.type]:
             owner = self._statics.class_of(self._statics.of(cpp, part(node, operand)))
             if owner is None:
                 continue
-            if name in self._declared:
+            if name in self._open.declared:
                 return _UNDEFINED
             if self._declares(owner, name):
                 return self._of_class(owner, name, Provenance.MADE)
@@ -108,10 +103,10 @@ class UnreadCalls:
         return self._of_object(self._statics.class_of(type_))
 
     def _of_object(self, owner: CppClass | None) -> str | None:
-        if owner is None or not self._has_undefined:
+        if owner is None or not self._open.has_undefined:
             return None
-        names = (n for c in self._texts.lineage(owner) for n in (c.name, f"~{c.name}"))
-        return _UNDEFINED if any(self._lacks_body(owner, n) for n in names) else None
+        parts = ((c, n) for c in self._texts.lineage(owner) for n in (c.name, f"~{c.name}"))
+        return _UNDEFINED if any(self._open.lacks_body(c, n) for c, n in parts) else None
 
     # --- functions outside of classes, and what is held in variables ----------------------------
 
@@ -138,11 +133,16 @@ class UnreadCalls:
             return self._of_object(self._texts.class_near(name, cpp))
         if self._is_function_pointer(name):
             return _HELD
-        if name in self._declared:
+        if name in self._open.declared:
             return _UNDEFINED
-        if name in self._code.macros or name in self._defined or is_known(call) or name in OF_C:
+        if (
+            name in self._code.macros
+            or name in self._open.defined
+            or is_known(call)
+            or name in OF_C
+        ):
             return None
-        if around is not None and not name.isupper() and self._unread_bases(around):
+        if around is not None and not name.isupper() and self._open.unread_bases(around):
             return _INHERITED if self._is_plain(name) else None
         return None
 
@@ -169,7 +169,7 @@ class UnreadCalls:
         return not is_type and not any(name in names for names in known)
 
     def _of_scope(self, cpp: Cpp, scope: str, name: str, call: CppCall) -> str | None:
-        if _is_library(f"{scope}::{name}"):
+        if is_library(f"{scope}::{name}"):
             is_held = name not in _KEEPING and any(self._is_held(cpp, a) for a in call.arguments)
             return _HELD if is_held else None
         owner = self._texts.class_near(scope.partition("<")[0].rpartition("::")[2], cpp)
@@ -177,9 +177,9 @@ class UnreadCalls:
             return self._of_class(owner, name, Provenance.MADE)
         around = self._texts.class_of(self._texts.function_around(cpp, call.node))
         last = scope.rpartition("::")[2]
-        if around is not None and last in self._unread_bases(around):
+        if around is not None and last in self._open.unread_bases(around):
             return _INHERITED if self._is_plain(name) else None
-        return _UNDEFINED if name in self._declared else None
+        return _UNDEFINED if name in self._open.declared else None
 
     def _is_held(self, cpp: Cpp, argument: Node) -> bool:
         """Whether an argument holds a function, which `std::invoke` and algorithms call."""
@@ -195,7 +195,7 @@ class UnreadCalls:
         type_ = self._statics.declared(variable)
         if type_ is not None and not type_.pointers:
             owner = self._statics.class_of(type_)
-            if owner is not None and not _is_library(type_.name):
+            if owner is not None and not is_library(type_.name):
                 return self._of_class(owner, "operator()", Provenance.MADE)
             is_object = "::" in type_.name or bool(type_.arguments)
             if is_object and type_.last not in _CALLED:
@@ -229,12 +229,12 @@ class UnreadCalls:
             return self._by_name(name)
         if name in ("first", "second") and type_.last == "pair":
             return self._held(cpp, function)
-        if type_.pointers or _is_library(type_.name):
+        if type_.pointers or is_library(type_.name):
             return self._ended(type_) if name == "reset" else None
         owner = self._statics.class_of(type_)
         if owner is not None:
             return self._of_class(owner, name, self._provenance.of(cpp, call.target))
-        if type_.last in self._forward:
+        if type_.last in self._open.forward:
             return _UNDEFINED
         if name in libraries.looking():
             return None
@@ -249,7 +249,7 @@ class UnreadCalls:
 
     def _by_name(self, name: str) -> str | None:
         """Of an object whose class is not known: whether a class has such a method, unread."""
-        return _UNDEFINED if name in self._undefined else None
+        return _UNDEFINED if name in self._open.undefined else None
 
     def _of_class(self, owner: CppClass, name: str, made: Provenance) -> str | None:
         for class_ in self._texts.lineage(owner):
@@ -263,13 +263,14 @@ class UnreadCalls:
             below = [
                 b for c in self._texts.descendants(class_) for b in self._calls.bodies(c, name)
             ]
-            if self._lacks_body(class_, name):
+            above = [f for c in self._texts.lineage(class_) for f in c.functions if f.name == name]
+            if self._open.lacks_body(class_, name):
                 is_read = bool(below) and made is Provenance.MADE
-                return None if is_read and _is_virtual(declared) else _UNDEFINED
-            if _is_virtual(declared) and made is not Provenance.MADE:
+                return None if is_read and _is_virtual(above) else _UNDEFINED
+            if _is_virtual(above) and made is not Provenance.MADE:
                 return _OVERRIDDEN
             return None
-        return _INHERITED if self._unread_bases(owner) else None
+        return _INHERITED if self._open.unread_bases(owner) else None
 
     def _member(self, member: Variable) -> str | None:
         """A function that is a member variable of an object."""
@@ -281,97 +282,6 @@ class UnreadCalls:
         of_class = (f.name for c in self._texts.lineage(owner) for f in c.functions)
         return any(each in (name, f"(*{name})") for each in of_class)
 
-    def _lacks_body(self, owner: CppClass, name: str) -> bool:
-        """Whether a class declares more functions of a name than the files define."""
-        declared = [f for f in owner.functions if f.name == name]
-        open_ = [f for f in declared if f.body is None and not _is_defaulted(f)]
-        apart = self._code.definitions.get((owner.name, name), ())
-        return len(open_) > len(apart)
-
-    def _unread_bases(self, owner: CppClass) -> frozenset[str]:
-        """The classes that a class descends from that no file has, and that no table knows."""
-        found = set()
-        for class_ in self._texts.lineage(owner):
-            for base in _bases(class_):
-                last = base.partition("<")[0].rpartition("::")[2]
-                is_read = self._texts.class_near(last, class_.cpp) is not None
-                if not (is_read or last in _PLAIN_BASES or _is_library(base)):
-                    found.add(last)
-        return frozenset(found)
-
-    # --- what the files declare -----------------------------------------------------------------
-
-    @cached_property
-    def _top(self) -> list[tuple[Cpp, Node]]:
-        """What stands outside of functions and classes."""
-        found: list[tuple[Cpp, Node]] = []
-        waiting = [(cpp, cpp.root) for cpp in self._code.files]
-        while waiting:
-            cpp, node = waiting.pop()
-            for child in node.named_children:
-                (waiting if child.type in CONTAINERS else found).append((cpp, child))
-        return found
-
-    @cached_property
-    def _defined(self) -> frozenset[str]:
-        return frozenset(name for _, name in self._code.definitions)
-
-    @cached_property
-    def _declared(self) -> frozenset[str]:
-        """The functions outside of classes that are only declared."""
-        nodes = ((cpp, node) for cpp, node in self._top if node.type == "declaration")
-        found = (function_of(cpp, node, "") for cpp, node in nodes)
-        return frozenset(f.name for f in found if f is not None) - self._defined
-
-    @cached_property
-    def _forward(self) -> frozenset[str]:
-        """The classes that are declared without their members."""
-        kinds = ("class_specifier", "struct_specifier")
-        found = (node for _, node in self._top if node.type in kinds)
-        names = (n for node in found if (n := node.child_by_field_name("name")) is not None)
-        return frozenset(map(text_of, names)) - self._code.all_classes.keys()
-
-    @cached_property
-    def _undefined(self) -> frozenset[str]:
-        """The names of methods of which a class has no body, and of functions that are members."""
-        every = [c for classes in self._code.all_classes.values() for c in classes]
-        lacking = {f.name for c in every for f in c.functions if self._lacks_body(c, f.name)}
-        return frozenset(lacking)
-
-    @cached_property
-    def _has_undefined(self) -> bool:
-        every = [c for classes in self._code.all_classes.values() for c in classes]
-        return any(self._lacks_body(c, n) for c in every for n in (c.name, f"~{c.name}"))
-
-    @cached_property
-    def _operators(self) -> frozenset[str]:
-        """The operators that lack a body."""
-        names = self._undefined | self._declared
-        return frozenset(n for n in names if n.startswith("operator"))
-
-
-def _is_library(name: str) -> bool:
-    """Whether a full name is of a library that the tables know, or of a message."""
-    first, scope, rest = name.removeprefix("::").partition("::")
-    if not scope:
-        return False
-    known = {s.removesuffix("::") for s in libraries.scopes()} | libraries.copying_scopes()
-    is_message = any(f"{kind}::" in rest for kind in ("msg", "srv", "action"))
-    return first in known or is_message or first.endswith(("_msgs", "_srvs"))
-
 
 def _is_virtual(functions: list[CppFunction]) -> bool:
     return any(f.pure or f.overrides or text_of(f.node).startswith("virtual") for f in functions)
-
-
-def _is_defaulted(function: CppFunction) -> bool:
-    """Whether it is `= default` or `= delete`, which no file need say more of."""
-    return any(child.type in _WITHOUT_BODY for child in function.node.named_children)
-
-
-def _bases(class_: CppClass) -> Iterator[str]:
-    for clause in class_.node.named_children:
-        if clause.type == "base_class_clause":
-            for base in named(clause):
-                if base.type in ("type_identifier", "qualified_identifier", "template_type"):
-                    yield "".join(text_of(base).split())
