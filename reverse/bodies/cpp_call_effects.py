@@ -93,6 +93,19 @@ def _check_read(effects: EffectReader, call: CppCall) -> None:
         raise effects.touches(call.node, f'what "{what}" does is not known: {why}')
 
 
+def check_macro(effects: EffectReader, node: Node) -> None:
+    """Raises `Touches` where a macro without parameters stands for what does something."""
+    form = effects.scope.form
+    if form is None or not form.acting_macros or node.text not in form.acting_macros:
+        return
+    name = text_of(node)
+    if name not in effects.inner and (given := effects.scope.constants.get(name)) is not None:
+        try:
+            effects.anew(given[0], effects.scope, effects.inner).check(given[1])
+        except Touches as touches:
+            raise effects.touches(node, touches.why) from None
+
+
 def check_operator(effects: EffectReader, node: Node) -> None:
     """Raises `Touches` where an operator may run what was not read."""
     form = effects.scope.form

@@ -13,6 +13,7 @@ from rebsync.reverse.bodies.cpp_call_effects import (
     RENAMED,
     check_call,
     check_deleted,
+    check_macro,
     check_object,
     check_operator,
     gives_itself,
@@ -44,7 +45,9 @@ class Effects(EffectReader):
         """Raises `Touches` where a piece of code may touch what the model has."""
         if (type_ := node.type) in OPERATORS:
             check_operator(self, node)
-        if type_ not in PLAIN:
+        if type_ == "identifier":
+            check_macro(self, node)
+        elif type_ not in PLAIN:
             _CHECKS.get(type_, Effects._inside)(self, node)
 
     def _inside(self, node: Node) -> None:
@@ -163,6 +166,8 @@ class Effects(EffectReader):
         takes = known_functions.type_takes_values(type_)
         if not type_ or (self.scope.meaning(type_) is not None and type_ not in self.inner):
             raise self.touches(node, "this looks like a declaration, but starts with a variable")
+        if (tested := node.child_by_field_name("value")) is not None:  # `if (auto x = f())`
+            self.check(tested)
         for declarator in node.children_by_field_name("declarator"):
             value = declarator.child_by_field_name("value")
             if not any(each in text_of(declarator).partition("=")[0] for each in "&*"):

@@ -22,7 +22,7 @@ from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside
 from rebsync.source import NOWHERE, Span
 
 _LOCKS = re.compile(rb"(?<![cCbB])lock")
@@ -36,6 +36,7 @@ _RENAMED = re.compile(
 )
 _ALIAS = re.compile(rb"\busing\s+(\w+)\s*=([^;]*);|\btypedef\b([^;]*?)(\w+)\s*;")
 _WORD = re.compile(rb"\w+")
+_ACTING = ("call_expression", "assignment_expression", "update_expression", "new_expression")
 _UNKNOWN = "what this locks is not known"
 _FUNCTIONS = frozenset({"function_definition", "lambda_expression"})
 
@@ -45,6 +46,14 @@ class CppForm:
 
     def __init__(self, code: Code) -> None:
         self._code = code
+
+    @cached_property
+    def acting_macros(self) -> frozenset[bytes]:
+        """The macros without parameters whose text calls something, or stores."""
+        known = {id(cpp) for cpp in self._code.files}
+        values = self._code.constants.items()
+        texts = ((name, node) for (_, name), (cpp, node) in values if id(cpp) not in known)
+        return frozenset(name.encode() for name, node in texts if any(inside(node, *_ACTING)))
 
     @cached_property
     def unread_calls(self) -> UnreadCalls:

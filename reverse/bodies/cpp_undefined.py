@@ -10,7 +10,7 @@ from tree_sitter import Node
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_declarations import CppFunction, function_of
 from rebsync.reverse.syntax.cpp_index import CONTAINERS, Code, CppClass
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 from rebsync.reverse.values.cpp_flow import Texts
 
 # Bases of nodes that are the client libraries' own, or have no functions to be called.
@@ -65,7 +65,8 @@ class Undefined:
     @cached_property
     def declared(self) -> frozenset[str]:
         """The functions outside of classes that are only declared."""
-        nodes = ((cpp, node) for cpp, node in self._top if node.type == "declaration")
+        nodes = [(cpp, node) for cpp, node in self._top if node.type == "declaration"]
+        nodes += [(cpp, n) for cpp in self.code.files for n in _declared_inside(cpp)]
         found = (function_of(cpp, node, "") for cpp, node in nodes)
         return frozenset(f.name for f in found if f is not None) - self.defined
 
@@ -95,6 +96,17 @@ class Undefined:
         """The operators that lack a body."""
         names = self.undefined | self.declared
         return frozenset(n for n in names if n.startswith("operator"))
+
+
+def _declared_inside(cpp: Cpp) -> Iterator[Node]:
+    """Declarations in classes, of friends, and in functions, of what is elsewhere."""
+    if b"friend" in cpp.words:
+        for each in inside(cpp.root, "friend_declaration"):
+            yield from (n for n in named(each) if n.type == "declaration")
+    if b"extern" in cpp.words:
+        for each in inside(cpp.root, "declaration"):
+            if any(text_of(c) == "extern" for c in each.named_children):
+                yield each
 
 
 def is_library(name: str) -> bool:

@@ -39,6 +39,11 @@ _CALLED = frozenset({"function", "move_only_function", "signal", "packaged_task"
 _KEEPING = frozenset(
     {"move", "forward", "ref", "cref", "bind", "swap", "exchange", "ignore_unused"}
 )
+# Methods of containers that make elements, or end some.
+_MAKING = frozenset(
+    {"emplace", "emplace_back", "emplace_front", "push_back", "push_front", "push", "insert"}
+    | {"resize", "assign", "clear", "erase", "pop_back", "pop_front", "pop"}
+)
 # What may be a call of an operator, with the operands whose class says which.
 OPERATORS = {
     "binary_expression": ("left", "right"),
@@ -230,7 +235,7 @@ class UnreadCalls:
         if name in ("first", "second") and type_.last == "pair":
             return self._held(cpp, function)
         if type_.pointers or is_library(type_.name):
-            return self._ended(type_) if name == "reset" else None
+            return self._held_object(type_, name)
         owner = self._statics.class_of(type_)
         if owner is not None:
             return self._of_class(owner, name, self._provenance.of(cpp, call.target))
@@ -241,11 +246,13 @@ class UnreadCalls:
         is_given = self._provenance.of(cpp, call.target) is Provenance.GIVEN
         return _GIVEN if is_given else None
 
-    def _ended(self, type_: StaticType) -> str | None:
-        """Why to end what a pointer owns may run what was not read."""
-        if type_.last not in POINTING or not type_.arguments:
-            return None
-        return self.of_type(type_.cpp, type_.arguments[0])
+    def _held_object(self, type_: StaticType, name: str) -> str | None:
+        """Why a pointer or a container may, that makes or ends what it holds."""
+        if name == "reset" and type_.last in POINTING and type_.arguments:
+            return self.of_type(type_.cpp, type_.arguments[0])
+        if name in _MAKING and not type_.pointers:
+            return self._of_object(self._statics.class_of(self._statics.element(type_)))
+        return None
 
     def _by_name(self, name: str) -> str | None:
         """Of an object whose class is not known: whether a class has such a method, unread."""
