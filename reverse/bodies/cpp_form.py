@@ -34,6 +34,9 @@ _RENAMED = re.compile(
     rb"\busing\s+(\w+)\s*=[^;]*\b(?:lock_guard|unique_lock|scoped_lock|shared_lock)\b"
     rb"|\btypedef\b[^;]*\b(?:lock_guard|unique_lock|scoped_lock|shared_lock)\b[^;]*?(\w+)\s*;"
 )
+_GUARD = re.compile(rb"\b(?:lock_guard|unique_lock|scoped_lock|shared_lock)\b")
+_NAMED = re.compile(rb"\breturn\s+(?:std\s*::\s*move\s*\(\s*)?\w+\s*\)?\s*;")
+_INHERITED = re.compile(rb"\busing\s[^;=]*::\s*\w+\s*;")
 _ALIAS = re.compile(rb"\busing\s+(\w+)\s*=([^;]*);|\btypedef\b([^;]*?)(\w+)\s*;")
 _WORD = re.compile(rb"\w+")
 _ACTING = ("call_expression", "assignment_expression", "update_expression", "new_expression")
@@ -123,7 +126,46 @@ class CppForm:
         every = [f for f in self._functions.values() if self._is_constructor(f)]
         unread = (f for f in every if f.is_template and _LOCKS.search(self._text(f)))
         otherwise = (f for f in every if _OTHERWISE.search(f.code.node.text or b""))
-        return self._guards.union(f.simple.encode() for each in (unread, otherwise) for f in each)
+        found = self._guards | self._inheriting
+        return found.union(f.simple.encode() for each in (unread, otherwise) for f in each)
+
+    @cached_property
+    def _inheriting(self) -> frozenset[bytes]:
+        """The classes that inherit the constructors of one that locks something."""
+        symbols = self._lowering.world.symbols
+        found = set[bytes]()
+        for name, owner in symbols.classes.items():
+            if not _INHERITED.search(owner.node.text or b""):
+                continue
+            above = b" ".join(c.node.text or b"" for c in symbols.lineage(name))
+            if _LOCKS.search(above):
+                found.add(name.rpartition("::")[2].encode())
+        return frozenset(found)
+
+    @cached_property
+    def _holding(self) -> frozenset[bytes]:
+        """The functions that give a guard that is a variable of theirs."""
+        found = set[bytes]()
+        for function in self._functions.values():
+            result = function.code.result
+            if result is None or not _GUARD.search(result.text or b""):
+                continue
+            if _NAMED.search(function.code.node.text or b""):
+                found.add(function.simple.encode())
+        return frozenset(found)
+
+    def _may_hold_twice(self, text: bytes) -> bool:
+        """Whether a function gets a guard of another one, and may lock something besides."""
+        words = _WORD.findall(text)
+        if self._holding.isdisjoint(words):
+            return False
+        others = [w for w in words if w not in self._holding]
+        lockers = {f.simple.encode() for f in self._functions.values() if self._says_lock(f)}
+        is_again = len(words) - len(others) > 1
+        return is_again or not lockers.isdisjoint(others) or any(map(_LOCKS.search, others))
+
+    def _says_lock(self, function: FunctionSymbol) -> bool:
+        return _LOCKS.search(function.code.node.text or b"") is not None
 
     def _is_constructor(self, function: FunctionSymbol) -> bool:
         owner = self._lowering.world.symbols.classes.get(function.owner or "")
@@ -166,7 +208,8 @@ class CppForm:
         """The places in functions where a thread may wait for itself, for ever."""
         found_in = [(f, f.body.text or b"") for f in functions if f.body is not None]
         for function, text in found_in:
-            if _OTHERWISE.search(text) or not self._unclear.isdisjoint(_WORD.findall(text)):
+            is_unclear = not self._unclear.isdisjoint(_WORD.findall(text))
+            if _OTHERWISE.search(text) or is_unclear or self._may_hold_twice(text):
                 yield function.cpp, function.cpp.span(function.node), _UNKNOWN
         for function in (f for f, text in found_in if self._may_lock(text)):
             symbol = self._functions.get(function.node.id)

@@ -49,11 +49,18 @@ struct Store {
   void put() { std::lock_guard<std::mutex> l(own_); }
   std::mutex own_;
 };
+struct Inherited : Guard {
+  using Guard::Guard;
+};
 struct Node {
   void on() {
     BODY
   }
   void inner() { Guard b(mutex_); }
+  std::unique_lock<std::mutex> hold() {
+    std::unique_lock<std::mutex> l(mutex_);
+    return l;
+  }
   void keep(std::unique_lock<std::mutex> l) {}
   std::mutex mutex_, other_;
   pthread_mutex_t posix_;
