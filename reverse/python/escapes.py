@@ -36,6 +36,7 @@ _HANDED = "this hands over what acts on the node, to code that is not read"
 _KEPT = "what acts on the node is kept here by an object of another library"
 _DECORATED = "what decorates this may call it at any time, and it acts on the node"
 _BASE = "a class above this one is not read: it may call what acts on the node"
+_ENDS = "this runs when nothing has an object any more, and it acts on the node"
 # Modules of Python whose classes and decorators call nothing by themselves.
 _PLAIN = frozenset(
     {"builtins", "abc", "typing", "typing_extensions", "enum", "collections", "dataclasses"}
@@ -99,6 +100,8 @@ class _Escapes:
                         yield scope, binding.node, _KEPT
             if scope.kind == FUNCTION and self._is_decorated(scope):
                 yield scope, scope.node, _DECORATED
+            if scope.name == "__del__" and self._effects.of_function(scope):
+                yield scope, scope.node, _ENDS
             if scope.kind == CLASS and self._is_called_above(scope):
                 yield scope, scope.node, _BASE
 
