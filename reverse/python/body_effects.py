@@ -23,6 +23,7 @@ DEFINITIONS = frozenset({"function_definition", "class_definition", "decorated_d
 _DECORATORS = frozenset({"staticmethod", "classmethod", "property"})
 _DEEPEST = 4
 HARMLESS_DECORATORS = frozenset({"staticmethod"})
+_LOOPS = frozenset({"while_statement", "for_statement"})
 _WORDS = frozenset({"await", "yield", "named_expression"})
 
 
@@ -182,6 +183,8 @@ def _is_quiet(reading: Reading, scope: Scope, depth: int) -> bool:
 def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bool:
     if node.type in _WORDS:
         return False
+    if node.type in ("raise_statement", "assert_statement"):
+        return _is_caught(node, scope)
     if node.type in ("for_statement", "for_in_clause"):
         return _has_names(field(node, "left"))
     if node.type in ("delete_statement", "as_pattern_target"):
@@ -208,6 +211,12 @@ def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bo
         and all(is_quiet(reading, w, depth + 1) for w in ways)
         and _are_quiet(reading, name, function, ways, depth + 1)
     )
+
+
+def _is_caught(node: Node, scope: Scope) -> bool:
+    """Whether a function may handle the exception that a statement of it raises."""
+    around = ancestors(node, lambda n: n == scope.node)
+    return any(n.type == "try_statement" for n in around)
 
 
 def _may_divide_by_zero(reading: Reading, node: Node, frame: Frame) -> bool:
@@ -276,7 +285,14 @@ def _is_looked_at(node: Node) -> bool:
 
 def is_still(reading: Reading, own: Scope) -> bool:
     """Whether a function of the node changes nothing: it only computes what it gives."""
-    return HARMLESS_DECORATORS.issuperset(own.decorators) and _changes_nothing(reading, own)
+    is_plain = HARMLESS_DECORATORS.issuperset(own.decorators)
+    return is_plain and _changes_nothing(reading, own) and _comes_back(reading, own)
+
+
+def _comes_back(reading: Reading, own: Scope) -> bool:
+    """Whether the loops of a function end: nobody reads them where it only gives a value."""
+    loops = (n for n in nodes_in(own.node) if n.type in _LOOPS)
+    return all(reading.form is not None and reading.form.ends(own.py, n) for n in loops)
 
 
 def getter(reading: Reading, node: Node, frame: Frame) -> Scope | None:

@@ -13,17 +13,22 @@ from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.program import Program
+from rebsync.reverse.ir.program import Function, Program
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.endless import FINITE
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
-from rebsync.reverse.python.py_index import PyCode
+from rebsync.reverse.python.py_index import FUNCTION, PyCode
 from rebsync.reverse.python.py_tree import Py
 from rebsync.source import NOWHERE, Source, Span
 
 # What files name that have, or make, iterators without end.
-_ENDLESS = re.compile(rb"\bitertools\b|\biter\s*\(|\b__(?:next|getitem)__\b|\byield\b")
+_ENDLESS = re.compile(
+    rb"\bitertools\b|\biter\s*\(|\b__(?:next|getitem)__\b|\byield\b|\bsys\.stdin\b"
+)
+_LOOPS = re.compile(rb"\b(?:while|for)\b")
+_IMPORTS = re.compile(rb"^\s*(?:import|from)\s+(\w+)", re.MULTILINE)
 
 
 class PyForm:
@@ -59,22 +64,80 @@ class PyForm:
 
         The functions are those with some nodes of trees, by their ids.
         """
-        files = [module.py for module in self._code.modules.values()]
-        if not any(_ENDLESS.search(py.data) for py in files):
+        files = self._files
+        if not any(_ENDLESS.search(py.data) or self._has_foreign(py) for py in files):
             return
-        scopes = [scope for scope in self._code.scopes.values() if scope.node.id in nodes]
-        read = {(id(scope.py), scope.py.span(scope.node)) for scope in scopes}
         of = {name: py for py in files for name in self._functions(py)}
-        roots = [
-            f for n, py in of.items() if (id(py), (f := self.program.function(n)).place) in read
-        ]
-        found = {n for f in roots for n, _ in self._origins.runs(f.body, f.name)}
+        found = {n for f in self._roots(nodes) for n, _ in self._origins.runs(f.body, f.name)}
         iterators = EndlessIterators(self._origins)
         for name in sorted(found):
             for node in iterators.gone_through(self.program.function(name)):
                 place = getattr(node, "place", NOWHERE)
                 is_there = place != NOWHERE
                 yield of[name].source, place if is_there else self.program.function(name).place
+
+    def hanging(
+        self, nodes: Collection[int], classes: Collection[int]
+    ) -> Iterator[tuple[Source, Span]]:
+        """The loops that are not shown to end in functions that others call, and nobody reads.
+
+        What is read are functions with some `nodes`, by their ids, and those of some `classes`.
+        """
+        unread = [
+            scope
+            for scope in self._code.scopes.values()
+            if scope.kind == FUNCTION
+            and scope.node.id not in nodes
+            and (scope.owner is None or scope.owner.node.id not in classes)
+            and _LOOPS.search(scope.node.text or b"")
+        ]
+        if not unread:
+            return
+        places = {(id(s.py), s.py.span(s.node)) for s in unread}
+        of = {name: py for py in self._files for name in self._functions(py)}
+        for name in sorted(self._called_from(nodes)):
+            py, function = of[name], self.program.function(name)
+            if (id(py), function.place) not in places:
+                continue
+            for node in walk(function.body):
+                if isinstance(node, s.Loop | s.ForEach) and not self._loops.ends(name, node.place):
+                    yield py.source, node.place if node.place != NOWHERE else function.place
+
+    def _called_from(self, nodes: Collection[int]) -> set[str]:
+        """The functions that some functions call, or call in turn."""
+        waiting, found = self._roots(nodes), set[str]()
+        while waiting:
+            function = waiting.pop()
+            for node in walk(function.body):
+                match node:
+                    case s.Call(_, callee):
+                        called = self._origins.graph.callee(callee, function).functions
+                    case s.Construct():
+                        called = self._origins.reached(node, function.name)
+                    case _:
+                        continue
+                waiting += (self.program.function(name) for name in called - found)
+                found |= called
+        return found
+
+    def _roots(self, nodes: Collection[int]) -> list[Function]:
+        """The functions with some nodes of trees, by their ids."""
+        scopes = [scope for scope in self._code.scopes.values() if scope.node.id in nodes]
+        read = {(id(scope.py), scope.py.span(scope.node)) for scope in scopes}
+        of = {name: py for py in self._files for name in self._functions(py)}
+        return [
+            f for n, py in of.items() if (id(py), (f := self.program.function(n)).place) in read
+        ]
+
+    @property
+    def _files(self) -> list[Py]:
+        return [module.py for module in self._code.modules.values()]
+
+    def _has_foreign(self, py: Py) -> bool:
+        """Whether a file imports what no table knows; modules of the files may be among it."""
+        table = LibraryOutcomes(Language.PYTHON)
+        roots = {m[1].decode() for m in _IMPORTS.finditer(py.data)}
+        return any(root not in FINITE and not table.is_standard(root) for root in roots)
 
     def waits_for_itself(self, py: Py, statement: Node) -> bool:
         """Whether what `with lock:` runs may enter the same lock again, and so wait for ever."""

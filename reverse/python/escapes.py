@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.findings import Findings, Grade, Unread
+from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.python.body_effects import is_log
 from rebsync.reverse.python.body_scope import PyUnit
@@ -68,12 +68,7 @@ def list_escapes(
     """
     for scope, node, why in _Escapes(values, effects, frozenset(skipped)).all():
         source, span = scope.py.source, scope.py.span(node)
-        is_listed = any(
-            f.grade is Grade.UNREADABLE
-            and f.source is source
-            and (f.span.start <= span.start and span.end <= f.span.end)
-            for f in findings.all
-        )
+        is_listed = findings.has_unreadable(source, span)
         near = [u for u in units if u.module is scope.module] or list(units)
         if not is_listed and near:
             findings.unreadable(source, Unread(span, why), near[0].name)
