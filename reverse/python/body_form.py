@@ -19,7 +19,7 @@ from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.endless import FINITE
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
-from rebsync.reverse.python.py_index import FUNCTION, PyCode
+from rebsync.reverse.python.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.python.py_tree import Py
 from rebsync.source import NOWHERE, Source, Span
 
@@ -28,6 +28,7 @@ _ENDLESS = re.compile(
     rb"\bitertools\b|\biter\s*\(|\b__(?:next|getitem)__\b|\byield\b|\bsys\.stdin\b"
 )
 _LOOPS = re.compile(rb"\b(?:while|for)\b")
+_LOCKS = re.compile(rb"[lL]ock|\bwith\b|\b(?:acquire|Condition|\w*Semaphore|enter_context)\b")
 _IMPORTS = re.compile(rb"^\s*(?:import|from)\s+(\w+)", re.MULTILINE)
 
 
@@ -67,7 +68,7 @@ class PyForm:
         files = self._files
         if not any(_ENDLESS.search(py.data) or self._has_foreign(py) for py in files):
             return
-        of = {name: py for py in files for name in self._functions(py)}
+        of = self._file_of
         found = {n for f in self._roots(nodes) for n, _ in self._origins.runs(f.body, f.name)}
         iterators = EndlessIterators(self._origins)
         for name in sorted(found):
@@ -83,25 +84,49 @@ class PyForm:
 
         What is read are functions with some `nodes`, by their ids, and those of some `classes`.
         """
-        unread = [
-            scope
-            for scope in self._code.scopes.values()
-            if scope.kind == FUNCTION
-            and scope.node.id not in nodes
-            and (scope.owner is None or scope.owner.node.id not in classes)
-            and _LOOPS.search(scope.node.text or b"")
-        ]
-        if not unread:
-            return
-        places = {(id(s.py), s.py.span(s.node)) for s in unread}
-        of = {name: py for py in self._files for name in self._functions(py)}
-        for name in sorted(self._called_from(nodes)):
-            py, function = of[name], self.program.function(name)
+        unread = self._unread(nodes, _LOOPS)
+        places = {p for p, s in unread.items() if s.owner is None or s.owner.node.id not in classes}
+        for name in sorted(self._called_from(nodes)) if places else ():
+            py, function = self._file_of[name], self.program.function(name)
             if (id(py), function.place) not in places:
                 continue
             for node in walk(function.body):
                 if isinstance(node, s.Loop | s.ForEach) and not self._loops.ends(name, node.place):
                     yield py.source, node.place if node.place != NOWHERE else function.place
+
+    def odd_locks(self, nodes: Collection[int]) -> Iterator[tuple[Source, Span]]:
+        """Where a thread may wait for itself in functions that others run, and nobody reads.
+
+        What is read are functions with some nodes of trees, by their ids.
+        """
+        if not self._unread(nodes, _LOCKS):
+            return
+        read = {f.name for f in self._roots(nodes)}
+        every = (
+            f for root in self._roots(nodes) for f, _ in self._origins.runs(root.body, root.name)
+        )
+        for name in sorted(set(every) - read):
+            py, function = self._file_of[name], self.program.function(name)
+            for problem in sorted(self._locks.of(name), key=str):
+                is_there = problem.place != NOWHERE
+                yield py.source, problem.place if is_there else function.place
+
+    def _unread(
+        self, nodes: Collection[int], words: re.Pattern[bytes]
+    ) -> dict[tuple[int, Span], Scope]:
+        """The functions besides some, by their places, that have one of some words."""
+        return {
+            (id(scope.py), scope.py.span(scope.node)): scope
+            for scope in self._code.scopes.values()
+            if scope.kind == FUNCTION
+            and scope.node.id not in nodes
+            and words.search(scope.node.text or b"")
+        }
+
+    @cached_property
+    def _file_of(self) -> dict[str, Py]:
+        """The files of functions, by their names."""
+        return {name: py for py in self._files for name in self._functions(py)}
 
     def _called_from(self, nodes: Collection[int]) -> set[str]:
         """The functions that some functions call, or call in turn."""

@@ -37,6 +37,7 @@ from rebsync.reverse.unknowns import Open
 
 ENDLESS = "what this goes through may have no end"
 _HANGS = "it is not known whether this loop ends"
+_WAITS = "this may wait for ever for a lock that is held"
 _OPEN = "add the package that has the receivers, if they matter"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
 _CALLS = "add a class to the model that calls it, or message servers that send to it"
@@ -121,7 +122,8 @@ def list_endless(
         classes = {scope.node.id for scope in reading.nodes}
         endless = ((*place, ENDLESS) for place in reading.form.endless(reading.bodies))
         hanging = ((*place, _HANGS) for place in reading.form.hanging(reading.bodies, classes))
-        for source, span, why in (*endless, *hanging):
+        locks = ((*place, _WAITS) for place in reading.form.odd_locks(reading.bodies))
+        for source, span, why in (*endless, *hanging, *locks):
             if not findings.has_unreadable(source, span):
                 findings.unreadable(source, Unread(span, why), unit.name)
 
