@@ -57,9 +57,11 @@ class ForeignFilling:
         """Whether such a function gets a container anywhere, and may have kept it."""
         for name in self._functions(names):
             for node in walk(self._program.function(name).body):
-                is_given = isinstance(node, s.Call) and self._gets(node, name, names)
-                if is_given and self._is_foreign(node, name):
-                    return True
+                match node:
+                    case s.Call() if self._gets(node, name, names) and self._is_foreign(node, name):
+                        return True
+                    case _:
+                        pass
         return False
 
     def _aliases(self, names: frozenset[Key]) -> frozenset[Key]:
