@@ -12,6 +12,7 @@ from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.analysis.size_changes import GROWING
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, Program
 from rebsync.reverse.ir.python.lowering import python_program
@@ -19,6 +20,7 @@ from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.endless import FINITE
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
+from rebsync.reverse.libraries.size_effects import CHANGING_OBJECT
 from rebsync.reverse.python.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.python.py_tree import Py
 from rebsync.source import NOWHERE, Source, Span
@@ -68,14 +70,26 @@ class PyForm:
         files = self._files
         if not any(_ENDLESS.search(py.data) or self._has_foreign(py) for py in files):
             return
-        of = self._file_of
-        found = {n for f in self._roots(nodes) for n, _ in self._origins.runs(f.body, f.name)}
-        iterators = EndlessIterators(self._origins)
-        for name in sorted(found):
-            for node in iterators.gone_through(self.program.function(name)):
-                place = getattr(node, "place", NOWHERE)
+        for name in sorted(self._origins.all_run(f.name for f in self._roots(nodes))):
+            for place in self._endless_in(name):
                 is_there = place != NOWHERE
-                yield of[name].source, place if is_there else self.program.function(name).place
+                function = self.program.function(name)
+                yield self._file_of[name].source, place if is_there else function.place
+
+    def _endless_in(self, name: str) -> list[Span]:
+        """The places in one function that go through iterators that may have no end."""
+        if name not in self._gone_through:
+            found = self._iterators.gone_through(self.program.function(name))
+            self._gone_through[name] = [getattr(node, "place", NOWHERE) for node in found]
+        return self._gone_through[name]
+
+    @cached_property
+    def _gone_through(self) -> dict[str, list[Span]]:
+        return {}
+
+    @cached_property
+    def _iterators(self) -> EndlessIterators:
+        return EndlessIterators(self._origins)
 
     def hanging(
         self, nodes: Collection[int], classes: Collection[int]
@@ -91,23 +105,26 @@ class PyForm:
             if (id(py), function.place) not in places:
                 continue
             for node in walk(function.body):
-                if isinstance(node, s.Loop | s.ForEach) and not self._loops.ends(name, node.place):
-                    yield py.source, node.place if node.place != NOWHERE else function.place
+                match node:
+                    case s.Loop(place=place) if not self._loops.ends(name, place):
+                        pass
+                    case s.ForEach(place=place) if _fills_itself(node):
+                        pass
+                    case _:
+                        continue
+                yield py.source, place if place != NOWHERE else function.place
 
     def odd_locks(self, nodes: Collection[int]) -> Iterator[tuple[Source, Span]]:
         """Where a thread may wait for itself in functions that others run, and nobody reads.
 
         What is read are functions with some nodes of trees, by their ids.
         """
-        if not self._unread(nodes, _LOCKS):
-            return
-        read = {f.name for f in self._roots(nodes)}
-        every = (
-            f for root in self._roots(nodes) for f, _ in self._origins.runs(root.body, root.name)
-        )
-        for name in sorted(set(every) - read):
+        places = self._unread(nodes, _LOCKS)
+        read = {f.name for f in self._roots(nodes)} if places else set()
+        for name in sorted(self._origins.all_run(read) - read):
             py, function = self._file_of[name], self.program.function(name)
-            for problem in sorted(self._locks.of(name), key=str):
+            is_asked = (id(py), function.place) in places
+            for problem in sorted(self._locks.of(name), key=str) if is_asked else ():
                 is_there = problem.place != NOWHERE
                 yield py.source, problem.place if is_there else function.place
 
@@ -184,3 +201,13 @@ class PyForm:
 
 def _is_in(place: Span, around: Span) -> bool:
     return around.start <= place.start and place.end <= around.end
+
+
+def _fills_itself(loop: s.ForEach) -> bool:
+    """Whether a loop puts elements into what it goes through."""
+    calls = (n.callee for n in walk(loop.body) if isinstance(n, s.Call))
+    methods = (c for c in calls if isinstance(c, s.MethodCallee) and c.receiver == loop.iterable)
+    table = LibraryOutcomes(Language.PYTHON)
+    return any(
+        c.name in CHANGING_OBJECT or table.method(None, c.name).size in GROWING for c in methods
+    )

@@ -178,7 +178,9 @@ class _Escapes:
         """Whether a class that is not in the files is above one that has what acts."""
         code = self._values.code
         is_made = bool(code.by_callee.get(scope.name))
-        return is_made and self._unknown_bases(scope) and self._effects.of_class(scope)
+        is_node = scope in self._effects.nodes  # of which it is listed as well
+        is_unknown = is_made and not is_node and self._unknown_bases(scope)
+        return is_unknown and self._effects.of_class(scope)
 
     def _unknown_bases(self, scope: Scope) -> bool:
         """Whether a class has one above it of which nothing is known."""
@@ -187,9 +189,10 @@ class _Escapes:
 
 
 def _is_of_super(function: Node) -> bool:
-    """Whether a function is one of the class above: what that is said of the class."""
+    """Whether a function is one of the class above: that it is not read is said of the class."""
     holder = function.child_by_field_name("object")
-    return holder is not None and (holder.text or b"").startswith(b"super(")
+    is_super = holder is not None and (holder.text or b"").startswith(b"super(")
+    return is_super or last_name(function) == "__init__"
 
 
 def _listening() -> Collection[str]:

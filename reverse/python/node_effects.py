@@ -39,7 +39,7 @@ class NodeEffects:
 
     def __init__(self, values: PyEvaluator, nodes: Collection[Scope]) -> None:
         self._values = values
-        self._nodes = frozenset(nodes)
+        self.nodes = frozenset(nodes)
         self.of_function = cache(self._of_function)
         self.of_class = cache(self._of_class)
 
@@ -57,7 +57,7 @@ class NodeEffects:
             case Function(scope):
                 return self.of_function(scope)
             case Instance(scope) | Class(scope):
-                return scope in self._nodes or self.of_class(scope)
+                return scope in self.nodes or self.of_class(scope)
             case Items(each):
                 return any(map(self.any_acts, each))
             case Table(pairs):
@@ -122,7 +122,7 @@ class NodeEffects:
         if target.type != "attribute":
             return False
         return any(
-            isinstance(w, Instance) and w.scope in self._nodes
+            isinstance(w, Instance) and w.scope in self.nodes
             for w in self._values.ways(field(target, "object"), scope)
         )
 
@@ -149,7 +149,7 @@ class NodeEffects:
                     yield from () if found is None else (found,)
         if function.type == "attribute" and all(isinstance(w, Unresolved) for w in ways):
             methods = self._values.code.methods.get(last_name(function), ())
-            yield from (s for s in methods if s.parent in self._nodes)
+            yield from (s for s in methods if s.parent in self.nodes)
 
 
 def _is_handle(made_by: str) -> bool:
