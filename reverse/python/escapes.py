@@ -94,11 +94,11 @@ class _Escapes:
                     if self._keeps(binding.node, scope):
                         yield scope, binding.node, _KEPT
             if scope.kind == FUNCTION and self._is_decorated(scope):
-                yield scope, scope.node, _DECORATED
+                yield scope, field(scope.node, "name"), _DECORATED
             if scope.name == "__del__" and self._effects.of_function(scope):
-                yield scope, scope.node, _ENDS
+                yield scope, field(scope.node, "name"), _ENDS
             if scope.kind == CLASS and self._is_called_above(scope):
-                yield scope, scope.node, _BASE
+                yield scope, field(scope.node, "name"), _BASE
 
     # --- calls and stores ------------------------------------------------------------------------
 
