@@ -9,17 +9,20 @@ trusted that it leaves the node alone.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from functools import cached_property
 
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.graph import Unresolved
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.python.body_effects import is_log
 from rebsync.reverse.python.body_scope import PyUnit
+from rebsync.reverse.python.body_units import scope_around
 from rebsync.reverse.python.node_effects import NodeEffects
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, Scope, last_name
-from rebsync.reverse.python.py_tree import decorating, field, named
+from rebsync.reverse.python.py_tree import decorating, field, named, nodes_in
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import (
     Bound,
@@ -27,8 +30,10 @@ from rebsync.reverse.python.py_worth import (
     External,
     Function,
     Instance,
+    Items,
     Made,
     Module,
+    Table,
     Value,
 )
 
@@ -47,6 +52,9 @@ _LOOKING = frozenset(
     {"isinstance", "issubclass", "len", "print", "str", "repr", "type", "id", "hasattr", "bool"}
     | {"callable", "enumerate", "zip", "list", "tuple", "reversed", "super", "getattr", "any"}
     | {"all", "range", "partial", "wraps"}
+)
+_FILLING = frozenset(
+    {"append", "appendleft", "add", "insert", "extend", "update", "setdefault", "__setitem__"}
 )
 _WITHIN = frozenset(
     {"list", "tuple", "set", "dictionary", "pair", "parenthesized_expression", "list_splat"}
@@ -107,6 +115,8 @@ class _Escapes:
         function = field(call, "function")
         if is_log(call) or last_name(function) in _LOOKING or _is_of_super(function):
             return False
+        if self._is_own_container(function, scope):
+            return False
         given = [n for n in self._given(field(call, "arguments")) if self._is_acting(n, scope)]
         if not given:
             return False
@@ -114,7 +124,39 @@ class _Escapes:
         return not ways or not all(map(self._is_read, ways))
 
     def _is_acting(self, node: Node, scope: Scope) -> bool:
+        """Whether a value acts, or is a container of a name that something puts such a one into."""
+        return self._acts(node, scope) or last_name(node) in self._filled
+
+    def _acts(self, node: Node, scope: Scope) -> bool:
         return self._effects.any_acts(self._values.ways(node, scope))
+
+    @cached_property
+    def _filled(self) -> frozenset[str]:
+        """The names of containers that get what acts after they were made."""
+        found = set[str]()
+        for name in _FILLING:
+            for call, scope in self._values.code.by_callee.get(name, ()):
+                holder = field(call, "function").child_by_field_name("object")
+                given = self._given(field(call, "arguments"))
+                if holder is not None and any(self._acts(n, scope) for n in given):
+                    found.add(last_name(holder))
+        for path, module in self._values.code.modules.items():
+            for node in nodes_in(module.node):
+                target = node.child_by_field_name("left") if node.type == "assignment" else None
+                value = node.child_by_field_name("right")
+                if target is None or value is None or target.type != "subscript":
+                    continue
+                if self._acts(value, scope_around(self._values.code, node, path)):
+                    found.add(last_name(field(target, "value")))
+        return frozenset(found - {""})
+
+    def _is_own_container(self, function: Node, scope: Scope) -> bool:
+        """Whether a call fills a container, which no library made that may look at it."""
+        holder = function.child_by_field_name("object")
+        if holder is None or last_name(function) not in _FILLING:
+            return False
+        ways = self._values.ways(holder, scope)
+        return all(isinstance(w, (Items, Table, Unresolved)) for w in ways)
 
     def _given(self, node: Node) -> Iterator[Node]:
         """The values that arguments hold, those in containers among them."""
