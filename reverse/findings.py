@@ -116,6 +116,15 @@ class Findings:
         if isinstance(unread, NotWhole):
             self.times.add(unread.seconds)
 
+    def has_unreadable(self, source: Source, span: Span) -> bool:
+        """Whether a place, or one around it, is listed as one that the model lacks."""
+        return any(
+            f.grade is Grade.UNREADABLE
+            and f.source is source
+            and (f.span.start <= span.start and span.end <= f.span.end)
+            for f in self.all
+        )
+
     def approximated(
         self, source: Source, span: Span, why: str, hint: str = "", within: str = ""
     ) -> None:

@@ -4,6 +4,9 @@
 iterators or have elements by index, and generators that loop; and what the library makes of these
 one by one (`map`, `enumerate`). Who only asks for the next one ends; who wants all of them does
 not: `list`, `sum`, `in`, `*values`.
+
+What a library gives that no table knows may be anything: it has no end where something surely goes
+through it (a loop, `list`), while most of it (`x in given`, `a, b = given`) is no iterator at all.
 """
 
 from __future__ import annotations
@@ -26,10 +29,14 @@ _METHODS = ("__next__", "__getitem__")
 
 
 class EndlessIterators:
-    """The iterators of one program; C++ has none that have no end of their own."""
+    """The iterators of one program; C++ has none that have no end of their own.
 
-    def __init__(self, origins: Origins) -> None:
+    With `foreign` what comes of libraries that no table knows is one that has no end.
+    """
+
+    def __init__(self, origins: Origins, foreign: bool = False) -> None:
         self._origins = origins
+        self._foreign = foreign
         self._graph = origins.graph
         self._program = origins.graph.program
         self._is_python = origins.table.language is Language.PYTHON
@@ -43,10 +50,30 @@ class EndlessIterators:
         if not self._is_python:
             return
         for node in walk(function.body):
-            for value in self._wanted(node, function):
-                if self.may_be(value, function.name):
-                    yield node  # type: ignore[misc]
-                    break
+            known = (self.may_be(v, function.name) for v in self._wanted(node, function))
+            given = (self._other.may_be(v, function.name) for v in self._iterated(node, function))
+            if any(known) or any(given):
+                yield node  # type: ignore[misc]
+
+    @cached_property
+    def _other(self) -> EndlessIterators:
+        """The same, with what comes of libraries that no table knows."""
+        return EndlessIterators(self._origins, True)
+
+    def _iterated(self, node: Node, function: Function) -> Iterator[e.Expression]:
+        """The values of which a node surely wants all elements, if they have any."""
+        match node:
+            case s.Call(_, callee, arguments):
+                yield from (a.value for a in arguments if a.stars == 1)
+                plain = [a.value for a in arguments if a.name is None and not a.stars]
+                if self._libraries(callee, function.name) & endless.CONSUMING and len(plain) == 1:
+                    yield from plain
+            case s.Yield(_, value, True) | s.ForEach(_, value):
+                yield value
+            case e.Build(_, elements):
+                yield from (p.operand for p in elements if isinstance(p, e.Spread))
+            case _:
+                pass
 
     def _wanted(self, node: Node, function: Function) -> Iterator[e.Expression]:
         """The values of which a node wants all elements."""
@@ -96,13 +123,46 @@ class EndlessIterators:
                 return False
             case e.Index():
                 return self._is_made
+            case e.LibraryReference(name):
+                return name in endless.STREAMS or (self._foreign and self._is_foreign(name))
             case _ if not isinstance(value, _NAMED):
                 return False
         key = key_of(value, function)
         if key is None or key in seen:
             return False
         seen.add(key)
-        return any(self._is_stored(each, seen) for each in self._graph.stores.of(key))
+        stored = self._graph.stores.of(key)
+        if not stored and isinstance(value, e.Attribute):
+            return self._is_of_foreign(value.object, function, set())
+        return any(self._is_stored(each, seen) for each in stored)
+
+    def _is_foreign(self, name: str) -> bool:
+        """Whether no table knows what a function of a library gives, or an object of it does."""
+        return name.partition(".")[0] not in endless.FINITE and not (
+            self._origins.table.is_standard(name)
+            or name in self._program.functions
+            or self._origins.table.function(name).gives
+        )
+
+    def _is_of_foreign(self, value: e.Expression, function: str, seen: set[Key]) -> bool:
+        """Whether a value may be an object of a library that no table knows."""
+        if not self._foreign:
+            return False
+        held = self._origins.of(value, function)
+        if any(isinstance(o, LibraryOrigin) and self._is_foreign(o.name) for o in held):
+            return True
+        key = key_of(value, function)
+        if key is None or key in seen:
+            return False
+        seen.add(key)
+        for of, each in self._graph.stores.of(key):
+            match each:
+                case CallResult(s.Call(_, s.MethodCallee(receiver))):
+                    if self._is_of_foreign(receiver, of, seen):
+                        return True
+                case _:
+                    pass
+        return False
 
     def _is_stored(self, stored: Stored, seen: set[Key]) -> bool:
         function, value = stored
@@ -126,8 +186,14 @@ class EndlessIterators:
         """Whether a call gives such a value."""
         given = [a.value for a in call.arguments]
         plain = [a for a in call.arguments if a.name is None]
+        match call.callee:
+            case s.MethodCallee(receiver, name) if name not in endless.FINITE_METHODS:
+                if self._is_of_foreign(receiver, function, set()):
+                    return True
+            case _:
+                pass
         for name in self._libraries(call.callee, function):
-            if endless.makes(name, given):
+            if endless.makes(name, given) or (self._foreign and self._is_foreign(name)):
                 return True
             if name not in endless.LAZY or endless.is_bounded(name, given):
                 continue

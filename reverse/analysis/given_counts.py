@@ -27,9 +27,31 @@ def count_given(node: s.Call) -> e.Expression | None:
     name, value = node.callee.name, node.arguments[0].value
     if _FORWARDS.match(name) and not _OF_MANY.match(name):
         return None
-    while isinstance(value, e.Convert | e.AddressOf):
-        value = value.operand if isinstance(value, e.Convert) else value.target
+    value = _bare(value)
     type_ = getattr(value, "type", t.UNKNOWN)
     is_alone = len(node.arguments) == 1 and name != UNKNOWN_CLASS and "string" not in name
     is_number = isinstance(type_, t.Integer | t.Float) or (is_alone and type_ == t.UNKNOWN)
     return value if is_number else None
+
+
+def takes_part(node: s.Call) -> bool:
+    """Whether a call gets a text, other than a literal, and a position in it but zero.
+
+    One that lies behind its end throws ([string.cons], [string.append]).
+    """
+    values = [argument.value for argument in node.arguments]
+    text = _bare(values[0]) if len(values) > 1 else None
+    is_text = isinstance(getattr(text, "type", None), t.Text) and not isinstance(text, e.Literal)
+    return is_text and is_position(_bare(values[1]))
+
+
+def is_position(value: e.Expression) -> bool:
+    """Whether a value is a number that need not be zero."""
+    is_number = isinstance(getattr(value, "type", None), t.Integer)
+    return is_number and not (isinstance(value, e.Literal) and value.value == 0)
+
+
+def _bare(value: e.Expression) -> e.Expression:
+    while isinstance(value, e.Convert | e.AddressOf):
+        value = value.operand if isinstance(value, e.Convert) else value.target
+    return value

@@ -4,7 +4,7 @@ What locks a mutex for a block (`std::lock_guard` and its kin, `with`) holds it 
 block; `m.lock();` holds to `m.unlock();` in the same block, if nothing between leaves it. Nothing
 in there, and nothing that it calls, may lock the same one, unless it is recursive. A function that
 leaves a mutex locked locks it for who calls it: objects of classes whose constructors do so are
-guards too.
+guards too. What `enter_context` of an `ExitStack` enters is held for the rest of its block.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import dataclasses
 from collections.abc import Iterator
 
 from rebsync.reverse.analysis.element_counts import ElementCounts
-from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin, Origins
+from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origins
 from rebsync.reverse.analysis.problems import Problem, ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, Key, key_of
 from rebsync.reverse.ir import expressions as e
@@ -25,6 +25,7 @@ from rebsync.reverse.ir.walk import STATEMENTS, Node, walk
 _GUARDS = frozenset({"lock_guard", "unique_lock", "scoped_lock", "shared_lock"})
 _BY_HAND = frozenset({"lock", "lock_shared", "try_lock", "try_lock_for", "try_lock_until"})
 _NAMED = e.AddressOf | e.Local | e.Temporary | e.Global | e.Captured | e.Attribute
+_ASKING = frozenset({"acquire", "__enter__"})
 _LEAVING = (s.Return, s.Raise, s.Break, s.Continue, s.Yield, s.Unsupported)
 _LOCKS = frozenset(
     LibraryOrigin(name, True)
@@ -58,11 +59,13 @@ class HeldLocks:
                 notes.problem(used, _LONGER)
             if isinstance(used, s.Declare) and _has_guard(used.type):
                 notes.problem(used, _LONGER)
+        scoped = _scoped(function.body)
         for node, inside in _with_rest(function.body):
             mutexes = self._locked(node, function.name)
             if not mutexes:
                 continue
             inside, is_longer = _held(node, inside)
+            is_longer = is_longer and id(node) not in scoped
             if is_longer or (isinstance(node, s.Construct) and not self._unlocks(node.class_name)):
                 notes.problem(node, _LONGER)
             for name, body in self.origins.runs(inside, function.name):
@@ -89,24 +92,41 @@ class HeldLocks:
                 found = [] if receiver is None else [self._mutexes(receiver, function, _NONE)]
             case s.Construct(_, _, arguments, str() as name):
                 found = [self._locked_for(name, arguments, function)]
+            case s.Call(_, s.MethodCallee(_, "enter_context"), arguments):
+                found = [self._entered(a.value, function) for a in arguments]
             case s.Call(_, s.FunctionCallee() | s.MethodCallee(), arguments):
                 names = self.origins.reached(node, function)
                 found = [self._locked_for(name, arguments, function) for name in names]
             case s.With(context):
-                held = self.origins.of(context, function)
-                is_lock = not held.isdisjoint(_LOCKS) or AnyOrigin() in held
-                found = [self._mutexes(context, function, _NONE)] if is_lock else []
+                found = [self._entered(context, function)]
             case _:
                 return _NONE
         return _NONE.union(*found)
+
+    def _entered(self, context: e.Expression, function: str) -> Mutexes:
+        """The mutexes that `with` locks by a context; None is one that an own context locks."""
+        held = self.origins.of(context, function)
+        if not held.isdisjoint(_LOCKS) or AnyOrigin() in held:
+            return self._mutexes(context, function, _NONE)
+        own = (o.name for o in held if isinstance(o, ClassOrigin) and o.of_object)
+        enters = {f for name in own for f in self.origins.methods(name, "__enter__")}
+        return frozenset({None}) if any(map(self._asks_lock, enters)) else _NONE
+
+    def _asks_lock(self, name: str) -> bool:
+        """Whether a function, or what it runs, asks a lock of Python."""
+        body = self.origins.graph.program.function(name).body
+        return any(_acquires(inner) for _, inner in self.origins.runs(body, name))
 
     def left_by(self, name: str) -> Mutexes:
         """The mutexes that a function may leave locked; None is one that it gets."""
         if name not in self._left:
             self._left[name] = _NONE  # of those that call each other
             body = self.origins.graph.program.function(name).body
+            scoped = _scoped(body)
             found = (
-                self._locked(node, name) for node, rest in _with_rest(body) if _held(node, rest)[1]
+                self._locked(node, name)
+                for node, rest in _with_rest(body)
+                if _held(node, rest)[1] and id(node) not in scoped
             )
             self._left[name] = _NONE.union(*found)
         return self._left[name]
@@ -175,7 +195,21 @@ def _acquires(body: s.Body) -> bool:
     """Whether a body asks a lock of Python, whichever it is."""
     calls = (n for n in walk(body) if isinstance(n, s.Call))
     methods = (n.callee for n in calls if isinstance(n.callee, s.MethodCallee))
-    return any(callee.name == "acquire" for callee in methods)
+    return any(callee.name in _ASKING for callee in methods)
+
+
+def _scoped(body: s.Body) -> frozenset[int]:
+    """The ids of calls that enter a context for the rest of the block of an `ExitStack`."""
+    return frozenset(
+        id(node)
+        for outer in walk(body)
+        if isinstance(outer, s.With) and outer.body and isinstance(outer.body[0], s.Assign)
+        for node in outer.body
+        if isinstance(node, s.Call)
+        and isinstance(node.callee, s.MethodCallee)
+        and outer.body[0].value == outer.target
+        and node.callee.receiver == outer.body[0].target
+    )
 
 
 def _held(node: s.Statement, rest: s.Body) -> tuple[s.Body, bool]:

@@ -138,7 +138,7 @@ class ProgramLoops:
         self._program = origins.graph.program
         self._origins = origins
         self._counts = ElementCounts(origins)
-        self._iterators = EndlessIterators(origins)
+        self._iterators = EndlessIterators(origins, foreign=True)
         self.ends = cache(self._ends)
 
     def _ends(self, name: str, place: Span) -> bool:

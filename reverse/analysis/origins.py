@@ -5,7 +5,7 @@ By what is stored under each name anywhere in the program (flow-insensitive), as
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import TypeAlias
@@ -87,6 +87,7 @@ class Origins:
         self.table = table
         self.own = own
         self._known: dict[Key, frozenset[Origin]] = {}
+        self._run: dict[str, frozenset[str]] = {}
         # While names are looked for: what was found of them, and which this round has visited.
         self._found: dict[Key, frozenset[Origin]] = {}
         self._visited: set[Key] | None = None
@@ -288,6 +289,25 @@ class Origins:
                 reached = self.reached(node, function)
                 waiting += ((n, self.graph.program.function(n).body) for n in reached - seen)
                 seen |= reached
+
+    def all_run(self, functions: Iterable[str]) -> frozenset[str]:
+        """Some functions, and all of the program that they may run."""
+        found = set(functions)
+        waiting = list(found)
+        while waiting:
+            new = self._run_itself(waiting.pop()) - found
+            found |= new
+            waiting += new
+        return frozenset(found)
+
+    def _run_itself(self, name: str) -> frozenset[str]:
+        """The functions that one runs, without what these run."""
+        if name not in self._run:
+            function = self.graph.program.function(name)
+            found = implicit_calls(self.graph, function)
+            implicit = found.functions | (self.operators if found.has_library else frozenset())
+            self._run[name] = implicit.union(*(self.reached(n, name) for n in walk(function.body)))
+        return self._run[name]
 
     def reached(self, node: Node, function: str) -> frozenset[str]:
         """The functions of the program that a node may run; of unknown ones none is meant."""

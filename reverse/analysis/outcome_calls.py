@@ -11,7 +11,7 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
 )
 from rebsync.reverse.analysis.format_strings import has_pieces
-from rebsync.reverse.analysis.given_counts import count_given
+from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
@@ -27,7 +27,6 @@ from rebsync.reverse.analysis.problems import Problem, ProblemNotes
 from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import ImplicitCall
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS, PLAIN_CLASSES, UNKNOWN_CLASS
 from rebsync.reverse.libraries.outcome_rules import Raises
@@ -343,10 +342,11 @@ class OutcomeCalls:
             case Raises.NEGATIVE:
                 return not all(self.expressions.is_positive(v, facts) for v in values[:1])
             case Raises.COUNT:
-                count = count_given(node)
-                return count is not None and not self.expressions.is_positive(count, facts)
+                return self._is_count(node, facts)
+            case Raises.PART:
+                return takes_part(node) or self._is_count(node, facts)
             case Raises.POSITION:
-                return bool(values) and self._is_position(values[0])
+                return bool(values) and is_position(self.expressions.bare(values[0]))
             case Raises.ZERO_STEP:
                 return not all(self.expressions.is_nonzero(v, facts) for v in values[2:])
             case Raises.TEXT:
@@ -379,11 +379,10 @@ class OutcomeCalls:
         """Whether a value is a number by how it is computed."""
         return self.origins.of(value, self.function) == {PlainOrigin()}
 
-    def _is_position(self, value: e.Expression) -> bool:
-        """Whether a value is a number that need not be zero."""
-        bare = self.expressions.bare(value)
-        is_number = isinstance(getattr(bare, "type", None), t.Integer)
-        return is_number and not (isinstance(bare, e.Literal) and bare.value == 0)
+    def _is_count(self, node: s.Call, facts: Facts) -> bool:
+        """Whether a call gets a number of elements that may be negative."""
+        count = count_given(node)
+        return count is not None and not self.expressions.is_positive(count, facts)
 
     def _are_ordered(self, values: list[e.Expression], facts: Facts) -> bool:
         """Whether of two numbers the second is not the smaller one."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from rebsync.reverse.analysis.foreign_filling import ForeignFilling
 from rebsync.reverse.analysis.origins import LibraryOrigin, PlainOrigin
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
 from rebsync.reverse.analysis.problems import ProblemNotes
@@ -47,6 +48,7 @@ class SizeChanges:
         self.origins = notes.origins
         self.program = notes.origins.graph.program
         self.function = notes.function.name
+        self._foreign = ForeignFilling(notes)
 
     def in_loop(self, loop: s.Loop) -> bool:
         """Whether the containers whose sizes or ends a loop tests may get more elements."""
@@ -182,6 +184,8 @@ class SizeChanges:
         for function, inner in self.origins.runs(body, self.function):
             is_own = function == self.function
             read, known = (over, keys) if is_own else (_NOTHING, frozenset())
+            if Size.GROWS in sizes and self._foreign.may_fill(inner, function, over):
+                return True
             for node in walk(inner):
                 if isinstance(node, s.Unsupported) or self._may_be_any(node, function, over):
                     return True

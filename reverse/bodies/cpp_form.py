@@ -223,6 +223,18 @@ class CppForm:
                     yield function.cpp, place, why
                 yield from ((function.cpp, p, _UNKNOWN) for p in self._unread(function, name))
 
+    def run_by(self, functions: Iterable[CppFunction]) -> list[CppFunction]:
+        """The functions besides some that these may run, where they may lock something."""
+        own = {function.node.id for function in functions}
+        others = [f for i, f in self._functions.items() if i not in own]
+        locking = {f.name: f.code for f in others if self._may_lock(f.code.node.text or b"")}
+        if not locking:
+            return []
+        roots = [self._functions[i].name for i in own if i in self._functions]
+        body_of = self._origins.graph.program.function
+        found = {n for root in roots for n, _ in self._origins.runs(body_of(root).body, root)}
+        return [code for name, code in sorted(locking.items()) if name in found]
+
     def _may_lock(self, text: bytes) -> bool:
         """Whether the text of a function names what locks."""
         return bool(_LOCKS.search(text)) or not self._locking.isdisjoint(_WORD.findall(text))

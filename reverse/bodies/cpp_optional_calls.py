@@ -10,7 +10,9 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.building import chosen, is_calm
 from rebsync.reverse.bodies.cpp_places import HELD, resolve
+from rebsync.reverse.bodies.cpp_present import is_asked
 from rebsync.reverse.bodies.scope import Record
+from rebsync.reverse.syntax.cpp_tree import text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
@@ -29,6 +31,9 @@ def call(
         case "has_value", 0:
             return there
         case "value", 0:
+            if not is_asked(node, text_of(target)):
+                why = f'"{text_of(node)}" throws where there is no value'
+                raise reader.unread(node, why, "ask it before, or use value_or")
             return m.Name(held.name, span)
         case "value_or", 1:
             other = reader.stored(arguments[0], held)

@@ -34,6 +34,29 @@ ONE_BY_ONE = (
     | {"builtins.next", "builtins.isinstance", "builtins.print", "builtins.id", "builtins.type"}
 )
 
+# What goes through the one value that it gets to its end.
+CONSUMING = frozenset(
+    {
+        *("builtins.list", "builtins.tuple", "builtins.set", "builtins.frozenset", "builtins.dict"),
+        *("builtins.sum", "builtins.min", "builtins.max", "builtins.sorted", "builtins.any"),
+        *("builtins.all", "collections.Counter"),
+    }
+)
+# Modules besides those of Python and ROS whose values have an end when they are iterated: arrays,
+# tables, images, what a file has that is read at once.
+FINITE = frozenset(
+    {"numpy", "scipy", "pandas", "cv2", "PIL", "yaml", "matplotlib", "networkx", "shapely"}
+    | {"tf", "tf2_ros", "tf_transformations", "transforms3d", "sensor_msgs_py", "cv_bridge"}
+    | {"ros_numpy", "rospkg", "ament_index_python", "xacro", "urdf_parser_py", "psutil"}
+)
+# Methods whose results have an end, whatever their object is: of mappings and texts.
+FINITE_METHODS = frozenset(
+    {"items", "keys", "values", "iteritems", "iterkeys", "itervalues", "split", "splitlines"}
+    | {"tolist", "copy"}
+)
+# What gives a line when somebody writes one.
+STREAMS = frozenset({"sys.stdin"})
+
 
 def makes(name: str, given: Sequence[e.Expression]) -> bool:
     """Whether a call of a function with some arguments gives elements without end.

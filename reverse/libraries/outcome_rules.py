@@ -41,6 +41,7 @@ class Raises(Enum):
     COUNT = "a first one that is a number of elements, and may be negative"
     POSITION = "a first one that is a number, and no zero"
     NO_DEFAULT = "no second one, which would be given instead"
+    PART = "a text that is no literal, and a position in it that is no zero; or as COUNT"
     ZERO_STEP = "a third one that may be zero"
     INFINITE = "a first one that may be no number, or greater than all"
     TEXT = "a first one that may be no number"
@@ -95,9 +96,14 @@ RULES = (
     OutcomeRule("tolower snprintf sprintf printf puts fprintf fputs fflush putchar time difftime"),
     OutcomeRule("unique_ptr shared_ptr static_pointer_cast"),
     OutcomeRule(
-        "vector deque list forward_list string wstring basic_string make_unique make_shared new",
+        "vector deque list forward_list make_unique make_shared new",
         raises="std::length_error",
         when=Raises.COUNT,
+    ),
+    OutcomeRule(
+        "string wstring basic_string",
+        raises="std::length_error std::out_of_range",
+        when=Raises.PART,
     ),
     OutcomeRule("dynamic_pointer_cast in_place nullopt make_optional optional numeric_limits"),
     OutcomeRule("array map set unordered_map unordered_set multimap multiset"),
@@ -300,6 +306,12 @@ RULES = (
     ),
     OutcomeRule(
         "std::vector.at std::array.at std::map.at std::string.at", raises="std::out_of_range"
+    ),
+    OutcomeRule(
+        "std::string.append std::string.assign",
+        raises="std::out_of_range",
+        size=Size.ANY,
+        when=Raises.PART,
     ),
     OutcomeRule("std::string.substr", raises="std::out_of_range"),
     OutcomeRule("std::optional.value", raises="std::bad_optional_access"),

@@ -134,7 +134,7 @@ def node_class() -> str:
 
 def is_of_client(name: str) -> bool:
     """Whether a full name is of a client library, or of what is used with it."""
-    return name.partition(".")[0] in _modules()
+    return name.partition(".")[0] in client_modules()
 
 
 def of_nodes(name: str) -> bool:
@@ -143,7 +143,8 @@ def of_nodes(name: str) -> bool:
 
 
 @derived
-def _modules() -> frozenset[str]:
+def client_modules() -> frozenset[str]:
+    """The modules of the client libraries, and of what is used with them."""
     return frozenset(m for library in clients() for m in library.marks)
 
 

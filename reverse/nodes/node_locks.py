@@ -7,7 +7,7 @@ from rebsync.reverse.nodes.node_bodies import Bodies
 
 
 def note_locks(bodies: Bodies) -> None:
-    """Lists the locks of a node that may be held already, or for longer than a block."""
-    unit = bodies.unit
-    for cpp, place, why in bodies.common.form(bodies.code).odd_locks(unit.functions):
+    """Lists locks of a node, and of what helps it, that may be held already, or for too long."""
+    unit, form = bodies.unit, bodies.common.form(bodies.code)
+    for cpp, place, why in form.odd_locks((*unit.functions, *form.run_by(unit.functions))):
         bodies.findings.unreadable(cpp.source, Unread(place, why), unit.name)

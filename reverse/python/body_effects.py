@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 
 from tree_sitter import Node
@@ -14,15 +15,23 @@ from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_callers import UNGIVEN
-from rebsync.reverse.python.py_index import Scope, last_name
+from rebsync.reverse.python.py_index import Scope, arguments_of, last_name
 from rebsync.reverse.python.py_tree import decorators_of, field, named, nodes_in, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Instance, Made, NoneValue, Value, Ways
 from rebsync.reverse.syntax.ancestors import ancestors, climb
 
 DEFINITIONS = frozenset({"function_definition", "class_definition", "decorated_definition"})
 _DECORATORS = frozenset({"staticmethod", "classmethod", "property"})
+# What leaves a function one that does the same when it is called.
+_PLAIN_DECORATOR = re.compile(
+    r"(?:(?:abc|typing|typing_extensions|functools|numba)\.)?(?:staticmethod|classmethod|property"
+    r"|abstractmethod|override|(?:lru_)?cache|cached_property|n?jit|\w+\.setter)(?:\(.*\))?",
+    re.DOTALL,
+)
 _DEEPEST = 4
 HARMLESS_DECORATORS = frozenset({"staticmethod"})
+_QUEUES = frozenset({"Queue", "LifoQueue", "PriorityQueue", "JoinableQueue"})
+_LOOPS = frozenset({"while_statement", "for_statement"})
 _WORDS = frozenset({"await", "yield", "named_expression"})
 
 
@@ -60,7 +69,7 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
         all(is_quiet(reading, w) for w in ways) and _are_quiet(reading, name, function, ways)
     ):
         return False
-    if waits_alone(node):
+    if waits_alone(node) or _may_be_full(reading, node, frame.scope):
         return False
     return name in libraries.harmless() or (
         bool(name) and libraries.acting().match(name) is None and _ends(name)
@@ -78,6 +87,22 @@ def waits_alone(call: Node) -> bool:
     values = [a for a in named(field(call, "arguments")) if a.type != "keyword_argument"]
     is_method = function.type == "attribute" and last_name(function) in WAITING_ALONE
     return is_method and (not values or values[0].type in ("true", "false"))
+
+
+def _may_be_full(reading: Reading, call: Node, scope: Scope) -> bool:
+    """Whether a call puts something into a queue with a largest size, which then may wait."""
+    function = field(call, "function")
+    if function.type != "attribute" or last_name(function) != "put":
+        return False
+    plain, keywords = arguments_of(call)
+    if len(plain) > 1 or keywords:
+        return True
+    for way in reading.values.ways(field(function, "object"), scope):
+        if isinstance(way, Made) and way.by.rpartition(".")[2] in _QUEUES:
+            plain, keywords = arguments_of(way.call)
+            if plain or keywords:
+                return True
+    return False
 
 
 def may_be_of_message(reading: Reading, target: Node, frame: Frame) -> bool:
@@ -176,12 +201,16 @@ def is_quiet_body(reading: Reading, scope: Scope, depth: int) -> bool:
 def _is_quiet(reading: Reading, scope: Scope, depth: int) -> bool:
     if depth > _DEEPEST or scope.outer or has_nonlocals(scope):
         return False
+    if not all(_PLAIN_DECORATOR.fullmatch(each) for each in scope.decorators):
+        return False
     return all(_is_quiet_node(reading, n, scope, depth) for n in nodes_in(scope.node))
 
 
 def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bool:
     if node.type in _WORDS:
         return False
+    if node.type in ("raise_statement", "assert_statement"):
+        return _is_caught(node, scope)
     if node.type in ("for_statement", "for_in_clause"):
         return _has_names(field(node, "left"))
     if node.type in ("delete_statement", "as_pattern_target"):
@@ -197,6 +226,7 @@ def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bo
     if (
         not name
         or waits_alone(node)
+        or _may_be_full(reading, node, scope)
         or (libraries.acting().match(name) is not None and name not in libraries.harmless())
         or not _ends(name)
     ):
@@ -208,6 +238,12 @@ def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bo
         and all(is_quiet(reading, w, depth + 1) for w in ways)
         and _are_quiet(reading, name, function, ways, depth + 1)
     )
+
+
+def _is_caught(node: Node, scope: Scope) -> bool:
+    """Whether a function may handle the exception that a statement of it raises."""
+    around = ancestors(node, lambda n: n == scope.node)
+    return any(n.type == "try_statement" for n in around)
 
 
 def _may_divide_by_zero(reading: Reading, node: Node, frame: Frame) -> bool:
@@ -276,7 +312,14 @@ def _is_looked_at(node: Node) -> bool:
 
 def is_still(reading: Reading, own: Scope) -> bool:
     """Whether a function of the node changes nothing: it only computes what it gives."""
-    return HARMLESS_DECORATORS.issuperset(own.decorators) and _changes_nothing(reading, own)
+    is_plain = HARMLESS_DECORATORS.issuperset(own.decorators)
+    return is_plain and _changes_nothing(reading, own) and _comes_back(reading, own)
+
+
+def _comes_back(reading: Reading, own: Scope) -> bool:
+    """Whether the loops of a function end: nobody reads them where it only gives a value."""
+    loops = (n for n in nodes_in(own.node) if n.type in _LOOPS)
+    return all(reading.form is not None and reading.form.ends(own.py, n) for n in loops)
 
 
 def getter(reading: Reading, node: Node, frame: Frame) -> Scope | None:

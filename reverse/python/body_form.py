@@ -12,18 +12,26 @@ from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.analysis.size_changes import GROWING
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.program import Program
+from rebsync.reverse.ir.program import Function, Program
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.endless import FINITE
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
-from rebsync.reverse.python.py_index import PyCode
+from rebsync.reverse.libraries.size_effects import CHANGING_OBJECT
+from rebsync.reverse.python.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.python.py_tree import Py
 from rebsync.source import NOWHERE, Source, Span
 
 # What files name that have, or make, iterators without end.
-_ENDLESS = re.compile(rb"\bitertools\b|\biter\s*\(|\b__(?:next|getitem)__\b|\byield\b")
+_ENDLESS = re.compile(
+    rb"\bitertools\b|\biter\s*\(|\b__(?:next|getitem)__\b|\byield\b|\bsys\.stdin\b"
+)
+_LOOPS = re.compile(rb"\b(?:while|for)\b")
+_LOCKS = re.compile(rb"[lL]ock|\bwith\b|\b(?:acquire|Condition|\w*Semaphore|enter_context)\b")
+_IMPORTS = re.compile(rb"^\s*(?:import|from)\s+(\w+)", re.MULTILINE)
 
 
 class PyForm:
@@ -59,22 +67,119 @@ class PyForm:
 
         The functions are those with some nodes of trees, by their ids.
         """
-        files = [module.py for module in self._code.modules.values()]
-        if not any(_ENDLESS.search(py.data) for py in files):
+        files = self._files
+        if not any(_ENDLESS.search(py.data) or self._has_foreign(py) for py in files):
             return
+        for name in sorted(self._origins.all_run(f.name for f in self._roots(nodes))):
+            for place in self._endless_in(name):
+                is_there = place != NOWHERE
+                function = self.program.function(name)
+                yield self._file_of[name].source, place if is_there else function.place
+
+    def _endless_in(self, name: str) -> list[Span]:
+        """The places in one function that go through iterators that may have no end."""
+        if name not in self._gone_through:
+            found = self._iterators.gone_through(self.program.function(name))
+            self._gone_through[name] = [getattr(node, "place", NOWHERE) for node in found]
+        return self._gone_through[name]
+
+    @cached_property
+    def _gone_through(self) -> dict[str, list[Span]]:
+        return {}
+
+    @cached_property
+    def _iterators(self) -> EndlessIterators:
+        return EndlessIterators(self._origins)
+
+    def hanging(
+        self, nodes: Collection[int], classes: Collection[int]
+    ) -> Iterator[tuple[Source, Span]]:
+        """The loops that are not shown to end in functions that others call, and nobody reads.
+
+        What is read are functions with some `nodes`, by their ids, and those of some `classes`.
+        """
+        unread = self._unread(nodes, _LOOPS)
+        places = {p for p, s in unread.items() if s.owner is None or s.owner.node.id not in classes}
+        for name in sorted(self._called_from(nodes)) if places else ():
+            py, function = self._file_of[name], self.program.function(name)
+            if (id(py), function.place) not in places:
+                continue
+            for node in walk(function.body):
+                match node:
+                    case s.Loop(place=place) if not self._loops.ends(name, place):
+                        pass
+                    case s.ForEach(place=place) if _fills_itself(node):
+                        pass
+                    case _:
+                        continue
+                yield py.source, place if place != NOWHERE else function.place
+
+    def odd_locks(self, nodes: Collection[int]) -> Iterator[tuple[Source, Span]]:
+        """Where a thread may wait for itself in functions that others run, and nobody reads.
+
+        What is read are functions with some nodes of trees, by their ids.
+        """
+        places = self._unread(nodes, _LOCKS)
+        read = {f.name for f in self._roots(nodes)} if places else set()
+        for name in sorted(self._origins.all_run(read) - read):
+            py, function = self._file_of[name], self.program.function(name)
+            is_asked = (id(py), function.place) in places
+            for problem in sorted(self._locks.of(name), key=str) if is_asked else ():
+                is_there = problem.place != NOWHERE
+                yield py.source, problem.place if is_there else function.place
+
+    def _unread(
+        self, nodes: Collection[int], words: re.Pattern[bytes]
+    ) -> dict[tuple[int, Span], Scope]:
+        """The functions besides some, by their places, that have one of some words."""
+        return {
+            (id(scope.py), scope.py.span(scope.node)): scope
+            for scope in self._code.scopes.values()
+            if scope.kind == FUNCTION
+            and scope.node.id not in nodes
+            and words.search(scope.node.text or b"")
+        }
+
+    @cached_property
+    def _file_of(self) -> dict[str, Py]:
+        """The files of functions, by their names."""
+        return {name: py for py in self._files for name in self._functions(py)}
+
+    def _called_from(self, nodes: Collection[int]) -> set[str]:
+        """The functions that some functions call, or call in turn."""
+        waiting, found = self._roots(nodes), set[str]()
+        while waiting:
+            function = waiting.pop()
+            for node in walk(function.body):
+                match node:
+                    case s.Call(_, callee):
+                        called = self._origins.graph.callee(callee, function).functions
+                    case s.Construct():
+                        called = self._origins.reached(node, function.name)
+                    case _:
+                        continue
+                waiting += (self.program.function(name) for name in called - found)
+                found |= called
+        return found
+
+    def _roots(self, nodes: Collection[int]) -> list[Function]:
+        """The functions with some nodes of trees, by their ids."""
         scopes = [scope for scope in self._code.scopes.values() if scope.node.id in nodes]
         read = {(id(scope.py), scope.py.span(scope.node)) for scope in scopes}
-        of = {name: py for py in files for name in self._functions(py)}
-        roots = [
+        of = {name: py for py in self._files for name in self._functions(py)}
+        return [
             f for n, py in of.items() if (id(py), (f := self.program.function(n)).place) in read
         ]
-        found = {n for f in roots for n, _ in self._origins.runs(f.body, f.name)}
-        iterators = EndlessIterators(self._origins)
-        for name in sorted(found):
-            for node in iterators.gone_through(self.program.function(name)):
-                place = getattr(node, "place", NOWHERE)
-                is_there = place != NOWHERE
-                yield of[name].source, place if is_there else self.program.function(name).place
+
+    @property
+    def _files(self) -> list[Py]:
+        return [module.py for module in self._code.modules.values()]
+
+    def _has_foreign(self, py: Py) -> bool:
+        """Whether a file imports what no table knows; modules of the files may be among it."""
+        table = LibraryOutcomes(Language.PYTHON)
+        roots = {m[1].decode() for m in _IMPORTS.finditer(py.data)}
+        return any(root not in FINITE and not table.is_standard(root) for root in roots)
 
     def waits_for_itself(self, py: Py, statement: Node) -> bool:
         """Whether what `with lock:` runs may enter the same lock again, and so wait for ever."""
@@ -96,3 +201,13 @@ class PyForm:
 
 def _is_in(place: Span, around: Span) -> bool:
     return around.start <= place.start and place.end <= around.end
+
+
+def _fills_itself(loop: s.ForEach) -> bool:
+    """Whether a loop puts elements into what it goes through."""
+    calls = (n.callee for n in walk(loop.body) if isinstance(n, s.Call))
+    methods = (c for c in calls if isinstance(c, s.MethodCallee) and c.receiver == loop.iterable)
+    table = LibraryOutcomes(Language.PYTHON)
+    return any(
+        c.name in CHANGING_OBJECT or table.method(None, c.name).size in GROWING for c in methods
+    )

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.findings import IN_THREADS, Findings, Grade, Unread
+from rebsync.reverse.findings import IN_THREADS, Findings, Unread
 from rebsync.reverse.graph import (
     ClientFact,
     Fact,
@@ -36,6 +36,8 @@ from rebsync.reverse.python.py_worth import Value
 from rebsync.reverse.unknowns import Open
 
 ENDLESS = "what this goes through may have no end"
+_HANGS = "it is not known whether this loop ends"
+_WAITS = "this may wait for ever for a lock that is held"
 _OPEN = "add the package that has the receivers, if they matter"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
 _CALLS = "add a class to the model that calls it, or message servers that send to it"
@@ -112,18 +114,18 @@ def list_shared(
 def list_endless(
     units: Sequence[PyUnit], readings: Mapping[str, Reading], findings: Findings
 ) -> None:
-    """Where units go through iterators that may have no end, in code that is left out."""
+    """Where units go through iterators that may have no end, or loop, in code that is left out."""
     for unit in units:
         reading = readings[unit.name]
-        for source, span in () if reading.form is None else reading.form.endless(reading.bodies):
-            is_listed = any(
-                f.grade is Grade.UNREADABLE
-                and f.source is source
-                and (f.span.start <= span.start and span.end <= f.span.end)
-                for f in findings.all
-            )
-            if not is_listed:
-                findings.unreadable(source, Unread(span, ENDLESS), unit.name)
+        if reading.form is None:
+            continue
+        classes = {scope.node.id for scope in reading.nodes}
+        endless = ((*place, ENDLESS) for place in reading.form.endless(reading.bodies))
+        hanging = ((*place, _HANGS) for place in reading.form.hanging(reading.bodies, classes))
+        locks = ((*place, _WAITS) for place in reading.form.odd_locks(reading.bodies))
+        for source, span, why in (*endless, *hanging, *locks):
+            if not findings.has_unreadable(source, span):
+                findings.unreadable(source, Unread(span, why), unit.name)
 
 
 def _set_elsewhere(unit: PyUnit, reading: Reading) -> Iterator[tuple[Scope, Binding]]:

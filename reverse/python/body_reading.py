@@ -40,6 +40,7 @@ from rebsync.reverse.python.body_scope import (
     unknown,
 )
 from rebsync.reverse.python.interfaces import interface_of
+from rebsync.reverse.python.node_effects import NodeEffects
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
 from rebsync.reverse.python.py_lookup import attribute, bound
 from rebsync.reverse.python.py_tree import field, text_of
@@ -86,6 +87,7 @@ class Reading:
     stored: set[int] = with_default(default_factory=set)
     places: dict[str, tuple[Source, Span]] = with_default(default_factory=dict)
     form: PyForm | None = None
+    effects: NodeEffects | None = None
 
     @property
     def code(self) -> PyCode:

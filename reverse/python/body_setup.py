@@ -16,10 +16,13 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import body_calls, body_loops, body_methods, body_switches, body_timers
 from rebsync.reverse.python.body_effects import is_harmless
+from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_units import wakes
 from rebsync.reverse.python.py_index import CLASS, arguments_of, last_name
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class
+
+_NAMES = frozenset({"identifier", "attribute"})
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.body_statement_reader import BodyStatementReader
@@ -122,8 +125,35 @@ def _started(reader: BodyStatementReader, call: Node, name: str) -> Iterator[m.S
         _bind_object(reader, call)
         return body_methods.inlined(reader, own, call) if own is not None else iter(())
     if any(isinstance(w, Class) and w.scope.kind == CLASS for w in ways):
-        return iter(())
+        return _made(reader, call)
     return None
+
+
+def _made(reader: BodyStatementReader, call: Node) -> Iterator[m.Statement]:
+    """An object of a class beside the node: a node of its own, or one that only helps.
+
+    That it keeps the node that it gets is no matter, until something is called of it.
+    """
+    plain, keywords = arguments_of(call)
+    for given in (*plain, *keywords.values()):
+        yield from _argument(reader, given)
+    effects, frame = reader.reading.effects, reader.frame
+    ways = reader.reading.values.ways(field(call, "function"), frame.scope)
+    helpers = [w.scope for w in ways if isinstance(w, Class)]
+    made = (c for c in helpers if c not in reader.reading.nodes)
+    if effects is not None and any(map(effects.of_construction, made)):
+        raise Unread(frame.span(call), "to make this object acts on the node")
+
+
+def _argument(reader: BodyStatementReader, given: Node) -> Iterator[m.Statement]:
+    """What an argument does when it is evaluated."""
+    if given.type in _NAMES:
+        return
+    known = asked(reader, given) if given.type == "call" else None
+    if known is not None:
+        yield from known
+    elif not is_harmless(reader.reading, given, reader.frame):
+        raise Unread(reader.frame.span(given), f'what "{short(given)}" does is not known')
 
 
 def _of_new_object(

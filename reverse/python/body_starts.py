@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from tree_sitter import Node
 
@@ -29,7 +29,7 @@ from rebsync.reverse.python.body_units import scope_around
 from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import MODULE, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.py_worth import Class
 from rebsync.reverse.texts import no_text
 
@@ -46,7 +46,7 @@ def constructor(reading: Reading, loops: list[EndlessLoop]) -> tuple[m.Statement
     if len(made) == 1:
         call, scope = made[0]
         nodes = named(scope.node) if scope.kind == MODULE else body_of(scope)
-        words = (f"{unit.lineage[0].name}(", "sleep", *_variable(call))
+        words = (f"{unit.lineage[0].name}(", "sleep", *_aliases(nodes, _variable(call)))
         return _read(reading, scope, nodes, loops, words)
     own = reading.method("__init__", 0)
     return _read(reading, own, body_of(own), loops) if own is not None else ()
@@ -133,3 +133,16 @@ def _is_at(reading: Reading, binding: Binding, scope: Scope) -> bool:
     """Whether a name is bound in a scope itself, not by a function in it."""
     path = scope.py.source.path
     return binding.how == "value" and scope_around(reading.code, binding.node, path) is scope
+
+
+def _aliases(nodes: Sequence[Node], names: tuple[str, ...]) -> tuple[str, ...]:
+    """Some variables, and those that get a value which some of them are named in."""
+    found = names
+    for node in nodes if names else ():
+        for inner in nodes_in(node):
+            if inner.type != "assignment" or inner.child_by_field_name("right") is None:
+                continue
+            target, used = field(inner, "left"), nodes_in(field(inner, "right"))
+            if target.type == "identifier" and any(text_of(n) in found for n in used):
+                found = (*found, text_of(target))
+    return tuple(dict.fromkeys(found))

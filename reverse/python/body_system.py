@@ -37,8 +37,12 @@ from rebsync.reverse.python.body_units import (
     servers_of,
     units_of,
 )
+from rebsync.reverse.python.escapes import list_escapes
 from rebsync.reverse.python.handle_stores import list_handle_stores
+from rebsync.reverse.python.node_effects import NodeEffects
+from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_values import PyValues
+from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.python.spinning import list_unserved
 
 _MOST_ROUNDS = 60
@@ -107,6 +111,7 @@ class PySystem:
         readings = {u.name: _of(u, read)[0].reading for u in wanted}
         list_shared(wanted, readings, self.findings)
         list_endless(wanted, readings, self.findings)
+        list_escapes(wanted, values, round_.effects, self._generated(), self.findings)
         list_handle_stores(wanted, values, self.findings)
         list_unserved(wanted, values, self.started.entries, served, self.findings)
         list_wiring(joined.wiring, {u.name for u in wanted}, self.findings)
@@ -127,6 +132,13 @@ class PySystem:
                 new.all = [f for f in new.all if (id(f.source), f.span, f.why) not in known]
                 new.statements.clear()
             self.findings.take(new)
+
+    def _generated(self) -> frozenset[str]:
+        """The files that have generated code, which is read otherwise."""
+        others = (f for f in self.graph.facts if not self.is_people(f))
+        found = frozenset(f.site.place.source.path for f in others)
+        sources = (module.py.source for module in self.values.code.modules.values())
+        return found.union(s.path for s in sources if is_runtime_file(s))
 
     def _is_wanted(self, unit: PyUnit) -> bool:
         return self.only in (None, unit.module.py.source.path)
@@ -158,15 +170,21 @@ class _ReadingRound:
     alike: dict[_Kind, list[Instance]] = with_default(default_factory=dict)
     learnt: Learnt = with_default(default_factory=Learnt)
     before: int = 0
+    effects: NodeEffects = with_default(init=False)
     _read: dict[_Kind, _Read] = with_default(default_factory=dict)
     # As no round changes them: by unit the names of variables, by kind all known rebecs.
     _names: dict[str, set[str]] = with_default(default_factory=dict)
     _known: dict[_Kind, list[tuple[str, str]]] = with_default(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self.effects = NodeEffects(self.values, self._classes)
         for unit in self.units:
             for number, alike in enumerate(self.joined.wiring.alike(unit.unit)):
                 self.alike[unit, number] = alike
+
+    @property
+    def _classes(self) -> frozenset[Scope]:
+        return frozenset(s for u in self.units for s in u.lineage)
 
     def settled(self) -> dict[_Kind, PyClass]:
         """The units as they are read when nothing changes any more."""
@@ -217,10 +235,11 @@ class _ReadingRound:
             self._names[unit.name],
             dict(self._periods(unit, alike, findings)),
             self.system.unit_of_time,
-            frozenset(s for u in self.units for s in u.lineage),
+            self._classes,
             self.system.started.entries,
             used_names={n for n, _ in known} | {s.name for s in own.values()},
             form=self.system.form,
+            effects=self.effects,
         )
 
     def _periods(

@@ -24,8 +24,8 @@ _METACLASS = "abc.ABCMeta"
 _GENERIC = frozenset({"typing.Generic", "typing.Protocol", "typing_extensions.Protocol"})
 # Of the names that Python looks for in a class, those that change no behaviour of its objects.
 _PLAIN_NAMES = frozenset({"__init__", "__str__", "__repr__", "__doc__"})
-# The libraries besides those of ROS whose classes generated ones may have above them.
-_PLAIN_BASES = frozenset({"abc", "typing", "builtins"})
+# The libraries besides those of ROS whose classes nodes may have above them: they call nothing.
+PLAIN_BASES = frozenset({"abc", "typing", "typing_extensions", "builtins", "enum"})
 _HINT = "take it out: no model says this"
 
 
@@ -34,7 +34,7 @@ def list_creation(
 ) -> None:
     """Lists what makes a generated class, or a function of it, another than is read."""
     for node, why in (
-        *class_departures(values, owner, _PLAIN_BASES | {c.name for c in clients()}),
+        *class_departures(values, owner, PLAIN_BASES | {c.name for c in clients()}),
         *special_names(owner, _PLAIN_NAMES),
         *renamed_decorators(values, functions, DECORATORS | {"property"}),
     ):

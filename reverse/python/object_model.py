@@ -12,9 +12,10 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.libraries.python import client_modules
 from rebsync.reverse.python.body_effects import is_getter
 from rebsync.reverse.python.body_reading import Reading
-from rebsync.reverse.python.class_creation import class_departures
+from rebsync.reverse.python.class_creation import PLAIN_BASES, class_departures
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, Scope
 from rebsync.reverse.python.py_tree import field, text_of
@@ -53,7 +54,7 @@ def _departures(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
 
 def _of_class(reading: Reading, scope: Scope) -> Iterator[tuple[Scope, Node, str]]:
     """What makes a class another than its body says."""
-    for node, why in class_departures(reading.values, scope):
+    for node, why in class_departures(reading.values, scope, PLAIN_BASES | client_modules()):
         yield scope, node, why
 
 

@@ -251,10 +251,14 @@ def discarded(context: Context, node: Node) -> None:
 
 
 def _may_run(expression: e.Expression) -> bool:
-    if any(
-        isinstance(n, e.Binary) or (isinstance(n, e.Index) and n.checked) for n in walk(expression)
-    ):
-        return True
+    for inner in walk(expression):
+        match inner:
+            case e.Binary() | e.Index(checked=True):
+                return True
+            case e.Dereference(of) if isinstance(getattr(of, "type", None), t.Optional):
+                return True  # `x.value();` throws where there is none
+            case _:
+                pass
     return isinstance(expression, e.Attribute | e.Index | e.Dereference) and expression.dynamic
 
 

@@ -25,6 +25,9 @@ from rebsync.reverse.ir.cpp.types import ReferenceKind
 from rebsync.reverse.syntax.cpp_tree import named
 from rebsync.source import Span
 
+# What may be a text of which a part is taken, and no letter of one that is listed.
+_PLACES = frozenset({"identifier", "field_expression", "qualified_identifier"})
+
 
 def initialised(context: Context, target: e.Lvalue, type_: t.Type, node: Node) -> None:
     """Emits what gives a new object its first value."""
@@ -104,8 +107,8 @@ def by_arguments(
     if isinstance(type_, t.Record | t.RosMessage | t.Unknown):
         context.world.call_library(context, target, type_, nodes, place)
         return
-    if isinstance(type_, t.Text) and len(nodes) == 2:
-        _repeated(context, target, nodes, place)
+    if isinstance(type_, t.Text) and len(nodes) > 1:
+        _text(context, target, nodes, place)
         return
     if len(nodes) != 1:
         raise Unlowered("a construction by arguments that is not known")
@@ -155,13 +158,20 @@ def _filled(
     context.emit(s.Call(target, s.LibraryCallee("std::vector"), arguments, place))
 
 
-def _repeated(context: Context, target: e.Lvalue, nodes: Sequence[Node], place: Span) -> None:
-    """`std::string s(count, 'x');`."""
-    count, letter = (lower_value(context, node) for node in nodes)
-    if not isinstance(count.type, t.Integer) or not isinstance(letter.type, t.Integer):
+def _text(context: Context, target: e.Lvalue, nodes: Sequence[Node], place: Span) -> None:
+    """`std::string s(count, 'x');` and `std::string s(other, position, count);`."""
+    values = [lower_value(context, node) for node in nodes]
+    numbers = [isinstance(value.type, t.Integer) for value in values]
+    is_part = isinstance(values[0].type, t.Text) and all(numbers[1:]) and len(values) <= 3
+    if not is_part and numbers != [True, True]:
         raise Unlowered("a construction by arguments that is not known")
-    number = implicitly(context, count, t.Integer(64, False), place).expression
-    arguments = (s.CallArgument(number), s.CallArgument(as_value(context, letter, place)))
+    found = [
+        implicitly(context, v, t.Integer(64, False), place).expression
+        if is_number and not (number == 1 and not is_part)
+        else as_value(context, v, place)
+        for number, (v, is_number) in enumerate(zip(values, numbers, strict=True))
+    ]
+    arguments = tuple(map(s.CallArgument, found))
     context.emit(s.Call(target, s.LibraryCallee("std::string"), arguments, place))
 
 
@@ -201,6 +211,9 @@ def braced(context: Context, target: e.Lvalue, type_: t.Type, node: Node) -> Non
 def _only(
     context: Context, target: e.Lvalue, type_: t.Type, nodes: Sequence[Node], place: Span
 ) -> None:
+    if isinstance(type_, t.Text) and len(nodes) > 1 and nodes[0].type in _PLACES:
+        _text(context, target, nodes, place)
+        return
     if len(nodes) != 1:
         raise Unlowered("a list in braces for one value")
     initialised(context, target, type_, nodes[0])

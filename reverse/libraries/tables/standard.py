@@ -132,7 +132,14 @@ ACTING_WORDS = (
     *("register", "setattr", "delattr", "connect", "raise", "input", "acquire", "set_param"),
     *("create_(pub|sub|timer|serv|client|rate|node|guard)", "signal", "send_goal"),
     *("add_(node|call|on_|done|list|wait)", "execute", "getch", "readline", r"read\b", "recv"),
-    *("accept", "join", "get_key", "import_module", "__(import|call|setattr|delattr)", "globals"),
+    *(
+        "accept",
+        "join",
+        "get_key",
+        "import_module",
+        "__(import|call|setattr|delattr|enter|exit)",
+        "globals",
+    ),
 )
 # Methods of queues and threads of Python that wait where they get no value: of dictionaries and
 # texts methods of the same names get one.

@@ -1,0 +1,169 @@
+"""Small nodes that differ in one thing: what harms a property, and its harmless twin beside it.
+
+A row of `pieces/*.toml` has the parts that are put into one of the nodes below. Its verdict was
+written before the first answer, by reading the code: where it is undetermined a run of the code
+breaks the property, or may, and no run of the model does.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from rebsync.cli import main
+from rebsync.records import dataclass
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+_STATUS = {"satisfied": 0, "violated": 3, "undetermined": 4}
+_MANIFEST = """<package format="2">
+  <name>piece</name>
+  <version>0.1.0</version>
+  <description>A node that people wrote.</description>
+  <maintainer email="who@example.org">Who</maintainer>
+  <license>MIT</license>
+  <depend>roscpp</depend>
+  <depend>rospy</depend>
+  <depend>std_msgs</depend>
+</package>
+"""
+_BUILD = """cmake_minimum_required(VERSION 3.0)
+project(piece)
+find_package(catkin REQUIRED COMPONENTS roscpp std_msgs)
+catkin_package()
+add_executable(gate src/gate.cpp)
+target_link_libraries(gate ${catkin_LIBRARIES})
+"""
+_PYTHON = """#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+{module}
+
+class Gate:
+    def __init__(self):
+        self.level = 0
+        self.out = rospy.Publisher("out", Int32, queue_size=10)
+{start}
+        rospy.Subscriber("go", Int32, self.on_go)
+
+    def bump(self, *args):
+        self.level = 7
+
+{methods}
+    def on_go(self, msg):
+{body}
+        self.out.publish(Int32(data={value}))
+
+
+if __name__ == "__main__":
+    rospy.init_node("gate")
+    gate = Gate()
+    rospy.spin()
+"""
+_CPP = """#include <ros/ros.h>
+#include <std_msgs/Int32.h>
+{module}
+class Gate {{
+ public:
+  Gate() {{
+    out_ = nh_.advertise<std_msgs::Int32>("out", 10);
+    sub_ = nh_.subscribe("go", 10, &Gate::onGo, this);
+{start}
+  }}
+
+ private:
+  void onGo(const std_msgs::Int32::ConstPtr& msg) {{
+{body}
+    std_msgs::Int32 told;
+    told.data = 1;
+    out_.publish(told);
+  }}
+{methods}
+  ros::NodeHandle nh_;
+  ros::Publisher out_;
+  ros::Subscriber sub_;
+}};
+
+int main(int argc, char** argv) {{
+  ros::init(argc, argv, "gate");
+  Gate gate;
+  ros::spin();
+}}
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A row: the parts of a node, or its whole `text`."""
+
+    name: str
+    verdict: str
+    module: str = ""
+    start: str = ""
+    methods: str = ""
+    body: str = ""
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A file of rows, with the question that is asked of all of them."""
+
+    ask: str
+    is_cpp: bool
+    pieces: tuple[Piece, ...]
+
+
+def _table(path: Path) -> Table:
+    found = tomllib.loads(path.read_text(encoding="utf-8"))
+    pieces = tuple(Piece(**row) for row in found["piece"])
+    return Table(found["ask"], path.stem.startswith("cpp"), pieces)
+
+
+_TABLES = {p.stem: _table(p) for p in sorted((Path(__file__).parent / "pieces").glob("*.toml"))}
+_ROWS = [
+    pytest.param(table, piece, id=f"{name}-{piece.name}")
+    for name, table in _TABLES.items()
+    for piece in table.pieces
+]
+
+
+def _written(table: Table, piece: Piece, package: Path) -> None:
+    """A package with the node of a row."""
+    (package / "package.xml").write_text(_MANIFEST, encoding="utf-8")
+    path = package / ("src/gate.cpp" if table.is_cpp else "scripts/gate.py")
+    path.parent.mkdir()
+    if table.is_cpp:
+        (package / "CMakeLists.txt").write_text(_BUILD, encoding="utf-8")
+    depth = 4 if table.is_cpp else 8
+    text = piece.text or (_CPP if table.is_cpp else _PYTHON).format(
+        module=piece.module,
+        start=_indented(piece.start, depth),
+        methods=_indented(piece.methods, depth // 2 if not table.is_cpp else 2),
+        body=_indented(piece.body, depth),
+        value="1" if "leads to" in table.ask else "self.level",
+    )
+    path.write_text(text, encoding="utf-8")
+    path.chmod(0o755)
+
+
+def _indented(text: str, depth: int) -> str:
+    return "\n".join(" " * depth + line if line else "" for line in text.splitlines())
+
+
+@pytest.mark.parametrize(("table", "piece"), _ROWS)
+def test_what_may_harm_is_not_satisfied(table: Table, piece: Piece, tmp_path: Path) -> None:
+    _written(table, piece, tmp_path)
+    status = main(["ask", str(tmp_path), table.ask, "-o", str(tmp_path / "answer.txt")])
+    assert status == _STATUS[piece.verdict], (tmp_path / "answer.txt").read_text(encoding="utf-8")
+
+
+def test_each_table_has_what_harms_and_what_does_not() -> None:
+    for table in _TABLES.values():
+        verdicts = {piece.verdict for piece in table.pieces}
+        assert {"satisfied", "undetermined"} <= verdicts
