@@ -1,4 +1,4 @@
-"""Counted loops: a `for` of the model that is `for i in range(...)` of Python."""
+"""A `for` of the model that is `for i in range(...)` or `while` of Python."""
 
 from __future__ import annotations
 
@@ -42,6 +42,23 @@ def counters(block: m.Block, analysis: Analysis) -> set[int]:
     """The ids of the variables of all counted loops in a body."""
     loops = (counting(n, analysis) for n in m.walk(block) if isinstance(n, m.For))
     return {id(counter) for counter in loops if counter is not None}
+
+
+def steps(loop: m.For) -> tuple[m.Expression, ...]:
+    """The updates of a `for` that is a `while` of Python which ends with them; else none.
+
+    A `continue` would leave them out.
+    """
+    return loop.updates if loop.condition is not None and not _goes_on(loop.body) else ()
+
+
+def _goes_on(statement: m.Node) -> bool:
+    """Whether a `continue` within a statement is one of the loop that the statement is in."""
+    if isinstance(statement, m.Continue):
+        return True
+    if isinstance(statement, m.For | m.While):
+        return False
+    return any(map(_goes_on, m.children(statement)))
 
 
 def _is_step(update: m.Expression, name: str) -> bool:

@@ -9,9 +9,10 @@ from rebsync import model as m
 from rebsync.forward.hoisting import crossing_locals
 from rebsync.forward.py_expressions import PyExpressions
 from rebsync.forward.py_layout import INDENT
-from rebsync.forward.py_loops import counters, counting
+from rebsync.forward.py_loops import counters, counting, steps
 from rebsync.forward.py_operators import ATOM, UNARY
 from rebsync.forward.py_places import bare, compound, is_in_order, step
+from rebsync.forward.py_switches import Branch, branches, is_place
 from rebsync.forward.py_types import py_type, unset_value
 from rebsync.forward.remarks import Remarks
 from rebsync.printing import print_line
@@ -52,6 +53,9 @@ class PyStatements:
                 return bool(statements) and self.returns(statements[-1])
             case m.If(then=then, otherwise=otherwise):
                 return otherwise is not None and self.returns(then) and self.returns(otherwise)
+            case m.Switch() if (plain := self._plain(statement)) is not None:
+                ends = [b.statements[-1:] for b in plain]
+                return not plain[-1].values and all(e and self.returns(e[0]) for e in ends)
             case _:
                 return False
 
@@ -237,6 +241,13 @@ class PyStatements:
         else:
             yield from map(self._effect, statement.initial)
         yield from self._annotations(statement)
+        condition = statement.condition
+        if condition is not None and (last := steps(statement)):
+            yield f"while {self.expressions.text(condition)}:"
+            yield from self._looped(statement.body)
+            yield f"{INDENT}# rebsync: step"
+            yield from (INDENT + self._effect(u) for u in last)
+            return
         yield "for again_ in rounds():"
         if statement.updates:
             yield f"{INDENT}if again_:"
@@ -270,6 +281,11 @@ class PyStatements:
             yield f"# rebsync: local {declarator.name}"
             name = self._name(declarator)
             yield f"{name}: {py_type(declaration.type)} = {unset_value(declaration.type)}"
+        plain = self._plain(statement)
+        if plain is not None:
+            yield from self._annotations(statement)
+            yield from self._chain(statement.subject, plain)
+            return
         self.switches += 1
         self.loop += 1
         case = self._case(self.switches)
@@ -284,6 +300,28 @@ class PyStatements:
         if any(line.strip() == f"{case}.go_on()" for line in lines):
             yield f"if {case}.goes_on:"
             yield from (INDENT + line for line in self._continue())
+
+    def _plain(self, statement: m.Switch) -> tuple[Branch, ...] | None:
+        """The branches of a switch that is an `if` chain in Python."""
+        is_steady = is_place(statement.subject, self.expressions.analysis)
+        return branches(statement) if is_steady else None
+
+    def _chain(self, subject: m.Expression, plain: tuple[Branch, ...]) -> Iterator[str]:
+        """A switch whose cases do not fall through."""
+        asked = self.expressions.operand(subject, ATOM)
+        yield "# rebsync: switch"
+        for branch in plain:
+            values = [self.expressions.text(v) for v in branch.values]
+            word = "if" if branch is plain[0] else "elif"
+            match values:
+                case []:
+                    yield "else:"
+                case [value]:
+                    yield f"{word} {asked} == {value}:"
+                case _:
+                    yield f"{word} {asked} in ({', '.join(values)}):"
+            lines = self._suite(branch.statements, branch.start, branch.end)
+            yield from (INDENT + line for line in lines)
 
     def _one(self, statement: m.Switch, index: int) -> Iterator[str]:
         case = statement.cases[index]

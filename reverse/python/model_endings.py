@@ -31,7 +31,7 @@ def with_else(
     alternative = node.child_by_field_name("alternative")
     if alternative is not None and _is_silent(reader, field(alternative, "body")):
         alternative = None
-    if alternative is None or not _breaks(field(node, "body")):
+    if alternative is None or not leaves(field(node, "body")):
         with leaving(reader):
             loop = read()
         return [*loop, *_behind(reader, alternative)]
@@ -102,19 +102,19 @@ def _is_silent(reader: ModelStatementReader, block: Node) -> bool:
     return all(silent.holds(n) and not may_fail(reader.expressions, n) for n in named(block))
 
 
-def _breaks(node: Node) -> bool:
-    """Whether a `break` in a body ends the loop that the body is of."""
+def leaves(node: Node, jump: str = "break_statement") -> bool:
+    """Whether a `break`, or a `continue`, in a body is one of the loop that the body is of."""
     return any(
-        child.type == "break_statement"
-        or (child.type in _LOOPS and _breaks_behind(child))
-        or (child.type not in _LOOPS | _FUNCTIONS and _breaks(child))
+        child.type == jump
+        or (child.type in _LOOPS and _leaves_behind(child, jump))
+        or (child.type not in _LOOPS | _FUNCTIONS and leaves(child, jump))
         for child in named(node)
     )
 
 
-def _breaks_behind(loop: Node) -> bool:
+def _leaves_behind(loop: Node, jump: str) -> bool:
     alternative = loop.child_by_field_name("alternative")
-    return alternative is not None and _breaks(alternative)
+    return alternative is not None and leaves(alternative, jump)
 
 
 def _free(reader: ModelStatementReader) -> str:

@@ -12,13 +12,16 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, selected
 from rebsync.reverse.python import model_builtins as builtins
+from rebsync.reverse.python import model_endings as endings
 from rebsync.reverse.python import model_idioms as idioms
-from rebsync.reverse.python.model_types import call_parts
+from rebsync.reverse.python.model_types import call_parts, markers_above
 from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of, whole_number_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
     from rebsync.reverse.python.model_statement_reader import ModelStatementReader
+
+_STEP = "step"
 
 # What leaves a round, or may be done after it.
 _LEAVING = frozenset({"break_statement", "continue_statement", "function_definition", "lambda"})
@@ -43,6 +46,20 @@ def _counter(reader: ModelStatementReader, node: Node, name: str) -> str:
     """
     plain = reader.without_number(name)
     return reader.local(name if plain in idioms.names_in(field(node, "body")) else plain)
+
+
+def stepped(reader: ModelStatementReader, body: Node) -> tuple[list[Node], list[Node]]:
+    """What a `while` does up to the marker of a step, and the step, which a `continue` skips.
+
+    There is none behind a `continue`, and where more than stores stands there.
+    """
+    nodes = named(body)
+    marked = (_STEP in markers_above(reader.expressions.py, n) for n in nodes)
+    at = next((i for i, is_step in enumerate(marked) if is_step), len(nodes))
+    is_plain = all(n.type == "expression_statement" for n in nodes[at:])
+    if not is_plain or endings.leaves(body, "continue_statement"):
+        return nodes, []
+    return nodes[:at], nodes[at:]
 
 
 def through(

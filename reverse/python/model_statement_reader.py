@@ -55,20 +55,21 @@ class ModelStatementReader(ABC):
         again = _AGAIN.match(name)
         return again[1] if again is not None else name
 
-    def suite(self, node: Node) -> m.Block:
+    def suite(self, node: Node, nodes: list[Node] | None = None) -> m.Block:
+        """The body of a loop; only some `nodes` of it, if they are given."""
         outer, self.cases = self.cases, []
-        found = self.branch(node)
+        found = self.branch(node, nodes)
         self.cases = outer
         return found
 
-    def branch(self, node: Node) -> m.Block:
-        """A block. What it names first nobody knows behind it."""
+    def branch(self, node: Node, nodes: list[Node] | None = None) -> m.Block:
+        """A block, or some `nodes` of it. What it names first nobody knows behind it."""
         outer, closures = self.implied, self.expressions.closures
         sends = self.expressions.kept_sends
         self.expressions.kept_sends = dict(sends)
         inner, self.inner = self.inner, dict(self.inner)
         self.implied, self.expressions.closures = set(), dict(closures)
-        found = self.block(named(node), node)
+        found = self.block(named(node) if nodes is None else nodes, node)
         for name in self.implied:
             self.expressions.locals.pop(name, None)
         self.implied, self.expressions.closures, self.inner = outer, closures, inner

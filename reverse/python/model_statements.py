@@ -20,6 +20,7 @@ from rebsync.reverse.python import model_inner as inner_functions
 from rebsync.reverse.python import model_loops as loops
 from rebsync.reverse.python import model_records as records
 from rebsync.reverse.python import model_stored as stored
+from rebsync.reverse.python import model_switches as switches
 from rebsync.reverse.python import model_users as users
 from rebsync.reverse.python.model_failing import failing, may_fail, methods_of
 from rebsync.reverse.python.model_filled import filled
@@ -129,7 +130,7 @@ class Statements(ModelStatementReader):
             case "match_statement":
                 return loops.match(self, node)
             case "while_statement":
-                return endings.with_else(self, node, lambda: self._while(node))
+                return endings.with_else(self, node, lambda: self._while(node, before))
             case "for_statement":
                 return self._for(node, before)
             case "with_statement" if "block()" in text_of(node).partition(":")[0]:
@@ -243,6 +244,8 @@ class Statements(ModelStatementReader):
     def _if(self, node: Node) -> list[m.Statement]:
         if self._only_goes_on(node):
             return []
+        if (switch := switches.switched(self, node)) is not None:
+            return [switch]
         parts = [node, *node.children_by_field_name("alternative")]
         otherwise: m.Statement | None = None
         conditions = [
@@ -290,10 +293,19 @@ class Statements(ModelStatementReader):
         found = loops.through(self, node, called, arguments)
         return found if found is not None else loops.each(self, node, name)
 
-    def _while(self, node: Node) -> list[m.Statement]:
+    def _while(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         condition = self.expressions.condition(field(node, "condition"))
-        span = self.expressions.py.span(node)
-        return [m.While(condition, self.suite(field(node, "body")), span=span)]
+        span, body = self.expressions.py.span(node), field(node, "body")
+        nodes, last = loops.stepped(self, body)
+        if not last:
+            return [m.While(condition, self.suite(body), span=span)]
+        block = self.suite(body, nodes)
+        steps = self.branch(body, last).statements
+        updates = tuple(s.expression for s in steps if isinstance(s, m.ExpressionStatement))
+        if len(updates) != len(steps):
+            raise self.expressions.unread(last[0], "a step of a loop changes variables")
+        initial = _taken(before, condition, updates)
+        return [m.For(initial, condition, updates, block, span=span)]
 
     def _rounds(self, node: Node, name: str, before: list[m.Statement]) -> m.For:
         """`for again_ in rounds():` with its step and its condition first."""

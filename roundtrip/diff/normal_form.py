@@ -64,8 +64,9 @@ def rewrite(node: _Node, rule: Callable[[object], object]) -> _Node:
 def as_in_python(node: _Node) -> _Node:
     """A class, or a model, without what Python does not show of it.
 
-    `x += 1` and `++x`, `1.5f` and `1.5`, and whether the start of a `for` stands in its head or
-    directly before it. What compares as one anyway is left: parentheses, `x++` as a statement.
+    `x += 1` and `++x`, `1.5f` and `1.5`, whether the start of a `for` stands in its head or right
+    before it, and a `break` at the end of a `switch`. What compares as one anyway is left:
+    parentheses, `x++` as a statement.
     """
     return rewrite(rewrite(node, _unwritten), _started)
 
@@ -195,6 +196,8 @@ def _unwritten(node: object) -> object:
             return m.Unary(operator[0] * 2, target, node.span)
         case m.FloatLiteral(text) if text[-1] in "fF":
             return replace(node, text=text[:-1])
+        case m.Switch(cases=(*others, m.Case(statements=(*kept, m.Break())) as last)):
+            return replace(node, cases=(*others, replace(last, statements=tuple(kept))))
         case _:
             return node
 

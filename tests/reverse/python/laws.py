@@ -8,11 +8,13 @@ from dataclasses import replace
 from rebsync import model as m
 from rebsync.config import Config
 from rebsync.forward.generate import generate
+from rebsync.forward.py_loops import steps
+from rebsync.forward.py_switches import Branch, branches
 from rebsync.roundtrip.diff.normal_form import as_in_python, normal, rewrite
 from rebsync.static import analyse
 from tests.reverse.laws import assert_same, extracted
 
-__all__ = ["assert_says", "extracted", "python_files", "python_normal"]
+__all__ = ["assert_says", "extracted", "python_files", "python_normal", "without_chains"]
 
 
 def python_files(model: m.Model, target: str = "ros1-py") -> dict[str, str]:
@@ -37,6 +39,39 @@ def python_normal(model: m.Model) -> m.Model:
     expression in another.
     """
     return rewrite(as_in_python(model), _rule)
+
+
+def without_chains(model: m.Model) -> m.Model:
+    """A model without what only a marker tells in Python: a `switch` among `if`, a step among what
+    a loop does last (docs/mapping.md, "What needs a marker")."""
+    return rewrite(model, _chained)
+
+
+def _chained(node: object) -> object:
+    match node:
+        case m.Switch(subject) if (found := branches(node)) is not None:
+            return _chain(subject, found)
+        case m.For(condition=condition, body=m.Block(body)) if condition is not None:
+            last = tuple(m.ExpressionStatement(e) for e in steps(node))
+            return m.While(condition, m.Block((*body, *last))) if last else node
+        case _:
+            return node
+
+
+def _chain(subject: m.Expression, found: tuple[Branch, ...]) -> m.Statement:
+    otherwise: m.Statement | None = None
+    for branch in reversed(found):
+        body = m.Block(branch.statements)
+        if not branch.values:
+            otherwise = body
+            continue
+        first, *others = (m.Binary("==", subject, v) for v in branch.values)
+        condition: m.Expression = first
+        for other in others:
+            condition = m.Binary("||", condition, other)
+        otherwise = m.If(condition, body, otherwise)
+    assert otherwise is not None
+    return otherwise
 
 
 def _rule(node: object) -> object:

@@ -9,7 +9,7 @@ from tests.roundtrip.mutations.choices import edits, other_member, other_rebec, 
 from tests.roundtrip.mutations.package import Edit, Kind, Package, Part, at_start, within
 
 _BLOCK = r"((?:\1    [^\n]*\n)+)"
-_IF = r"\b((?:el)?if) (?!case_)(.*):$"
+_IF = r"\b((?:el)?if) (.*):$"
 _SIMPLE = r"(?:self\.|int32)[^\n]*\n"
 
 
@@ -74,7 +74,7 @@ KINDS = (
     Kind("condition negated", within(_IF, r"\1 not (\2):")),
     Kind("condition made true", within(_IF, r"\1 True:")),
     Kind("conjunct removed", within(r"if ([^\n()]*?) and [^\n()]*?:$", r"if \1:")),
-    Kind("constant one greater", within(r"(?<!case_\()(?<![\w.\[])\d+\b", stepped(1))),
+    Kind("constant one greater", within(r"(?<![\w.\[])\d+\b", stepped(1))),
     Kind("index one greater", within(r"(?<=\[)\d+(?=\])", stepped(1))),
     Kind("truth value flipped", within(r"\b(?:True|False)\b", _flipped)),
     Kind("+ made -", within(r" \+ ", " - ")),
@@ -82,10 +82,8 @@ KINDS = (
     Kind("remainder made quotient", within(r"\bremainder\(", "divide(")),
     Kind("int32 left out", within(r"\bint32(?=\()", "")),
     Kind("// for divide", within(r"\bremainder\((int32\([^()]*\)), (\d+)\)", r"(\1 // \2)")),
-    Kind("label of a case", within(r"\bcase_\((\d+)\)", stepped(50, shown="case_({})"))),
-    Kind("break removed", within(r"^( *)break\n", r"\1pass\n")),
-    Kind("case removed", within(rf"^( *)if case_\(\d+\):\n{_BLOCK}", "")),
-    Kind("default removed", within(rf"^( *)if case_\.default\(\):\n{_BLOCK}", "")),
+    Kind("label of a case", within(r"(?<= in \()\d+(?=, )", stepped(50))),
+    Kind("case removed", within(rf"^( *)elif [^\n]* == \d+:\n{_BLOCK}", "")),
     Kind("assignment removed", within(r"^( *)self\._[\w.\[\]()]* = [^\n]*\n", r"\1pass\n")),
     Kind("assignment to another", within(r"(?P<name>\bself\._\w+)(?= = )", other_member)),
     Kind(
@@ -111,12 +109,10 @@ KINDS = (
     Kind("return at the start", at_start("        return\n", "constructor", "msgsrv")),
     Kind(
         "return in a branch",
-        within(r"(\bif (?!case_).*:\n)( *)(?=\S)", r"\1\2return\n\2", "msgsrv"),
+        within(r"(\bif .*:\n)( *)(?=\S)", r"\1\2return\n\2", "msgsrv"),
     ),
-    Kind(
-        "raise in a branch", within(r"(\bif (?!case_).*:\n)( *)(?=\S)", r"\1\2raise ValueError\n\2")
-    ),
-    Kind("break in a loop", within(r"^( *)(for (?!case_)\w+ in .*:\n)", r"\1\2\1    break\n")),
+    Kind("raise in a branch", within(r"(\bif .*:\n)( *)(?=\S)", r"\1\2raise ValueError\n\2")),
+    Kind("break in a loop", within(r"^( *)(for \w+ in .*:\n)", r"\1\2\1    break\n")),
     Kind("loop starts later", within(r"\brange\((\d+)\)", r"range(1, \1)")),
     Kind("loop in greater steps", within(r"\brange\((\d+)\)", r"range(0, \1, 2)")),
     Kind("loop ends earlier", within(r"\brange\(\d+\)", "range(1)")),

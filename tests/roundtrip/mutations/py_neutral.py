@@ -239,7 +239,7 @@ KINDS = (
     ),
     Kind("single quotes", _rewritten(_other_quotes)),
     Kind("statement in parentheses", within(r" = ([^\n]+)$", r" = (\1)", *BODIES)),
-    Kind("condition in parentheses", within(r"\b((?:el)?if) (?!case_)(.*):$", r"\1 (\2):")),
+    Kind("condition in parentheses", within(r"\b((?:el)?if) (.*):$", r"\1 (\2):")),
     Kind("result in parentheses", within(r"return ([^\n]+)$", r"return (\1)")),
     Kind("comparison in parentheses", within(r"(?<=if )(\S+ (?:==|<|>) \S+)(?=:$)", r"(\1)")),
     Kind("continued line", within(r" = (?=[^\n]+$)", " = \\\\\n            ", *BODIES)),
@@ -250,7 +250,7 @@ KINDS = (
     ),
     Kind(
         "branch on one line",
-        within(r"^( *if (?!case_).*:)\n +(self\.[^\n]*)\n(?! {9,})", r"\1 \2\n"),
+        within(r"^( *if .*:)\n +(self\.[^\n]*)\n(?! {9,})", r"\1 \2\n"),
     ),
     Kind("pass", at_start("        pass\n", *BODIES)),
     Kind("pass in the end", at_end("        pass\n", "constructor", "msgsrv")),

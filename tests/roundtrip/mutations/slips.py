@@ -73,7 +73,7 @@ def _in_bodies(pattern: str, text: Texts) -> Maker:
 
 
 PYTHON = (
-    Kind("constant one smaller", _in_bodies(r"(?<!case_\()(?<![\w.\[])[1-9]\d*\b", stepped(-1))),
+    Kind("constant one smaller", _in_bodies(r"(?<![\w.\[])[1-9]\d*\b", stepped(-1))),
     Kind("self dropped where it is set", _in_bodies(r"\bself\.(?=_\w+ = )", "")),
     Kind("self dropped where it is read", _in_bodies(r"(?<=[ (])self\.(?=_\w+\b(?! =)(?!\.))", "")),
     Kind("self dropped from a send", _in_bodies(r"\bself\.(?=send_)", "")),

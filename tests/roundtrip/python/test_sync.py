@@ -103,7 +103,7 @@ LOOPS = {
         "if (a > 3) for (int k = 6; k > 3;",
     ),
     "behind the start": ("k: int = 5", "k: int = 1\n            self._a = 7", "    int k = 1;"),
-    "bound": ("(i < 3)", "(i < 4)", "for (i = 0; i < 4; i += 1) a--;"),
+    "bound": ("while i < 3:", "while i < 4:", "for (i = 0; i < 4; i += 1) a--;"),
 }
 
 
