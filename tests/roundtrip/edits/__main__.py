@@ -1,6 +1,6 @@
 """Runs edits by hand through all steps, and prints what is not as it is to be.
 
-python -m tests.roundtrip.edits [--said] [FILE.toml...] [CASE...]
+python -m tests.roundtrip.edits [--said] [--once] [FILE.toml...] [CASE...]
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import traceback
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from tests.roundtrip.edits.drawing import in_one_dialect
 from tests.roundtrip.edits.steps import all_steps
 from tests.roundtrip.edits.trial import FILES, HERE, Case, cases, made
 
@@ -21,11 +22,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--said", action="store_true", help="print what is said of each")
     parser.add_argument("--dialect", help="of one dialect only")
+    parser.add_argument("--once", action="store_true", help="each in the dialect of the tests")
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
     files = [n for n in options.names if n.endswith(".toml")] or [*FILES]
     names = [n for n in options.names if not n.endswith(".toml")]
-    found = [c for f in files for c in cases(HERE / f)]
+    found = [c for f in files for c in (in_one_dialect(f) if options.once else cases(HERE / f))]
     chosen = [c for c in found if not names or c.name in names or str(c) in names]
     chosen = [c for c in chosen if options.dialect in (None, c.dialect)]
     wrong = sum(not _tried(case, options.said) for case in chosen)

@@ -10,21 +10,20 @@ from pathlib import Path
 
 import pytest
 
+from tests.roundtrip.edits.drawing import drawn, in_one_dialect
 from tests.roundtrip.edits.steps import all_steps, is_elsewhere, is_listed, is_refused, is_said
-from tests.roundtrip.edits.trial import FILES, HERE, Case, cases, made
+from tests.roundtrip.edits.trial import FILES, Case, made
 
 _EVERY = 8  # of how many edits one goes through all steps
 
 
-def chosen(file: str) -> list[Case]:
-    """Each case of a file in one of its dialects, in turn."""
-    by_name: dict[str, list[Case]] = {}
-    for case in cases(HERE / file):
-        by_name.setdefault(case.name, []).append(case)
-    return [of[number % len(of)] for number, of in enumerate(by_name.values())]
+def tested(file: str) -> list[Case]:
+    """One in three of the cases of a file, or in eight of the longest one."""
+    every = 8 if file == "cpp.toml" else 3
+    return [case for case in in_one_dialect(file) if drawn("tested", case.name, every) == 0]
 
 
-CASES = [case for file in FILES for case in chosen(file)[:: 8 if file == "cpp.toml" else 3]]
+CASES = [case for file in FILES for case in tested(file)]
 
 
 @pytest.mark.parametrize("case", CASES, ids=str)
@@ -33,7 +32,7 @@ def test_edits_are_what_they_mean(
 ) -> None:
     monkeypatch.setenv("REBSYNC_CACHE", str(tmp_path / "cache"))
     trial = made(case, tmp_path / case.example)
-    if CASES.index(case) % _EVERY == 0:
+    if drawn("all steps", case.name, _EVERY) == 0:
         all_steps(trial)
     elif case.listed:
         is_listed(trial)
