@@ -23,6 +23,18 @@ def all_steps(trial: Trial) -> None:
     model_goes_into_edited_code(trial)
 
 
+def is_judged(trial: Trial) -> None:
+    """What is said of an edit."""
+    if trial.case.listed:
+        is_listed(trial)
+    elif trial.case.elsewhere:
+        is_elsewhere(trial)
+    elif trial.case.data.get("refused", False):
+        is_refused(trial)
+    else:
+        is_said(trial)
+
+
 def is_listed(trial: Trial) -> None:
     """No verdict is given on what no model shows, and each place is told."""
     verdict, told, texts = trial.check()
