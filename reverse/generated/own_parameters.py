@@ -108,6 +108,25 @@ def _free(stored: Stored, made: m.Constructor, parameters: Sequence[m.Parameter]
     return free
 
 
+def list_refused(
+    node: LaunchedNode,
+    told: Sequence[OwnParameter],
+    common: Sequence[Parameter],
+    findings: Findings,
+    within: str,
+) -> None:
+    """Lists values for which a node of ROS 2 does not start, of parameters that no model has."""
+    everywhere = {p.name: p for p in common}
+    for parameter in told:
+        given = node.parameter(parameter.key) or everywhere.get(f"/{parameter.key}")
+        if given is None or not parameter.for_all:
+            continue
+        value = plain_value(given)
+        if value is not None and not parameter.takes(value):
+            why = f"the code reads another kind of value for `{parameter.key}`"
+            findings.unreadable(given.source, Unread(given.span, why), within)
+
+
 def given_to(
     node: LaunchedNode,
     own: Sequence[Stored],

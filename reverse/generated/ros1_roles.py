@@ -119,6 +119,7 @@ class Roles:
     taken: list[Taken] = field(default_factory=list)
     wired: set[int] = field(default_factory=set)
     own: dict[str, OwnParameter] = field(default_factory=dict)
+    told: list[OwnParameter] = field(default_factory=list)
     reading: set[int] = field(default_factory=set)
     silent: set[str] = field(default_factory=set)
     posted: set[str] = field(default_factory=set)
@@ -146,6 +147,7 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
             roles.odd_globals.discard(member.name)
     roles.own, roles.reading = own_parameters(code, owner)
     roles.silent = only_logged(code, owner, roles.own, roles.reading)
+    roles.told = [p for n, p in roles.own.items() if n in roles.silent]
     roles.own = {n: p for n, p in roles.own.items() if n not in roles.silent}
     roles.silent |= counters(code, owner) - roles.own.keys() - roles.globals.keys()
     for constructor in (*owner.functions, *functions):

@@ -26,7 +26,7 @@ from rebsync.reverse.generated.env_values import (
     shaped,
     type_of_value,
 )
-from rebsync.reverse.generated.own_parameters import Stored, given_to
+from rebsync.reverse.generated.own_parameters import OwnParameter, Stored, given_to, list_refused
 from rebsync.reverse.generated.parameters import objects_in
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_names import stored_in, variable_name
@@ -81,7 +81,8 @@ class GeneratedSystem:
         """The constants of the model: all global parameters but those of the run-time part."""
         used = dict(self._used())
         every = (s.parameter for o in self.read for s in self._stored(o.name))
-        own = {f"/{p.key}" for p in every if p.for_all}
+        told = (p for o in self.read for p in self._told(o.name))
+        own = {f"/{p.key}" for p in (*every, *told) if p.for_all}
         common = (p for p in self.common if p.name not in own)
         given = {p.name.lstrip("/").removeprefix("env/"): p for p in common}
         for key in [*given, *(k for k in used if k not in given)]:
@@ -160,6 +161,7 @@ class GeneratedSystem:
             for key, parameter in zip(keys, parameters, strict=False)
         ]
         arguments += given_to(node, own, self.common, self.classes.findings, type_)
+        list_refused(node, self._told(type_), self.common, self.classes.findings, type_)
         markers = (annotation(text, node.span) for text in node.markers)
         return m.Rebec(
             m.Type(type_),
@@ -235,6 +237,13 @@ class GeneratedSystem:
         owners = self.code.classes.values()
         owner = next((o for o in owners if class_name(o.name) == type_), None)
         return stored_in(self.code, self.classes.roles[owner.name], owner) if owner else ()
+
+    def _told(self, type_: str) -> Sequence[OwnParameter]:
+        """The parameters of a node's own that only people are told of."""
+        if self.python is not None and type_ in self.python.told:
+            return self.python.told[type_]
+        owners = (o.name for o in self.code.classes.values() if class_name(o.name) == type_)
+        return [p for name in owners for p in self.classes.roles[name].told]
 
     def _argument(
         self, node: LaunchedNode, key: str, type_: m.Type, within: str

@@ -95,12 +95,12 @@ class PyRoles:
     sends: dict[str, PySends] = with_default(default_factory=dict)
     handler_names: dict[str, str] = with_default(default_factory=dict)
     by_shim: dict[str, str] = with_default(default_factory=dict)
-    # The fields of messages in the order in which shims hand them on.
-    orders: list[tuple[str, tuple[str, ...]]] = with_default(default_factory=list)
+    orders: list[tuple[str, tuple[str, ...]]] = with_default(default_factory=list)  # by shims
     shims: set[str] = with_default(default_factory=set)
     ticking: set[str] = with_default(default_factory=set)
     arguments: dict[str, str] = with_default(default_factory=dict)
     own: dict[str, tuple[OwnParameter, Node]] = with_default(default_factory=dict)
+    told: list[OwnParameter] = with_default(default_factory=list)  # that people are told of
     declared: dict[str, ParameterRead] = with_default(default_factory=dict)
     stored: Counter[str] = with_default(default_factory=Counter)
     topics: dict[str, str] = with_default(default_factory=dict)
@@ -117,7 +117,8 @@ class PyRoles:
     def leave_out(self, members: Collection[str]) -> None:
         """Takes those with parameters of the node's own among some members out of the model."""
         for name in self.own.keys() & members:
-            del self.own[name], self.state[name]
+            self.told.append(self.own.pop(name)[0])
+            del self.state[name]
 
     def served_by(self, shim: str) -> str | None:
         """The server whose messages a shim takes in."""

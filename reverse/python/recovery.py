@@ -16,7 +16,7 @@ from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.generated.own_parameters import Stored
+from rebsync.reverse.generated.own_parameters import OwnParameter, Stored
 from rebsync.reverse.graph import (
     Callback,
     Callbacks,
@@ -67,7 +67,8 @@ class PythonPart:
     """What files of Python say: classes of the model, and all that they ask of ROS.
 
     `scripts` are the modules of the programs that the package installs, by their names, `arguments`
-    the parameters that constructors read themselves, and `own` those of them that they store.
+    the parameters that constructors read themselves, `own` those of them that they store, and
+    `told` those that only people are told of.
     """
 
     graph: Graph
@@ -78,6 +79,7 @@ class PythonPart:
     scripts: Mapping[str, str] = with_default(default_factory=dict)
     arguments: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
     own: Mapping[str, Sequence[Stored]] = with_default(default_factory=dict)
+    told: Mapping[str, Sequence[OwnParameter]] = with_default(default_factory=dict)
 
     def starts(self, launch: Launch) -> bool:
         """Whether a launch file starts any class of these files."""
@@ -194,7 +196,8 @@ def read_python(
     _list_hooks(values, own, findings, path)
     used = tuple((e.key, (e.type, e.name, constant(e.default))) for e in classes.env())
     arguments, stored = classes.arguments(), classes.own()
-    return PythonPart(graph, read, used, python.code, nodes, scripts, arguments, stored)
+    told = {class_name(o.name): classes.roles[id(o)].told for o in classes.owners}
+    return PythonPart(graph, read, used, python.code, nodes, scripts, arguments, stored, told)
 
 
 def _read_paths(python: PythonCode) -> frozenset[str]:

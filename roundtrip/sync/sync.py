@@ -163,7 +163,10 @@ class _Syncing:
         return RebsyncError([Findings(place.source, (told,))])
 
     def _unread(self, apart: Comparison, code: SourcedModel) -> Iterator[Findings]:
-        """Elements that the code has changed, and of which not all could be read."""
+        """Elements that the code has changed, and of which not all could be read.
+
+        How a server's messages are made and taken apart is such a part of what it takes.
+        """
         drift = self.checked.drift
         movers = dict(drift.differences) if drift is not None else {}
         changed = {
@@ -171,13 +174,16 @@ class _Syncing:
             for d in apart.differences
             if not isinstance(d, Undetermined) and movers.get(d) is not Mover.MODEL
         }
+        is_sent_otherwise = any(e.kind == "parameter" for e in changed)
         for difference in apart.differences:
-            if isinstance(difference, Undetermined) and difference.element in changed:
+            if not isinstance(difference, Undetermined):
+                continue
+            element = difference.element
+            if element in changed or (is_sent_otherwise and element.kind == "model"):
                 place = difference.right or Place(code.source, NOWHERE)
-                message = (
-                    f"{difference.element} was changed in the code and cannot be taken into the"
-                    f" model: {difference.why}"
-                )
+                is_it = element in changed
+                how = "was changed in the code" if is_it else "is of messages that have changed"
+                message = f"{element} {how} and cannot be taken into the model: {difference.why}"
                 yield finding(place, "RS959", message, "write this in a way that extract reads")
 
     # --- results --------------------------------------------------------------------------------
