@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from rebsync.reverse.analysis.element_counts import ElementCounts
 from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origins
 from rebsync.reverse.analysis.problems import Problem, ProblemNotes
-from rebsync.reverse.analysis.stores import CallResult, Key, key_of
+from rebsync.reverse.analysis.stores import CallResult, Key, Member, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -35,6 +35,7 @@ _LOCKS = frozenset(
     )
 )
 _REENTRANT = LibraryOrigin("threading.RLock")
+_OF = "::"  # between a class and its field
 _AGAIN = "this waits for ever where the lock is held already"
 _LONGER = "this may hold a lock for longer than its block"
 
@@ -164,7 +165,7 @@ class HeldLocks:
         key = key_of(value, function)
         type_ = getattr(value, "type", t.UNKNOWN)
         if isinstance(type_, t.Record):
-            return _NONE if "recursive" in type_.name else frozenset({key})
+            return _NONE if "recursive" in type_.name else frozenset({self._of_class(value) or key})
         stored = self.stores.of(key) if key is not None and key not in seen else []
         found = list[Mutexes]()
         for of, each in stored:
@@ -180,6 +181,19 @@ class HeldLocks:
                 case _:
                     found.append(frozenset({None}))
         return _NONE.union(*found) if stored else frozenset({None})
+
+    def _of_class(self, value: e.Expression) -> Member | None:
+        """A mutex that is a field, by the class that declares it; None if that is not known."""
+        if not isinstance(value, e.Attribute) or value.dynamic:
+            return None
+        of = getattr(value.object, "type", t.UNKNOWN)
+        of = of.to if isinstance(of, t.Reference) else of
+        graph = self.origins.graph
+        names = (of.name, *graph.bases(of.name)) if isinstance(of, t.Record) else ()
+        classes = (graph.program.classes.get(name) for name in names)
+        declare = (c for c in classes if c and any(f.name == value.name for f in c.fields))
+        declaring = next(declare, None)
+        return Member(f"{declaring.name}{_OF}{value.name}") if declaring is not None else None
 
     def _is_reentrant(self, callee: s.Callee, function: str) -> bool:
         match callee:
@@ -324,4 +338,12 @@ def _is_tag(value: e.Expression) -> bool:
 def _meet(mutexes: Mutexes, others: Mutexes) -> bool:
     if not mutexes or not others:
         return False
-    return None in mutexes or None in others or not mutexes.isdisjoint(others)
+    if None in mutexes or None in others or not mutexes.isdisjoint(others):
+        return True
+    return not _any_class(mutexes).isdisjoint(others) or not _any_class(others).isdisjoint(mutexes)
+
+
+def _any_class(mutexes: Mutexes) -> Mutexes:
+    """The same fields of classes that are not known."""
+    fields = (m.name for m in mutexes if isinstance(m, Member) and _OF in m.name)
+    return frozenset(Member(name.rpartition(_OF)[2]) for name in fields)

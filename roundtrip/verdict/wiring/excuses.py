@@ -201,7 +201,7 @@ class Excuses:
     def _is_named(self, fact: Fact) -> bool:
         """Whether the code of a class still has a name."""
         facts = chain.from_iterable(f for (_, of, _), f in self.today.items() if of == fact.owner)
-        texts = {fact.source.text for fact in facts}
+        texts = {f.source.text for f in facts if not f.source.path.endswith(".msg")}
         return not texts or any(re.search(rf"\b{fact.name}\b", text) for text in texts)
 
     def _is_of_a_topic(self, remap: Fact) -> bool:
