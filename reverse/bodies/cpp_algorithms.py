@@ -155,6 +155,11 @@ def whole_array(bounds: Sequence[Node]) -> Node | None:
     return arrays[0]
 
 
+def first_of(node: Node) -> Node | None:
+    """The array whose first element an iterator is."""
+    return _end(node, _BEGINS)
+
+
 def plain_type(reader: CppExpressionReader, array: Node) -> m.Type | None:
     """The type of an array in one dimension whose elements are as the model has them."""
     place = resolve(reader.scope, array)

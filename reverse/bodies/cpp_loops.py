@@ -10,12 +10,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_special
-from rebsync.reverse.bodies.building import binary, is_calm, negated
+from rebsync.reverse.bodies.building import binary, negated
 from rebsync.reverse.bodies.cpp_algorithms import plain_type, whole_array
 from rebsync.reverse.bodies.cpp_conversions import converted_to, place_of, type_in
-from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
-from rebsync.reverse.bodies.cpp_messages import zero_of
-from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -150,62 +147,6 @@ def _element(
         local = Variable(local.name, kept.type, kept.bits, (), kept.wide)
     reader.meaning(name, local, own=True)
     return (reader.local(declarator, local, converted_to(reader.scope, element, local)),)
-
-
-def filled(reader: CppStatementReader, node: Node) -> m.Statement | None:
-    """`array.fill(x)`, `array = {}` or `std::fill(array.begin(), array.end(), x)`; else None."""
-    if node.type == "assignment_expression":
-        return _emptied(reader, node)
-    call = call_of(node)
-    if call is None or call.name != ("fill" if call.target is not None else "std::fill"):
-        return None
-    *bounds, value = call.arguments or (node,)
-    target = whole_array(bounds) if call.target is None else None if bounds else call.target
-    type_ = plain_type(reader.expressions, target) if target is not None else None
-    if target is None or type_ is None:
-        return None
-    array, of = reader.expressions.read(target), m.Type(type_.name)
-    read = reader.expressions.stored(value, Variable("", of))
-    if not is_calm(read) or _names(array) & _names(read):
-        raise reader.unread(value, "this is evaluated once here, and for each element there")
-    return _set(reader, node, (array, type_), read)
-
-
-def _emptied(reader: CppStatementReader, node: Node) -> m.Statement | None:
-    """`array = {}` of a state variable of a generated class, which is a `std::array`."""
-    target, value = part(node, "left"), part(node, "right")
-    is_set = text_of(part(node, "operator")) == "=" and value.type == "initializer_list"
-    if not is_set or named(value) or not has_mailbox(reader.scope):
-        return None
-    name = text_of(target).removeprefix("this->")
-    member, type_ = reader.scope.members.get(name), plain_type(reader.expressions, target)
-    if type_ is None or member is None or resolve(reader.scope, target) != member:
-        return None
-    zero = zero_of(m.Type(type_.name))
-    if zero is None:
-        return None
-    return _set(reader, node, (reader.expressions.read(target), type_), zero)
-
-
-def _set(
-    reader: CppStatementReader,
-    node: Node,
-    to: tuple[m.Expression, m.Type],
-    read: m.Expression,
-) -> m.Statement:
-    """A loop that gives all elements of an array one value."""
-    array, type_ = to
-    counter = m.Name(reader.fresh("i"))
-    initial = m.Declaration(m.Type("int"), (m.Declarator(counter.name, _ZERO),))
-    bound = m.Binary("<", counter, m.IntLiteral(type_.dimensions[0]))
-    store = m.ExpressionStatement(m.Assign("=", m.Index(array, counter), read))
-    step = (m.Postfix("++", counter),)
-    return m.For(initial, bound, step, m.Block((store,)), (), reader.cpp.span(node))
-
-
-def _names(expression: m.Expression) -> set[str]:
-    """The variables in an expression, those of the rebec by `self` among them."""
-    return {n.name for n in m.walk(expression) if isinstance(n, m.Name | m.Member)}
 
 
 def do_loop(

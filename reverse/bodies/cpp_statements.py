@@ -12,6 +12,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.analysis.evaluation_order import note_body
 from rebsync.reverse.bodies import (
     cpp_aliases,
+    cpp_arrays,
     cpp_control,
     cpp_counts,
     cpp_either,
@@ -334,8 +335,8 @@ class CppStatements(CppStatementReader):
         if (special := cpp_special.read(self, expression)) is not None:
             yield from special
             return
-        if (loop := cpp_loops.filled(self, expression)) is not None:
-            yield loop
+        if (stores := cpp_arrays.filled(self, expression)) is not None:
+            yield from stores
             return
         if (loop := cpp_loops.for_each(self, expression)) is not None:
             yield loop
