@@ -1,8 +1,9 @@
-"""Parameters of a node's own that a constructor of generated C++ reads into members."""
+"""Parameters that a constructor of generated C++ reads into members in the words of people."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -12,16 +13,17 @@ from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.generated.env_values import constant
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
 from rebsync.reverse.generated.ros1_values import initial_values
-from rebsync.reverse.generated.ros2_words import arguments_in
+from rebsync.reverse.generated.ros2_words import arguments_in, constant_of_model
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, string_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
 _SPELLED = {
     **dict.fromkeys(("int", "int32_t", "int64_t", "std::int32_t", "std::int64_t"), int),
     **{"bool": bool, "double": float},
 }
 _GIVES = {"as_int": int, "as_bool": bool, "as_double": float, "get_value": None}
+_WRITES = ("assignment_expression", "update_expression")
 _SERVER = "ros::param::"
 
 
@@ -32,24 +34,29 @@ class _ParameterRead:
     member: str
     parameter: OwnParameter
     statement: Node
+    constant: Node | None = None  # of a constant of the model what stands in for its value
 
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """A parameter by its name, and the value that stands in for it; `into` is what gets it."""
+    """A parameter by its name, and the value that stands in for it; `into` is what gets it.
+
+    Of a constant of the model `constant` is where that value stands.
+    """
 
     key: str
     default: Value | None
     for_all: bool
     into: str = ""
+    constant: Node | None = None
 
     def read(self, member: str, statement: Node) -> Iterator[_ParameterRead]:
         """What a member gets by it, if the model can say so."""
         if self.default is not None:
             widens = not self.for_all
             own = OwnParameter(self.key, self.default, widens, self.for_all)
-            if own.is_plain:
-                yield _ParameterRead(member, own, statement)
+            if own.is_plain or self.constant is not None:
+                yield _ParameterRead(member, own, statement, self.constant)
 
 
 def own_parameters(code: Code, owner: CppClass) -> tuple[dict[str, OwnParameter], set[int]]:
@@ -68,9 +75,31 @@ def own_parameters(code: Code, owner: CppClass) -> tuple[dict[str, OwnParameter]
         r
         for r in _parameters_read(code, owner, constructors[0])
         if r.parameter.fits(types.get(r.member)) and r.parameter.key not in arguments
+        if r.constant is None
     ]
     own = only_once((r.member, r.parameter) for r in reads)
     return own, {r.statement.id for r in reads if r.member in own}
+
+
+def constants_read(
+    code: Code, owner: CppClass, constructor: CppFunction
+) -> Iterator[tuple[str, str, Node, int]]:
+    """The constants of the model that a constructor reads in the words of people.
+
+    Each by its member, its name, what stands in for it, and the statement that reads it. What
+    another function changes is no constant.
+    """
+    others = (f for f in code.functions_of(owner) if f is not constructor)
+    bodies = (f.body for f in others if f.body is not None)
+    writes = (node for body in bodies for node in inside(body, *_WRITES))
+    changed = {_member(named(node)[0]) for node in writes if named(node)}
+    types = {f.name: type_of(f.type) for f in owner.fields if f.name not in changed}
+    found = [r for r in _parameters_read(code, owner, constructor) if r.constant is not None]
+    once = only_once((r.member, r.parameter) for r in found)
+    for read in found:
+        is_stored = read.member in once and read.parameter.fits(types.get(read.member))
+        if is_stored and read.constant is not None:
+            yield read.member, read.parameter.key, read.constant, read.statement.id
 
 
 def _parameters_read(
@@ -118,7 +147,7 @@ class _ParameterReader:
         asked = self._asked(call) if call is not None else None
         if asked is not None and call is not None and not asked.into:
             if call.name == "declare_parameter":
-                self.declared[asked.key] = asked
+                self.declared[string_of(call.arguments[0]) or ""] = asked
         elif asked is not None:
             yield from asked.read(asked.into, statement)
 
@@ -147,9 +176,13 @@ class _ParameterReader:
             if not key.startswith("~"):
                 return None
             key = key.removeprefix("~")
-        elif call.on != "node":
+        elif call.on not in ("node", "global"):
             return None
         rest = call.arguments[1:]
+        if call.on == "global":
+            if plain != "param" or len(rest) != 2:
+                return None
+            return _Asked(key, self._default(call, rest[1]), False, _member(rest[0]), rest[1])
         match plain, len(rest):
             case "param", 1:
                 return _Asked(key, self._default(call, rest[0]), False)
@@ -166,10 +199,13 @@ class _ParameterReader:
         path = key.replace(".", "/")
         rest = call.arguments[1:]
         if call.name == "declare_parameter" and rest:
-            return _Asked(path, self._default(call, rest[0]), True)
-        if call.name != "get_parameter" or path not in self.declared:
+            of_model = constant_of_model(key)
+            default = self._default(call, rest[0])
+            return _Asked(of_model or path, default, True, "", rest[0] if of_model else None)
+        known = self.declared.get(key)
+        if call.name != "get_parameter" or known is None:
             return None
-        return _Asked(path, self.declared[path].default, True, _member(rest[0]) if rest else "")
+        return replace(known, into=_member(rest[0]) if rest else "")
 
     def _default(self, call: CppCall, node: Node) -> Value | None:
         """The value of a constant, as a number of the kind that is asked for."""

@@ -171,7 +171,7 @@ def _odd_in_constructor(
     waiting, done = set(roles.globals), set[str]()
     for statement in working(function.body):
         once = {c.name for c in calls_in(statement) if c.name in _ONCE and c.on == "mailbox_"}
-        if statement.id in roles.reading:
+        if statement.id in roles.reading and "start" not in done:
             continue
         is_late = not _STARTING.isdisjoint(done) and once != {"start"}
         if once & done or is_late or _changes_more(statement):
@@ -180,6 +180,7 @@ def _odd_in_constructor(
         done |= once
         given = text_of(statement).partition("=")[0].removeprefix("this->").strip()
         prepares = _is_handle(statement) or given in waiting
+        prepares = prepares or statement.id in roles.asked
         prepares = prepares or _declared_by(statement) in arguments
         waiting.discard(given)
         if not prepares and not _sets_up(statement, function, roles, timers, variables):

@@ -21,7 +21,7 @@ from rebsync.reverse.generated.own_parameters import OwnParameter
 from rebsync.reverse.generated.parameters import READS, read_by
 from rebsync.reverse.generated.ros1_descriptors import priority_of, server_of, tells_priority
 from rebsync.reverse.generated.ros1_idle import working
-from rebsync.reverse.generated.ros1_parameters import own_parameters
+from rebsync.reverse.generated.ros1_parameters import constants_read, own_parameters
 from rebsync.reverse.generated.ros1_queues import queue_length
 from rebsync.reverse.generated.ros1_silent import counters, only_logged
 from rebsync.reverse.generated.ros2_words import (
@@ -95,7 +95,8 @@ class Roles:
     `annotations` those that the set-up of a server shows; of overloads that take equally many
     arguments the first one's first. `topics` are those of shims by their names, `offers` as what
     those of shims are offered, `wired` the calls that make them and publishers of the rebec; `own`
-    are parameters of the node that state variables get, `reading` the statements that do that,
+    are parameters of the node that state variables get, `reading` the statements that do that, and
+    `asked` those that read constants in people's words; `told` are those that people are told of,
     `silent` the variables of them that are only logged; `passing` are callbacks of timers that only
     post a message; `odd_sends` what functions that send do besides; `posted` are the servers that
     no subscription takes messages to, `lost` the calls that send there all the same.
@@ -120,6 +121,7 @@ class Roles:
     wired: set[int] = field(default_factory=set)
     own: dict[str, OwnParameter] = field(default_factory=dict)
     told: list[OwnParameter] = field(default_factory=list)
+    asked: set[int] = field(default_factory=set)
     reading: set[int] = field(default_factory=set)
     silent: set[str] = field(default_factory=set)
     posted: set[str] = field(default_factory=set)
@@ -142,6 +144,10 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     for function in functions:
         if function.name == owner.name:
             _wired(roles, function, {f.name: text_of(f.type) for f in owner.fields})
+            for member, key, default, statement in constants_read(code, owner, function):
+                if member not in roles.globals:
+                    roles.globals[member] = key, default
+                    roles.asked.add(statement)
     for member in owner.fields:
         if any(marker.startswith("statevar ") for marker in member.markers):
             roles.odd_globals.discard(member.name)
