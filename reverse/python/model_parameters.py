@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 from tree_sitter import Node
@@ -86,6 +87,15 @@ def declared_by(call: Node) -> tuple[str, ParameterRead] | None:
     if called not in _DECLARES or name is None:
         return None
     return name, _of_ros2(name, arguments[1])
+
+
+def only_declares(call: Node, function: Node) -> bool:
+    """Whether a call declares a parameter that the model may have, and nothing else there does."""
+    said = declared_by(call)
+    if said is None or said[1].is_own:
+        return said is not None and said[1].own() is not None
+    again = re.compile(rf"declare\w*\([^()]*[\"']{re.escape(said[0])}[\"']")
+    return len(again.findall(text_of(function))) == 1
 
 
 def _of_ros2(name: str, default: Node | None) -> ParameterRead:

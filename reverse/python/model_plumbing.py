@@ -17,7 +17,7 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
 from rebsync.reverse.python.model_filled import made_of
 from rebsync.reverse.python.model_helpers import is_transparent
-from rebsync.reverse.python.model_parameters import declared_by, parameter_read
+from rebsync.reverse.python.model_parameters import only_declares, parameter_read
 from rebsync.reverse.python.model_posts import POST, Post, tells_arguments
 from rebsync.reverse.python.model_roles import OFFERING, PyRoles, PySends, field_read
 from rebsync.reverse.python.model_silent import Silent
@@ -206,8 +206,7 @@ class Plumbing:
             return [text_of(v) for v in values] == names[-len(values) :] if values else True
         if self.silent.timers.is_idle(call):
             return True
-        declared = declared_by(call)
-        return called in _CALLED or (declared is not None and declared[1].own() is not None)
+        return called in _CALLED or only_declares(call, function.node)
 
     def _is_connected(self, member: str, arguments: list[Node]) -> bool:
         """Whether topics are called after the servers they lead to."""

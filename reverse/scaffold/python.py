@@ -18,6 +18,7 @@ from rebsync.names import uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.scaffold.fact import PLAYED, PROGRAM, TOLD, Fact, numbered
+from rebsync.reverse.scaffold.python_parameters import as_declared
 from rebsync.reverse.scaffold.python_trees import (
     MODULE,
     bindings,
@@ -180,11 +181,11 @@ class _Class:
     def _set_up(self, function: ast.FunctionDef, statement: ast.stmt) -> Iterator[Fact]:
         match statement:
             case ast.Assign([ast.Attribute(ast.Name("self"), member)], value):
-                yield from self._member(member, value, statement)
+                yield from self._member(member, as_declared(value, function), statement)
             case ast.AnnAssign(ast.Attribute(ast.Name("self"), member), _, value) if value:
-                yield from self._member(member, value, statement)
+                yield from self._member(member, as_declared(value, function), statement)
             case ast.AnnAssign(ast.Name(argument), _, value) if value:
-                yield from self._member(argument, value, statement)
+                yield from self._member(argument, as_declared(value, function), statement)
             case ast.Expr(ast.Call() as call):
                 names = {name: f"_{i}" for i, name in enumerate(_arguments(function), 1)}
                 yield self.fact("set-up", ast.unparse(call.func), plain(call, names), statement)
