@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from itertools import zip_longest
 
-from rebsync.records import dataclass
 from rebsync.reserved import MONITOR_FILES, RUNTIME_HEADERS
 from rebsync.reverse.files.compiled_text import LINE_COMMENT
 from rebsync.reverse.scaffold.cpp import MAIN
+from rebsync.reverse.scaffold.plain_spin import Piece, with_plain_spin
 from rebsync.source import Source, Span
 
 _HEADERS = "|".join((*RUNTIME_HEADERS, *MONITOR_FILES))
@@ -29,14 +29,6 @@ _LOGS = ("ROS_", "RCLCPP_", "printf(", "std::cout", "std::cerr")
 _TOKEN = re.compile(rf'{LINE_COMMENT}|/\*.*?\*/|"(?:\\.|[^"\\])*"|\w+|\S', re.DOTALL)
 
 
-@dataclass(frozen=True, slots=True)
-class _Piece:
-    """A token, or a statement without its layout, and its place."""
-
-    text: str
-    span: Span
-
-
 def may_be_cpp_runtime(name: str) -> bool:
     """Whether a generated file may be of the run-time part, or a program."""
     return any(pattern.match(name) for pattern in (HEADER, _STAND_IN, _PROGRAM))
@@ -53,7 +45,7 @@ def first_cpp_difference(
 
 
 def _first_difference(
-    base: Source, source: Source, cut: Callable[[Source], Iterator[_Piece]]
+    base: Source, source: Source, cut: Callable[[Source], Iterator[Piece]]
 ) -> Span | None:
     """Where a text is not as another, the names of their packages apart."""
     last = len(source.text.rstrip())
@@ -63,29 +55,29 @@ def _first_difference(
     return None
 
 
-def _tokens(source: Source, own: frozenset[str]) -> Iterator[_Piece]:
+def _tokens(source: Source, own: frozenset[str]) -> Iterator[Piece]:
     """The tokens of a text: first its own headers, in whatever order; those of libraries, none."""
     found = _OWN_NAME.search(source.text)
     every = {*own, *filter(None, found.groups() if found else ())}
     names = {form for n in every for form in (n.lower(), n.upper())}
-    headers = [_Piece(m[1] or "", Span(*m.span())) for m in _INCLUDE.finditer(source.text)]
+    headers = [Piece(m[1] or "", Span(*m.span())) for m in _INCLUDE.finditer(source.text)]
     rest = _INCLUDE.sub(lambda m: " " * len(m[0]), source.text)
-    tokens = [_Piece(m[0], Span(*m.span())) for m in _TOKEN.finditer(rest)]
+    tokens = [Piece(m[0], Span(*m.span())) for m in _TOKEN.finditer(rest)]
     tokens = [t for t in tokens if not t.text.startswith(("//", "/*"))]
     headers = sorted((h for h in headers if h.text), key=lambda h: h.text.rpartition("/")[2])
     for piece in (*headers, *_with_whole_literals(tokens)):
         text = piece.text
         for name in names:
             text = text.replace(name, "")
-        yield _Piece(text, piece.span)
+        yield Piece(text, piece.span)
 
 
-def _with_whole_literals(tokens: Iterable[_Piece]) -> Iterator[_Piece]:
+def _with_whole_literals(tokens: Iterable[Piece]) -> Iterator[Piece]:
     """The tokens, with literals side by side as the one that they are to a compiler."""
-    last: _Piece | None = None
+    last: Piece | None = None
     for token in tokens:
         if last is not None and _continues(last.text, token.text):
-            last = _Piece(last.text[:-1] + token.text[1:], last.span.to(token.span))
+            last = Piece(last.text[:-1] + token.text[1:], last.span.to(token.span))
             continue
         if last is not None:
             yield last
@@ -99,9 +91,13 @@ def _continues(literal: str, other: str) -> bool:
     return are_both and _OPEN_ESCAPE.search(literal) is None
 
 
-def _statements(source: Source, own: frozenset[str]) -> Iterator[_Piece]:
+def _statements(source: Source, own: frozenset[str]) -> Iterator[Piece]:
     """The statements of a program but for what it logs, and what it makes its rebec of."""
-    held: list[_Piece] = []
+    yield from with_plain_spin(list(_all_statements(source, own)))
+
+
+def _all_statements(source: Source, own: frozenset[str]) -> Iterator[Piece]:
+    held: list[Piece] = []
     depth = 0
     for token in _tokens(source, own):
         held.append(token)
@@ -109,6 +105,6 @@ def _statements(source: Source, own: frozenset[str]) -> Iterator[_Piece]:
         if depth == 0 and token.text in (";", "{", "}"):
             text = "".join(piece.text for piece in held)
             if not text.startswith(_LOGS) and not _REBEC.match(text):
-                yield _Piece(text, Span(held[0].span.start, token.span.end))
+                yield Piece(text, Span(held[0].span.start, token.span.end))
             held = []
     yield from held
