@@ -13,8 +13,9 @@ from rebsync import model as m
 from rebsync import precedence
 from rebsync.names import original
 from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.overloads import HINT, WHY, telling
-from rebsync.reverse.bodies.scope import Runtime, Scope, Sends, Variable
+from rebsync.reverse.bodies.scope import Record, Runtime, Scope, Sends, Variable
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.syntax.cpp_calls import string_of
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 _CLOCK = names_in_model(Language.CPP)
 # The function under which a statement of `@Move` is read, until it is one.
 MOVE = "@Move"
+MOMENT = "When"  # the type of what says when a send arrives and expires
 _LITERALS = frozenset({"number_literal", "char_literal", "true", "false"})
 _HINT = "send it by a function that only sends"
 
@@ -160,6 +162,8 @@ def send(
 
 def times(reader: CppExpressionReader, node: Node) -> dict[str, m.Expression]:
     """`after(a).deadline(d)`; `When()` is neither."""
+    if isinstance(held := resolve(reader.scope, node), Record) and held.type == MOMENT:
+        return {kind: m.Name(time.name) for kind, time in held.fields.items()}
     if node.type != "call_expression":
         raise reader.unread(node, "this is no time of a send")
     function, arguments = part(node, "function"), named(part(node, "arguments"))

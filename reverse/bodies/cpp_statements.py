@@ -21,6 +21,7 @@ from rebsync.reverse.bodies import (
     cpp_inline,
     cpp_locals,
     cpp_loops,
+    cpp_moments,
     cpp_plain_locals,
     cpp_sequencing,
     cpp_special,
@@ -354,6 +355,9 @@ class CppStatements(CppStatementReader):
     def declaration(
         self, node: Node, annotations: tuple[m.Annotation, ...], hoisted: bool
     ) -> Iterator[m.Statement]:
+        if cpp_moments.is_moment(node):
+            yield from cpp_moments.declared(self, node)
+            return
         if self.scope.open or not cpp_plain_locals.is_plain(node):
             yield from cpp_locals.declarations(self, node)
             return
