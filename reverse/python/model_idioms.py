@@ -205,6 +205,8 @@ def times(reader: ModelExpressionReader, node: Node) -> dict[str, m.Expression]:
     """When a send arrives and expires. Unread: it is told otherwise than by `When`."""
     if node.type == "identifier" and text_of(node) == "AT_ONCE":
         return {}
+    if node.type == "identifier" and text_of(node) in reader.moments:
+        return {**reader.moments[text_of(node)]}
     called = text_of(field(node, "function")) if node.type == "call" else ""
     given = named(field(node, "arguments")) if called == "When" else []
     is_spread = any(g.type in ("list_splat", "dictionary_splat") for g in given)

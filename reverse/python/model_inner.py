@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_closures import arguments_of
 from rebsync.reverse.python.model_names import Closure
-from rebsync.reverse.python.model_types import type_of
+from rebsync.reverse.python.model_types import call_parts, type_of
 from rebsync.reverse.python.py_tree import calls_in, field, named, nodes_in, text_of
+from rebsync.static.types import INT
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_statement_reader import ModelStatementReader
@@ -68,6 +70,29 @@ def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> bool:
     return True
 
 
+def kept_moment(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
+    """The times of `soon = When(after=a)`: known where it is made, and counted from each send."""
+    called, _ = call_parts(value) or ("", [])
+    is_kept = called == "When" and left.type == "identifier"
+    if not is_kept or not _is_bound_once(value, text_of(left), passed=True):
+        return None
+    expressions, span = reader.expressions, reader.expressions.py.span(value)
+    times, made = idioms.times(expressions, value), list[m.Statement]()
+    taken = {*expressions.locals.values(), *expressions.names.variables.values()}
+    for kind, time in times.items():
+        name = f"{text_of(left)}_{kind}"
+        if not is_calm(time) or expressions.kind(time) != INT or name in taken:
+            raise expressions.unread(value, "this time is no whole number of the model")
+        expressions.types[name] = INT
+        expressions.locals[name] = name
+        reader.implied.add(name)
+        declarator = m.Declarator(name, time, span)
+        made.append(m.Local(m.Declaration(INT, (declarator,), span=span), span=span))
+    kept = {kind: m.Name(f"{text_of(left)}_{kind}") for kind in times}
+    expressions.moments[text_of(left)] = kept
+    return made
+
+
 def _parameters(function: Node) -> tuple[tuple[str, m.Type | None], ...] | None:
     """The parameters with the types that they are said to have; None if some have more to them."""
     listed = function.child_by_field_name("parameters")
@@ -82,8 +107,11 @@ def _parameters(function: Node) -> tuple[tuple[str, m.Type | None], ...] | None:
     return tuple(found)
 
 
-def _is_bound_once(node: Node, name: str) -> bool:
-    """Whether nothing else in the method around gives a name another meaning."""
+def _is_bound_once(node: Node, name: str, passed: bool = False) -> bool:
+    """Whether nothing else in the method around gives a name another meaning.
+
+    What has it called, or `passed` on, does not.
+    """
     around = node.parent
     while around is not None and around.type != "function_definition":
         around = around.parent
@@ -92,7 +120,7 @@ def _is_bound_once(node: Node, name: str) -> bool:
         if each.type == "identifier" and text_of(each) == name and each.parent is not None:
             above = each.parent
             called = above.type == "call" and field(above, "function") == each
-            found += not called
+            found += not (above.type == "argument_list" if passed else called)
     return found == 1
 
 

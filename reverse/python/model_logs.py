@@ -205,3 +205,9 @@ def _branch_only_logs(part: Node, looks: Looks) -> bool:
     inside = [n for n in named(body) if n.type not in ("comment", "pass_statement")]
     is_pure = condition is None or looks.is_pure(condition)
     return is_pure and bool(inside) and all(only_logs(each, looks) for each in inside)
+
+
+def is_logger(stored: Node | None) -> bool:
+    """Whether an attribute gets the node's own logger, which the model's constructor cannot see."""
+    is_stored = stored is not None and stored.type == "assignment"
+    return is_stored and text_of(stored.child_by_field_name("right")) == "self.get_logger()"

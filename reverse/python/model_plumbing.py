@@ -17,6 +17,7 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
 from rebsync.reverse.python.model_filled import made_of
 from rebsync.reverse.python.model_helpers import is_transparent
+from rebsync.reverse.python.model_logs import is_logger
 from rebsync.reverse.python.model_parameters import only_declares, parameter_read
 from rebsync.reverse.python.model_posts import POST, Post, tells_arguments
 from rebsync.reverse.python.model_roles import OFFERING, PyRoles, PySends, field_read
@@ -160,7 +161,8 @@ class Plumbing:
         for statement in body:
             if statement in early:
                 continue
-            if is_constructed or not self._sets_up(function, statement):
+            is_late = is_constructed and not is_logger(_inner(statement))
+            if is_late or not self._sets_up(function, statement):
                 yield statement
             called, _ = call_parts(_inner(statement)) or ("", [])
             is_constructed = is_constructed or called == "self._mailbox.construct"

@@ -67,13 +67,14 @@ class ModelStatementReader(ABC):
         outer, closures = self.implied, self.expressions.closures
         sends = self.expressions.kept_sends
         self.expressions.kept_sends = dict(sends)
+        moments, self.expressions.moments = self.expressions.moments, dict(self.expressions.moments)
         inner, self.inner = self.inner, dict(self.inner)
         self.implied, self.expressions.closures = set(), dict(closures)
         found = self.block(named(node) if nodes is None else nodes, node)
         for name in self.implied:
             self.expressions.locals.pop(name, None)
         self.implied, self.expressions.closures, self.inner = outer, closures, inner
-        self.expressions.kept_sends = sends
+        self.expressions.kept_sends, self.expressions.moments = sends, moments
         return found
 
     @abstractmethod
