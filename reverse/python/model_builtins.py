@@ -36,7 +36,7 @@ def of_python(
 
     Unread: the model cannot say it.
     """
-    if called in reader.names.constants or called in reader.locals:
+    if reader.names.constants.binds(called) or called in reader.locals:
         return None
     match called, arguments:
         case ("any" | "all" | "sum", [given]):

@@ -116,7 +116,7 @@ class Statements(ModelStatementReader):
             case "pass_statement":
                 return []
             case "assert_statement":
-                return [stored.asserted(self, node)]
+                return stored.asserted(self, node)
             case "delete_statement":
                 return stored.deleted(self, node)
             case "try_statement":

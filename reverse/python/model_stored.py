@@ -16,6 +16,7 @@ from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_inner import leaves
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
+from rebsync.static.types import INT
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_statement_reader import ModelStatementReader
@@ -246,16 +247,32 @@ def deleted(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
 # --- control ------------------------------------------------------------------------------------
 
 
-def asserted(reader: ModelStatementReader, node: Node) -> m.Statement:
-    """`assert e, "text"`: what must hold, told as one of the model's assertions."""
+def asserted(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
+    """`assert e, "text"`: what must hold, told as one of the model's assertions.
+
+    Nothing for what the types of the model say already.
+    """
     parts, span = named(node), reader.expressions.py.span(node)
+    if _is_of_its_type(reader, parts[0]):
+        return []
     given: list[m.Expression] = [reader.expressions.condition(parts[0])]
     if not is_calm(given[0]):
         raise reader.expressions.unread(node, "Python without assertions does not do this")
     if len(parts) > 1 and string_value(parts[1]) is not None:
         is_formatted = any(c.type == "interpolation" for c in parts[1].children)
         given += [] if is_formatted else [reader.expressions.read(parts[1])]
-    return m.ExpressionStatement(m.Call(None, "assertion", tuple(given), span=span), span=span)
+    return [m.ExpressionStatement(m.Call(None, "assertion", tuple(given), span=span), span=span)]
+
+
+def _is_of_its_type(reader: ModelStatementReader, node: Node) -> bool:
+    """Whether it is `isinstance(x, int)` of a whole number: of others Python may have another."""
+    called, arguments = call_parts(node) or ("", [])
+    binds, local = reader.expressions.names.constants.binds, reader.expressions.locals
+    is_own = any(binds(word) or word in local for word in ("isinstance", "int"))
+    if called != "isinstance" or len(arguments) != 2 or is_own:
+        return False
+    kind = reader.expressions.kind(reader.expressions.read(arguments[0]))
+    return text_of(arguments[1]) == "int" and kind == INT
 
 
 def tried(reader: ModelStatementReader, node: Node) -> list[m.Statement]:

@@ -201,6 +201,10 @@ class NamedConstants:
     def __contains__(self, text: str) -> bool:
         return self.get(text) is not None
 
+    def binds(self, name: str) -> bool:
+        """Whether a name is the module's own, whatever Python has by that name."""
+        return name in self.module.names
+
     def get(self, text: str) -> m.Expression | None:
         """The literal that a text stands for; None if it is no such name."""
         if text not in self._found:
