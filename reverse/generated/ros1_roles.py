@@ -144,9 +144,9 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     for function in functions:
         if function.name == owner.name:
             _wired(roles, function, {f.name: text_of(f.type) for f in owner.fields})
-            for member, key, default, statement in constants_read(code, owner, function):
-                if member not in roles.globals:
-                    roles.globals[member] = key, default
+            for name, key, default, statement in constants_read(code, owner, function):
+                if name not in roles.globals:
+                    roles.globals[name] = key, default
                     roles.asked.add(statement)
     for member in owner.fields:
         if any(marker.startswith("statevar ") for marker in member.markers):

@@ -209,5 +209,6 @@ def _branch_only_logs(part: Node, looks: Looks) -> bool:
 
 def is_logger(stored: Node | None) -> bool:
     """Whether an attribute gets the node's own logger, which the model's constructor cannot see."""
-    is_stored = stored is not None and stored.type == "assignment"
-    return is_stored and text_of(stored.child_by_field_name("right")) == "self.get_logger()"
+    if stored is None or stored.type != "assignment":
+        return False
+    return text_of(field(stored, "right")) == "self.get_logger()"
