@@ -82,7 +82,7 @@ class HeldLocks:
         function = self.origins.graph.program.function(name)
         notes = ProblemNotes(function, self.origins, self._counts, lambda _: False, {})
         self.check(function, notes)
-        return frozenset(notes.found)
+        return frozenset(p for p in notes.found if isinstance(p, Problem))
 
     def _locked(self, node: Node, function: str) -> Mutexes:
         """The mutexes that a statement locks, other than recursive ones."""

@@ -104,8 +104,9 @@ def _lent(notes: ProblemNotes, function: Function) -> Iterator[int]:
     make themselves, and that have their places. What a call gives may keep them, if that is kept.
     """
     nodes = list(walk(function))
-    stores = (n for n in nodes if isinstance(n, s.Assign | s.Declare) and n.value is not None)
-    stored = {n for store in stores for n in walk(store.value) if isinstance(n, e.Temporary)}
+    values = (n.value for n in nodes if isinstance(n, s.Assign | s.Declare))
+    parts = (n for value in values if value is not None for n in walk(value))
+    stored = {n for n in parts if isinstance(n, e.Temporary)}
     for call in nodes:
         if not isinstance(call, s.Call) or not _is_trusted(notes, call.callee):
             continue
