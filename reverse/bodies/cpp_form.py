@@ -230,8 +230,10 @@ class CppForm:
         if not locking:
             return []
         roots = [self._functions[i].name for i in own if i in self._functions]
-        body_of = self._origins.graph.program.function
-        found = {n for root in roots for n, _ in self._origins.runs(body_of(root).body, root)}
+        body_of = self._program.function
+        found = {
+            n for root in roots for n, _ in self._outcomes.origins.runs(body_of(root).body, root)
+        }
         return [code for name, code in sorted(locking.items()) if name in found]
 
     def _may_lock(self, text: bytes) -> bool:
