@@ -134,8 +134,13 @@ class ElementCounts:
             and all(_has(v, key) for _, v in stored)
         )
 
-    def elements(self, value: e.Expression, function: str) -> int:
-        """How many elements each element of a container has at least."""
+    def elements(
+        self, value: e.Expression, function: str, around: frozenset[Key] = frozenset()
+    ) -> int:
+        """How many elements each element of a container has at least.
+
+        Of names that are stored in each other, as those `around` are, nothing is known.
+        """
         match value:
             case e.Build(_, parts):
                 return min(
@@ -143,13 +148,14 @@ class ElementCounts:
                     default=0,
                 )
             case e.Dereference(of) | e.Copy(of) | e.Index(of, e.Slice()):
-                return self.elements(of, function)
+                return self.elements(of, function, around)
         key = key_of(value, function)
-        if key is None or key in self._growing:
+        if key is None or key in self._growing or key in around:
             return 0
-        return min((self._elements(each) for each in self.graph.stores.of(key)), default=0)
+        stored = self.graph.stores.of(key)
+        return min((self._elements(each, around | {key}) for each in stored), default=0)
 
-    def _elements(self, stored: Stored) -> int:
+    def _elements(self, stored: Stored, around: frozenset[Key]) -> int:
         function, value = stored
         match value:
             case CallResult(s.Call(_, s.LibraryCallee(name), arguments)) if arguments:
@@ -157,13 +163,13 @@ class ElementCounts:
                 if tells is Tells.PAIRS:
                     return max(2, len(arguments))
                 is_same = tells is Tells.SAME
-                return self.elements(arguments[0].value, function) if is_same else 0
+                return self.elements(arguments[0].value, function, around) if is_same else 0
             case CallResult(s.Call(_, s.MethodCallee(_, name))):
                 return 2 if self.table.method(None, name).tells is Tells.PAIRS else 0
             case AnyValue() | ClassValue() | ObjectValue() | CallResult():
                 return 0
             case _:
-                return self.elements(value, function)
+                return self.elements(value, function, around)
 
     @cached_property
     def _growing(self) -> frozenset[Key | None]:

@@ -11,8 +11,10 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator
+from functools import partial
 
 from rebsync.reverse.analysis.element_counts import ElementCounts
+from rebsync.reverse.analysis.fixpoint import Equation, LeastFixpoint, Transfer
 from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origins
 from rebsync.reverse.analysis.problems import Problem, ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, Key, Member, key_of
@@ -51,7 +53,7 @@ class HeldLocks:
         self.origins = origins
         self.stores = origins.graph.stores
         self._counts = ElementCounts(origins)
-        self._left: dict[str, Mutexes] = {}
+        self._left = LeastFixpoint[Key | None](self._left_by)
 
     def check(self, function: Function, notes: ProblemNotes) -> None:
         """Notes where a function may lock what it has locked."""
@@ -81,23 +83,26 @@ class HeldLocks:
         function = self.origins.graph.program.function(name)
         notes = ProblemNotes(function, self.origins, self._counts, lambda _: False, {})
         self.check(function, notes)
-        return frozenset(notes.found)
+        return frozenset(p for p in notes.found if isinstance(p, Problem))
 
     def _locked(self, node: Node, function: str) -> Mutexes:
         """The mutexes that a statement locks, other than recursive ones."""
+        seen = (
+            self._seen(arguments, function, left)
+            for name, arguments in self._calls(node, function)
+            for left in self.left_by(name)
+        )
+        return self._by_library(node, function).union(*seen)
+
+    def _by_library(self, node: Node, function: str) -> Mutexes:
         match node:
             case s.Call(_, s.LibraryCallee(name), arguments) if _is_guard(name):
                 values = (a.value for a in arguments)
                 found = [self._mutexes(v, function, _NONE) for v in values if not _is_tag(v)]
             case s.Call(_, s.LibraryCallee(name, receiver)) if _is_by_hand(name):
                 found = [] if receiver is None else [self._mutexes(receiver, function, _NONE)]
-            case s.Construct(_, _, arguments, str() as name):
-                found = [self._locked_for(name, arguments, function)]
             case s.Call(_, s.MethodCallee(_, "enter_context"), arguments):
                 found = [self._entered(a.value, function) for a in arguments]
-            case s.Call(_, s.FunctionCallee() | s.MethodCallee(), arguments):
-                names = self.origins.reached(node, function)
-                found = [self._locked_for(name, arguments, function) for name in names]
             case s.With(context):
                 found = [self._entered(context, function)]
             case _:
@@ -120,17 +125,44 @@ class HeldLocks:
 
     def left_by(self, name: str) -> Mutexes:
         """The mutexes that a function may leave locked; None is one that it gets."""
-        if name not in self._left:
-            self._left[name] = _NONE  # of those that call each other
-            body = self.origins.graph.program.function(name).body
-            scoped = _scoped(body)
-            found = (
-                self._locked(node, name)
-                for node, rest in _with_rest(body)
-                if _held(node, rest)[1] and id(node) not in scoped
-            )
-            self._left[name] = _NONE.union(*found)
-        return self._left[name]
+        return self._left.of(name)
+
+    def _left_by(self, name: str) -> Equation[Key | None]:
+        own, uses = set[Key | None](), list[tuple[str, Transfer[Key | None]]]()
+        body = self.origins.graph.program.function(name).body
+        scoped = _scoped(body)
+        for node, rest in _with_rest(body):
+            if id(node) in scoped:
+                continue
+            calls = self._calls(node, name)
+            locked = self._by_library(node, name)
+            if (calls or locked) and _held(node, rest)[1]:
+                own |= locked
+                uses += ((called, partial(self._seen, given, name)) for called, given in calls)
+        return Equation(frozenset(own), tuple(uses))
+
+    def _calls(self, node: Node, function: str) -> list[tuple[str, tuple[s.CallArgument, ...]]]:
+        """The functions of the program that a statement runs, with what they get."""
+        match node:
+            case s.Construct(_, _, arguments, str() as name):
+                return [(name, arguments)]
+            case s.Call(_, s.MethodCallee(_, "enter_context")):
+                return []  # it enters what it gets
+            case s.Call(_, s.FunctionCallee() | s.MethodCallee(), arguments):
+                return [(name, arguments) for name in self.origins.reached(node, function)]
+            case _:
+                return []
+
+    def _seen(
+        self, arguments: tuple[s.CallArgument, ...], function: str, left: Key | None
+    ) -> Mutexes:
+        """A mutex that a function of the program leaves locked, as seen where it is called."""
+        given = [a.value for a in arguments if _is_mutex(a.value)] if left is None else []
+        return (
+            _NONE.union(*(self._mutexes(v, function, _NONE) for v in given))
+            if given
+            else (frozenset({left}))
+        )
 
     def _is_guard_of(self, name: str) -> bool:
         """Whether a function makes an object that holds a lock."""
@@ -147,16 +179,6 @@ class HeldLocks:
         bodies = (graph.program.function(c.destructor) for c in classes if c.destructor)
         calls = (n.callee for body in bodies for n in walk(body) if isinstance(n, s.Call))
         return any(isinstance(c, s.LibraryCallee) and c.name.endswith("unlock") for c in calls)
-
-    def _locked_for(
-        self, name: str, arguments: tuple[s.CallArgument, ...], function: str
-    ) -> Mutexes:
-        """The mutexes that a function of the program leaves locked, as seen where it is called."""
-        left = self.left_by(name)
-        given = [a.value for a in arguments if _is_mutex(a.value)]
-        if None not in left or not given:
-            return left
-        return (left - {None}).union(*(self._mutexes(v, function, _NONE) for v in given))
 
     def _mutexes(self, value: e.Expression, function: str, seen: Mutexes) -> Mutexes:
         """The mutexes that a value may be, or lead to."""

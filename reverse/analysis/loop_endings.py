@@ -5,7 +5,7 @@ Whether the statements within a loop end is asked of each of them by itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from functools import cache, cached_property
 
 from rebsync.reverse.analysis.bounded_loops import LoopEnds
@@ -39,11 +39,17 @@ class LoopEndings:
         self._origins = notes.origins
         self._sizes = sizes
         self._changes = SizeChanges(notes, sizes)
-        numbers = FiniteNumbers(notes.origins.graph, notes.table)
-        self._lent = frozenset(_lent(notes, self._function))
-        self._bounded = LoopEnds(
-            numbers, notes.function.name, sizes.is_bound, self._changes.in_bound, self._lent
-        )
+        self._notes = notes
+
+    @cached_property
+    def _lent(self) -> frozenset[int]:
+        return frozenset(_lent(self._notes, self._function))
+
+    @cached_property
+    def _bounded(self) -> LoopEnds:
+        numbers = FiniteNumbers(self._origins.graph, self._notes.table)
+        name, in_bound = self._function.name, self._changes.in_bound
+        return LoopEnds(numbers, name, self._sizes.is_bound, in_bound, self._lent)
 
     def ends(self, loop: s.Loop | s.ForEach) -> bool:
         """Whether a loop goes through its body finitely often, if each round ends."""
@@ -97,10 +103,14 @@ def _lent(notes: ProblemNotes, function: Function) -> Iterator[int]:
     get by their names, and not by an address (`f(i)`, and not `f(&i)`): for references that calls
     make themselves, and that have their places. What a call gives may keep them, if that is kept.
     """
-    for call in walk(function):
+    nodes = list(walk(function))
+    values = (n.value for n in nodes if isinstance(n, s.Assign | s.Declare))
+    parts = (n for value in values if value is not None for n in walk(value))
+    stored = {n for n in parts if isinstance(n, e.Temporary)}
+    for call in nodes:
         if not isinstance(call, s.Call) or not _is_trusted(notes, call.callee):
             continue
-        if _may_be_kept(call, function):
+        if _may_be_kept(call, stored):
             continue
         for argument in call.arguments:
             value = argument.value
@@ -108,14 +118,11 @@ def _lent(notes: ProblemNotes, function: Function) -> Iterator[int]:
                 yield id(value)
 
 
-def _may_be_kept(call: s.Call, function: Function) -> bool:
+def _may_be_kept(call: s.Call, stored: Container[e.Expression]) -> bool:
     """Whether a variable or member gets what a call gives, and that is no number or text."""
     if call.target is None or isinstance(call.target.type, _VALUES):
         return False
-    if not isinstance(call.target, e.Temporary):
-        return True
-    stores = (n for n in walk(function) if isinstance(n, s.Assign | s.Declare))
-    return any(call.target in walk(n.value) for n in stores if n.value is not None)
+    return not isinstance(call.target, e.Temporary) or call.target in stored
 
 
 def _is_trusted(notes: ProblemNotes, callee: s.Callee) -> bool:

@@ -159,13 +159,15 @@ class Origins:
         if self._visited is not None:
             return self._visit(key, self._visited)
         before: dict[Key, frozenset[Origin]] | None = None
-        while before != self._found:
-            before = dict(self._found)
-            self._visited = set()
-            self._visit(key, self._visited)
-        self._visited = None
-        self._known |= {k: found or ANYTHING for k, found in self._found.items()}
-        self._found.clear()
+        try:
+            while before != self._found:
+                before = dict(self._found)
+                self._visited = set()
+                self._visit(key, self._visited)
+            self._known |= {k: found or ANYTHING for k, found in self._found.items()}
+        finally:  # this may lead deeper than it can be followed, and what was found is not all
+            self._visited = None
+            self._found.clear()
         return self._known[key]
 
     def _visit(self, key: Key, visited: set[Key]) -> frozenset[Origin]:

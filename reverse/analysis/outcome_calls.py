@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 
 from rebsync.reverse.analysis.facts import (
     Facts,
@@ -23,7 +22,7 @@ from rebsync.reverse.analysis.origins import (
 )
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
-from rebsync.reverse.analysis.problems import Problem, ProblemNotes
+from rebsync.reverse.analysis.problems import Called, ProblemNotes
 from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -40,19 +39,17 @@ _UNKNOWN = "what is called is not known"
 
 
 class OutcomeCalls:
-    """Calls in one function; `of` gives what a function of the program may do."""
+    """Calls in one function."""
 
     def __init__(
         self,
         notes: ProblemNotes,
         expressions: OutcomeExpressions,
         sizes: OutcomeSizes,
-        of: Callable[[str], frozenset[Problem]],
     ) -> None:
         self.notes = notes
         self.expressions = expressions
         self._sizes = sizes
-        self.of = of
         self.origins = notes.origins
         self.function = notes.function.name
 
@@ -116,7 +113,7 @@ class OutcomeCalls:
         if self.notes.is_model(name):
             self.notes.problem(node, f'"{name.rpartition("/")[2]}" is the model\'s')
         else:
-            self.notes.take(self.of(name))
+            self.notes.take({Called(name)})
 
     def _of_template(self, node: s.Call, name: str) -> None:
         """A function of a parameter of a template, or of a class that one gives: of any class."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from functools import cache, partial
 
 from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.facts import (
@@ -25,7 +26,7 @@ from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, Librar
 from rebsync.reverse.analysis.outcome_calls import OutcomeCalls
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
-from rebsync.reverse.analysis.problems import TERMINATES, Problem, ProblemNotes
+from rebsync.reverse.analysis.problems import TERMINATES, Called, Problem, ProblemNotes
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import walk
@@ -40,7 +41,6 @@ class OutcomeWalk:
     def __init__(
         self,
         notes: ProblemNotes,
-        of: Callable[[str], frozenset[Problem]],
         iterators: EndlessIterators,
     ) -> None:
         self.notes = notes
@@ -48,9 +48,9 @@ class OutcomeWalk:
         self.name = notes.function.name
         self._expressions = OutcomeExpressions(notes)
         self._sizes = OutcomeSizes(notes, self._expressions)
-        self._calls = OutcomeCalls(notes, self._expressions, self._sizes, of)
+        self._calls = OutcomeCalls(notes, self._expressions, self._sizes)
         self._endings = LoopEndings(notes, self._sizes, iterators)
-        self._handled: list[set[Problem]] = []
+        self._handled: list[set[Problem | Called]] = []
 
     def value(self, value: e.Expression | None, facts: Facts) -> None:
         """What evaluating an expression may do."""
@@ -323,8 +323,7 @@ class OutcomeWalk:
         inside = self._changed(facts, node.body)
         ways = []
         for handler in node.handlers:
-            caught = {p for p in raised if self._catches(handler, p)}
-            raised -= caught
+            caught, raised = self._split(raised, handler)
             self._handled.append(caught)
             ways.append(self.body((*handler.prelude, *handler.body), inside))
             self._handled.pop()
@@ -338,6 +337,22 @@ class OutcomeWalk:
         last = self._changed(inside, node.final) if after is None else after
         final = self.body(node.final, last if after is not None else inside)
         return None if after is None else final
+
+    def _split(
+        self, raised: set[Problem | Called], handler: s.Handler
+    ) -> tuple[set[Problem | Called], set[Problem | Called]]:
+        """What a handler is for of what a block raises, and what it lets through."""
+        catches = cache(partial(self._catches, handler))
+        passes = cache(lambda problem: not catches(problem))
+        caught, passed = set[Problem | Called](), set[Problem | Called]()
+        for each in raised:
+            match each:
+                case Called(name, tests):
+                    caught.add(Called(name, (*tests, catches)))
+                    passed.add(Called(name, (*tests, passes)))
+                case Problem():
+                    (caught if catches(each) else passed).add(each)
+        return caught, passed
 
     def _catches(self, handler: s.Handler, problem: Problem) -> bool:
         """Whether a handler is for what a place raises."""

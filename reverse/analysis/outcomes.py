@@ -10,19 +10,21 @@ attribute that is not there, is not looked for. So is what C++ leaves undefined.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import replace
 from functools import cached_property
 
+from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.element_counts import ElementCounts
 from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.facts import NO_FACTS
+from rebsync.reverse.analysis.fixpoint import Equation, LeastFixpoint, in_cycles
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcome_statements import ENDLESS, OutcomeWalk
-from rebsync.reverse.analysis.problems import TERMINATES, Problem, ProblemNotes
+from rebsync.reverse.analysis.problems import TERMINATES, Called, Problem, ProblemNotes
 from rebsync.reverse.analysis.silent_calls import SilentCalls
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -54,19 +56,23 @@ class OutcomeAnalysis:
         self.locks = HeldLocks(self.origins)
         self.iterators = EndlessIterators(self.origins)
         self.elements: dict[str, int] = {}  # of what functions get, by their names
-        self._found: dict[str, frozenset[Problem]] = {}
-        self._active: list[str] = []
+        self._solutions = LeastFixpoint(self._of_function, self._recursion)
+        self._calls: dict[str, set[str]] = {}
+        self._raised: dict[tuple[str, Span], frozenset[Problem]] = {}
+        self._nested: dict[str, tuple[_Nested, ...]] = {}
 
     def of(self, name: str) -> frozenset[Problem]:
         """What one call of a function may do besides giving a value."""
-        if name in self._active:
-            place = self.program.function(name).place
-            return frozenset({Problem(name, place, _RECURSES)})
-        if name not in self._found:
-            self._active.append(name)
-            self._found[name] = self._of_body(self.program.function(name))
-            self._active.pop()
-        return self._found[name]
+        return self._solutions.of(name)
+
+    def _of_function(self, name: str) -> Equation[Problem]:
+        return self._of_body(self.program.function(name), frozenset({name}))
+
+    def _recursion(self, names: Collection[str]) -> dict[str, frozenset[Problem]]:
+        """Which functions of some may call themselves, as far as that depends on no others."""
+        found = in_cycles({name: sorted(self._calls.get(name, ())) for name in names})
+        places = {name: self.program.function(name).place for name in found}
+        return {n: frozenset({Problem(n, place, _RECURSES)}) for n, place in places.items()}
 
     def functions(self, value: e.Expression) -> frozenset[str]:
         """The functions that a variable of a module may stand for."""
@@ -79,34 +85,56 @@ class OutcomeAnalysis:
 
     def of_statements(self, function: Function, span: Span) -> frozenset[Problem]:
         """What the statements of a function at a place may do besides to compute."""
-        return self._of_body(replace(function, body=tuple(_within(function.body, span))))
+        if function.name not in self._nested:
+            self._nested[function.name] = tuple(_nested(function.body))
+        there = _within(self._nested[function.name], span)
+        body = replace(function, body=tuple(there))
+        return self._solutions.solved(self._of_body(body, frozenset()))
 
     def raised_by(self, function: Function, span: Span) -> frozenset[Problem]:
         """The exceptions of statements at a place that leave the function, or end the program."""
-        found = frozenset(p for p in self.of_statements(function, span) if p.raises)
-        return found & self.of(function.name) if found else frozenset()
+        leaving = frozenset(p for p in self.of(function.name) if p.raises)
+        if not leaving:
+            return leaving
+        key = function.name, span
+        if key not in self._raised:
+            self._raised[key] = leaving & self.of_statements(function, span)
+        return self._raised[key]
 
-    def _of_body(self, function: Function) -> frozenset[Problem]:
-        notes = ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)
-        walk_ = OutcomeWalk(notes, self.of, self.iterators)
+    def _of_body(self, function: Function, running: frozenset[str]) -> Equation[Problem]:
+        """What a body may do; `running` are functions that silent calls are not looked for of."""
+        notes = self._notes(function)
+        walk_ = OutcomeWalk(notes, self.iterators)
         walk_.defaults(self._defaults.get(function.name, ()))
-        walk_.defaults(self._silent.factories(function, self._active))
         walk_.body(function.body, NO_FACTS)
         self.locks.check(function, notes)
         for node in self.iterators.gone_through(function):
             notes.problem(node, ENDLESS)
         found = implicit_calls(self.graph, function)
-        implicit = found.functions | (self._silent.called(function).difference(self._active))
-        if found.has_library:
-            implicit |= self.origins.operators
-        for name in sorted(implicit):
+        implicit = found.functions | (self.origins.operators if found.has_library else frozenset())
+        self._run(function, implicit, notes)
+        called = {c.function for c in notes.found if isinstance(c, Called)}
+        self._calls.setdefault(function.name, set()).update(called)
+        # What may run silently is no recursion: which places run it is not looked for.
+        OutcomeWalk(notes, self.iterators).defaults(self._silent.factories(function, running))
+        self._run(function, self._silent.called(function) - running, notes)
+        calls = [c for c in notes.found if isinstance(c, Called)]
+        own = frozenset(p for p in notes.found if isinstance(p, Problem))
+        if not function.noexcept:
+            return Equation(own, tuple((c.function, c.leaving) for c in calls))
+        uses = ((c.function, lambda p, c=c: frozenset(map(_ending, c.leaving(p)))) for c in calls)
+        return Equation(frozenset(map(_ending, own)), tuple(uses))
+
+    def _notes(self, function: Function) -> ProblemNotes:
+        return ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)
+
+    def _run(self, function: Function, names: Collection[str], notes: ProblemNotes) -> None:
+        """Notes functions that run though no call of them stands in a function."""
+        for name in names:
             if not self.is_model(name) and name != function.name:
-                notes.take(self.of(name))
+                notes.take({Called(name)})
                 if name in self._endless:
                     notes.take({Problem(name, self.program.function(name).place, ENDLESS)})
-        if function.noexcept:
-            return frozenset(replace(p, raises=p.raises and TERMINATES) for p in notes.found)
-        return frozenset(notes.found)
 
     @cached_property
     def _endless(self) -> frozenset[str]:
@@ -132,19 +160,47 @@ class OutcomeAnalysis:
         return found
 
 
-def _within(body: Iterable[Node], span: Span) -> Iterator[s.Statement]:
+def _ending(problem: Problem) -> Problem:
+    """What a problem of a `noexcept` function is: an exception ends the program."""
+    return replace(problem, raises=problem.raises and TERMINATES)
+
+
+@dataclass(frozen=True, slots=True)
+class _Nested:
+    """A statement with those that stand in it, but for what is between: no expressions."""
+
+    statement: s.Statement
+    inner: tuple[_Nested, ...]
+
+    @property
+    def place(self) -> Span:
+        return getattr(self.statement, "place", NOWHERE)
+
+
+def _nested(nodes: Iterable[Node]) -> Iterator[_Nested]:
+    """The outermost statements among some nodes and their parts, each with those in it."""
+    for node in nodes:
+        if isinstance(node, STATEMENTS):
+            yield _Nested(node, tuple(_nested(parts(node))))  # type: ignore[arg-type]
+        else:
+            yield from _nested(parts(node))
+
+
+def _within(nested: Iterable[_Nested], span: Span) -> Iterator[s.Statement]:
     """The outermost statements that stand at a place.
 
     The rest of a block after a local, which its destruction ends, stands at the place of the local:
     of that only the destruction is the local's own.
     """
-    for node in body:
-        place = getattr(node, "place", NOWHERE)
-        is_there = span.start <= place.start and place.end <= span.end
-        if isinstance(node, s.Try) and any(isinstance(n, s.Destroy) for n in node.final):
-            yield from _within(node.body, span)
-            yield from node.final if is_there else _within(node.final, span)
-        elif isinstance(node, STATEMENTS) and is_there:
-            yield node  # type: ignore[misc]
-        else:
-            yield from _within(parts(node), span)
+    for node in nested:
+        is_there = span.start <= node.place.start and node.place.end <= span.end
+        match node.statement:
+            case s.Try(final=final) if any(isinstance(n, s.Destroy) for n in final):
+                ends = set(map(id, final))
+                yield from _within((n for n in node.inner if id(n.statement) not in ends), span)
+                at_the_end = (n for n in node.inner if id(n.statement) in ends)
+                yield from final if is_there else _within(at_the_end, span)
+            case statement if is_there:
+                yield statement
+            case _:
+                yield from _within(node.inner, span)

@@ -30,6 +30,18 @@ class Problem:
     raises: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class Called:
+    """A function that runs, with which of its problems leave what is around the call."""
+
+    function: str
+    tests: tuple[Callable[[Problem], bool], ...] = ()
+
+    def leaving(self, problem: Problem) -> frozenset[Problem]:
+        """What a problem of the function is for who calls it: itself, or nothing."""
+        return frozenset({problem}) if all(t(problem) for t in self.tests) else frozenset()
+
+
 class ProblemNotes:
     """What was found in a function so far, and what is known of the program around it.
 
@@ -50,7 +62,7 @@ class ProblemNotes:
         self.counts = counts
         self.is_model = is_model
         self.elements = elements
-        self.found: set[Problem] = set()
+        self.found: set[Problem | Called] = set()
 
     @property
     def table(self) -> LibraryOutcomes:
@@ -66,8 +78,8 @@ class ProblemNotes:
         """Notes that an operation may raise what the language raises for a failure."""
         self.problem(node, f"this may fail: it {failure}", self.table.of_failure(failure))
 
-    def take(self, problems: Iterable[Problem]) -> None:
-        """Notes what a function that is called may do."""
+    def take(self, problems: Iterable[Problem | Called]) -> None:
+        """Notes what was found elsewhere, or what functions run."""
         self.found |= set(problems)
 
     def is_parameter(self, value: e.Expression) -> bool:

@@ -53,6 +53,8 @@ class SilentCalls:
         self, function: Function, active: Collection[str]
     ) -> Iterator[tuple[str, e.Expression]]:
         """What a function may call of what libraries got, but for functions that run already."""
+        if not self._filling:
+            return
         if not any(isinstance(n, e.Index | s.Call | s.Construct) for n in walk(function)):
             return
         for around, value in self._filling:

@@ -10,13 +10,13 @@ from tree_sitter import Node
 
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
-from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
 from rebsync.reverse.bodies.cpp_unread_calls import UnreadCalls
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.cpp.functions import lambda_names
 from rebsync.reverse.ir.cpp.lowering import CppLowering
 from rebsync.reverse.ir.cpp.symbols import FunctionSymbol
+from rebsync.reverse.ir.program import Program
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
@@ -68,22 +68,21 @@ class CppForm:
         return CppLowering(self._code)
 
     @cached_property
-    def _origins(self) -> Origins:
-        table = LibraryOutcomes(Language.CPP, frozenset(self._code.macros))
-        return Origins.of_program(self._lowering.program(), table)
-
-    @cached_property
-    def _loops(self) -> ProgramLoops:
-        return ProgramLoops(self._origins)
-
-    @cached_property
-    def _locks(self) -> HeldLocks:
-        return HeldLocks(self._origins)
+    def _program(self) -> Program:
+        return self._lowering.program()
 
     @cached_property
     def _outcomes(self) -> OutcomeAnalysis:
         table = LibraryOutcomes(Language.CPP, frozenset(self._code.macros))
-        return OutcomeAnalysis(self._lowering.program(), table, lambda name: False)
+        return OutcomeAnalysis(self._program, table, lambda name: False)
+
+    @cached_property
+    def _loops(self) -> ProgramLoops:
+        return ProgramLoops(self._outcomes.origins)
+
+    @property
+    def _locks(self) -> HeldLocks:
+        return self._outcomes.locks
 
     @cached_property
     def _functions(self) -> dict[int, FunctionSymbol]:
@@ -189,7 +188,7 @@ class CppForm:
         name = self._around(statement)
         if name is None:
             return None
-        function = self._lowering.program().function(name)
+        function = self._program.function(name)
         found = self._outcomes.raised_by(function, cpp.span(statement))
         return min((p.why for p in found), default=None)
 
@@ -231,8 +230,10 @@ class CppForm:
         if not locking:
             return []
         roots = [self._functions[i].name for i in own if i in self._functions]
-        body_of = self._origins.graph.program.function
-        found = {n for root in roots for n, _ in self._origins.runs(body_of(root).body, root)}
+        body_of = self._program.function
+        found = {
+            n for root in roots for n, _ in self._outcomes.origins.runs(body_of(root).body, root)
+        }
         return [code for name, code in sorted(locking.items()) if name in found]
 
     def _may_lock(self, text: bytes) -> bool:
@@ -241,7 +242,7 @@ class CppForm:
 
     def _unread(self, function: CppFunction, name: str) -> Iterator[Span]:
         """The places in a function that lock something, perhaps, and have no form."""
-        for node in walk(self._origins.graph.program.function(name).body):
+        for node in walk(self._program.function(name).body):
             if isinstance(node, s.Unsupported):
                 place = node.place if node.place != NOWHERE else function.cpp.span(function.node)
                 if _LOCKS.search(function.cpp.source.text[place.start : place.end].encode()):

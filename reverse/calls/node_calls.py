@@ -13,6 +13,7 @@ from rebsync.reverse.calls.ros_calls_shapes import (
     Asked,
     called_as,
     handed_on,
+    is_used,
     objects_of,
     types_of,
 )
@@ -93,7 +94,11 @@ def _of_function(
     if called is None:
         return
     scope, call = called
+    if not scope:
+        scope = next((s for s, n in calls.functions if n == name and is_used(cpp, (s,), n)), "")
     ask = calls.functions.get((scope, name))
+    if ask is not None and values.calls.functions(cpp, call):
+        return  # it is among the files, and read itself
     if ask is None and scope in ("", *calls.nodes):
         function = values.texts.function_around(cpp, place)
         class_ = values.texts.class_of(function)

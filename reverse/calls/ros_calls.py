@@ -18,6 +18,7 @@ from rebsync.reverse.calls.ros_calls_shapes import (
     Asked,
     called_as,
     handed_on,
+    is_used,
     objects_of,
     types_of,
 )
@@ -261,14 +262,18 @@ def _object(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> I
         node, above = above, above.parent
     ask, scopes = calls.objects[name]
     is_filter = name in calls.filters
-    if above is None or scope not in ({"", *scopes} if not is_filter else scopes):
+    is_meant = scope in scopes or (not scope and (not is_filter or is_used(cpp, scopes, name)))
+    if above is None or not is_meant:
         return
     if above.type == "field_declaration" and is_filter:
         yield from _initialised(values, above, ask, types)
         return
     for call, given in objects_of(node, above):
         if given and (is_filter or not handed_on(call)):
-            yield Asked(ask, site_of(values, cpp, place, call), given, types)
+            site = site_of(values, cpp, place, call)
+            if is_filter and call.type == "init_declarator":
+                site = replace(site, kept=text_of(part(call, "declarator")))
+            yield Asked(ask, site, given, types)
 
 
 def _initialised(

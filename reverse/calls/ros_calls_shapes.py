@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from tree_sitter import Node
 
@@ -20,7 +20,7 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.libraries.routines import Routine
 from rebsync.reverse.syntax.ancestors import climb
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import declaration_of, made_of
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.reverse.values.cpp_values_plain import Frame
@@ -57,6 +57,12 @@ def given_to(frame: Frame) -> frozenset[int]:
         found |= {node.id for node in at.call.arguments} if at.call is not None else set()
         at = at.caller
     return frozenset(found)
+
+
+def is_used(cpp: Cpp, scopes: Iterable[str], name: str) -> bool:
+    """Whether a file names what is in one of some namespaces without these."""
+    lines = (f"using {used};" for s in scopes for used in (f"namespace {s}", f"{s}::{name}"))
+    return any(line.encode() in cpp.original for line in lines)
 
 
 def objects_of(node: Node, above: Node) -> Iterator[tuple[Node, tuple[Node, ...]]]:

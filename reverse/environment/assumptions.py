@@ -86,4 +86,4 @@ def _parameter(instance: Instance, fact: ParameterFact) -> Iterator[str]:
         return
     how = "as a launch file sets it" if found is not None else "its default"
     shown = str(value).lower() if isinstance(value, bool) else value
-    yield f"the parameter {name} of {instance.node} is {shown}, {how}"
+    yield f"the parameter {name} of {instance.node} is {shown}, {how}, whenever it is read"

@@ -24,7 +24,7 @@ Node: TypeAlias = (
     | s.Case
     | s.Handler
 )
-_NODES: tuple[type, ...] = tuple(
+_NODES: frozenset[type] = frozenset(
     kind
     for module in (c, e, s)
     for kind in vars(module).values()
@@ -32,20 +32,28 @@ _NODES: tuple[type, ...] = tuple(
 )
 
 
-def parts(node: Node | Function) -> Iterator[Node]:
+def parts(node: Node | Function) -> list[Node]:
     """The nodes directly within a node."""
+    found: list[Node] = []
     for get in _getters(type(node)):  # type: ignore[arg-type]
-        yield from _nodes(get(node))
+        _add(get(node), found)
+    return found
 
 
 def walk(node: Node | Function | s.Body) -> Iterator[Node]:
     """A node and all within it, each before its parts; of a function or body, what is within."""
-    waiting = list(parts(node)) if isinstance(node, Function) else list(_nodes(node))
+    waiting: list[Node] = []
+    if isinstance(node, Function):
+        waiting = parts(node)
+    else:
+        _add(node, waiting)
     waiting.reverse()
     while waiting:
         current = waiting.pop()
         yield current
-        waiting += reversed(list(parts(current)))
+        inner = parts(current)
+        inner.reverse()
+        waiting += inner
 
 
 def statements(body: s.Body) -> Iterator[s.Statement]:
@@ -53,12 +61,14 @@ def statements(body: s.Body) -> Iterator[s.Statement]:
     return (n for n in walk(body) if isinstance(n, STATEMENTS))  # type: ignore[misc]
 
 
-def _nodes(value: object) -> Iterator[Node]:
-    if isinstance(value, _NODES):
-        yield value  # type: ignore[misc]
-    elif isinstance(value, tuple):
-        for inner in value:
-            yield from _nodes(inner)
+def _add(value: object, found: list[Node]) -> None:
+    """Adds the nodes that a field holds. Which kinds there are is closed: none is extended."""
+    kind = type(value)
+    if kind in _NODES:
+        found.append(value)  # type: ignore[arg-type]
+    elif kind is tuple:
+        for inner in value:  # type: ignore[attr-defined]
+            _add(inner, found)
 
 
 @cache

@@ -109,7 +109,7 @@ class Setup:
             match fact:
                 case TimerFact():
                     self._timer(fact)
-                case ParameterFact() if self._is_first(fact):
+                case ParameterFact() if self._is_first(fact) and not self._is_repeated(fact):
                     self._parameter(fact)
                 case PublisherFact() | SubscriptionFact() if not self._at_once(fact):
                     self._later(fact)
@@ -135,6 +135,11 @@ class Setup:
         return fact.site.function is not None and any(
             f.node.id == fact.site.function.node.id for f in self.first
         )
+
+    def _is_repeated(self, fact: Fact) -> bool:
+        """Whether a call stands in a loop or lambda that runs while the node serves messages."""
+        running = {n.id for n in (*self.running, *(s.body for s in self.servers))}
+        return any(n.id in running for n in ancestors(fact.site.call))
 
     # --- calls ----------------------------------------------------------------------------------
 

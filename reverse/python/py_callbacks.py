@@ -23,7 +23,9 @@ from rebsync.reverse.python.py_worth import (
     Value,
 )
 
-_SYNCHRONIZERS = ("TimeSynchronizer", "ApproximateTimeSynchronizer")
+# Filters that get others: several, or one.
+_FED = ("TimeSynchronizer", "ApproximateTimeSynchronizer", "Cache")
+_DEEPEST = 4
 
 
 def callbacks_of(values: PyValues, node: Node, scope: Scope) -> Callbacks:
@@ -96,17 +98,21 @@ def filtered(values: PyValues, asked: PyRosCall) -> Callbacks:
     return tuple(found)
 
 
-def _is_fed(values: PyValues, made: Made, asked: PyRosCall) -> bool:
-    """Whether what is registered with is the filter itself, or made of it."""
+def _is_fed(values: PyValues, made: Made, asked: PyRosCall, deep: int = 0) -> bool:
+    """Whether what is registered with is the filter itself, or made of it, or of such others."""
     if made.call == asked.call:
         return True
-    if last_name(field(made.call, "function")) not in _SYNCHRONIZERS:
+    if deep >= _DEEPEST or last_name(field(made.call, "function")) not in _FED:
         return False
     plain, keywords = arguments_of(made.call)
-    filters = plain[0] if plain else keywords.get("fs")
+    filters = plain[0] if plain else keywords.get("fs") or keywords.get("f")
     ways = values.ways(filters, made.scope) if filters is not None else ()
-    items = [w for v in ways if isinstance(v, Items) for each in v.each for w in each]
-    return any(isinstance(w, Made) and w.call == asked.call for w in items)
+    items = [w for v in ways for w in (_each(v) if isinstance(v, Items) else (v,))]
+    return any(isinstance(w, Made) and _is_fed(values, w, asked, deep + 1) for w in items)
+
+
+def _each(items: Items) -> Iterator[Value]:
+    return (way for each in items.each for way in each)
 
 
 def body_of(function: Scope) -> list[Node]:

@@ -78,6 +78,10 @@ _FUNCTIONS = {
     "rclcpp::WallTimer": _asks(Kind.TIMER, "period", "callback", wall=True),
     "rclcpp::Rate": Routine(Kind.RATE, ("hz",)),
     "rclcpp::WallRate": Routine(Kind.RATE, ("hz",), wall=True),
+    # What packages use that are seldom read with it.
+    "nav2_util::declare_parameter_if_not_declared": _asks(
+        Kind.PARAMETER, "", "name", "default", access=Access.DECLARE, least=2
+    ),
     "image_transport::create_publisher": _image(Kind.PUBLISHER, "", "name", "depth"),
     "image_transport::create_camera_publisher": _image(Kind.PUBLISHER, "", "name", "depth"),
     "image_transport::create_subscription": _image(

@@ -48,6 +48,9 @@ class Watcher(Base):
         second = message_filters.Subscriber("right", Image)  #= subscription "right" "sensor_msgs/Image" ? -> Watcher.both
         both = message_filters.TimeSynchronizer([first, second], 10)
         both.registerCallback(self.both)
+        third = message_filters.Subscriber("third", Image, queue_size=5)  #= subscription "third" "sensor_msgs/Image" 5 -> Watcher.scan
+        cache = message_filters.Cache(third, 10)
+        cache.registerCallback(self.scan)
 
     def both(self, left, right):
         pass

@@ -1,0 +1,116 @@
+"""The least fixpoint of distributive equations between sets; and the cycles of a graph."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from typing import Generic, TypeAlias, TypeVar
+
+from rebsync.records import dataclass
+
+T = TypeVar("T")
+# What an element of a set adds to another set.
+Transfer: TypeAlias = Callable[[T], frozenset[T]]
+
+
+@dataclass(frozen=True, slots=True)
+class Equation(Generic[T]):
+    """A set: elements of its own, and what elements of other sets add, by the names of these."""
+
+    own: frozenset[T]
+    uses: tuple[tuple[str, Transfer[T]], ...] = ()
+
+
+class LeastFixpoint(Generic[T]):
+    """The least sets that equations allow, one by a name.
+
+    What functions do that call each other so does not depend on which of them is looked at first,
+    and no chain of calls is too long. Each equation is asked for once; then only what is new in a
+    set goes on to those that use it. `settled` gets the names of sets that grow no more, and gives
+    more elements of some.
+    """
+
+    def __init__(
+        self,
+        equation: Callable[[str], Equation[T]],
+        settled: Callable[[Collection[str]], Mapping[str, frozenset[T]]] = lambda _: {},
+    ) -> None:
+        self._equation = equation
+        self._settled = settled
+        self._known: dict[str, frozenset[T]] = {}
+
+    def of(self, name: str) -> frozenset[T]:
+        """The set of a name."""
+        if name not in self._known:
+            self._solve(name)
+        return self._known[name]
+
+    def solved(self, equation: Equation[T]) -> frozenset[T]:
+        """The set of an equation that is used by no other."""
+        added = (transfer(x) for name, transfer in equation.uses for x in self.of(name))
+        return equation.own.union(*added)
+
+    def _solve(self, first: str) -> None:
+        equations: dict[str, Equation[T]] = {}
+        waiting = [first]
+        while waiting:
+            name = waiting.pop()
+            if name not in equations:
+                equations[name] = self._equation(name)
+                uses = (used for used, _ in equations[name].uses)
+                waiting += (u for u in uses if u not in self._known)
+        users: dict[str, list[tuple[str, Transfer[T]]]] = {}
+        growing = list[tuple[str, frozenset[T]]]()
+        for name, equation in equations.items():
+            for used, transfer in equation.uses:
+                users.setdefault(used, []).append((name, transfer))
+            known = [u for u in equation.uses if u[0] in self._known]
+            growing.append((name, self.solved(Equation(equation.own, tuple(known)))))
+        found = dict.fromkeys(equations, frozenset[T]())
+        _grow(found, users, growing)
+        _grow(found, users, [*self._settled(found.keys()).items()])
+        self._known |= found
+
+
+def _grow(
+    found: dict[str, frozenset[T]],
+    users: Mapping[str, list[tuple[str, Transfer[T]]]],
+    growing: list[tuple[str, frozenset[T]]],
+) -> None:
+    """Adds to sets, and to those that use them what that adds."""
+    while growing:
+        name, more = growing.pop()
+        more -= found[name]
+        if more:
+            found[name] |= more
+            for user, transfer in users.get(name, ()):
+                growing.append((user, frozenset().union(*map(transfer, more))))
+
+
+def in_cycles(edges: Mapping[str, Collection[str]]) -> frozenset[str]:
+    """The nodes of a graph that lead to themselves (Tarjan's components, without recursion)."""
+    index: dict[str, int] = {}
+    low: dict[str, int] = {}
+    path: list[str] = []  # nodes whose component is not known yet
+    found: set[str] = set()
+    for first in edges:
+        waiting = [(first, iter(edges[first]))] if first not in index else []
+        while waiting:
+            node, targets = waiting[-1]
+            if node not in index:
+                index[node] = low[node] = len(index)
+                path.append(node)
+            target = next(targets, None)
+            if target is None:
+                waiting.pop()
+                if waiting:
+                    low[waiting[-1][0]] = min(low[waiting[-1][0]], low[node])
+                if low[node] == index[node]:
+                    component = path[path.index(node) :]
+                    del path[-len(component) :]
+                    if len(component) > 1 or node in edges.get(node, ()):
+                        found |= set(component)
+            elif target not in index:
+                waiting.append((target, iter(edges.get(target, ()))))
+            elif target in path:
+                low[node] = min(low[node], index[target])
+    return frozenset(found)
