@@ -55,7 +55,9 @@ def list_unit(
     for number, fact in enumerate(unit.unit.facts):
         _fact(unit, fact, number in servers, findings)
     served = [f for n, f in enumerate(unit.unit.facts) if n in servers]
-    if threads and len(served) + loops > 1 and served:
+    # One topic has a thread for each of its publishers, one service one for each of its clients.
+    beside_itself = any(isinstance(f, SubscriptionFact | ServiceFact) for f in served)
+    if threads and served and (beside_itself or len(served) + loops > 1):
         place = served[-1].site.place
         why = unit.library.name + _THREADS
         findings.assumed(place.source, place.span, why, within=unit.name)
