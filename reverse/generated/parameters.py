@@ -16,6 +16,8 @@ from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 DECLARES = "declare_parameter"
+# Its arguments but for `ignore_override`, by which no launch description gives the parameter a value.
+MOST_DECLARED = 3
 READS = frozenset({"param", DECLARES, "declareArray"})
 _HINT = "compute with it in the model's constructor"
 _TELLS = frozenset({"described"})  # what stands in the arguments, but for values
@@ -30,7 +32,8 @@ def read_by(value: Node | None, type_: str) -> CppCall | None:
     call = call_of(value)
     if call is not None and call.name in READS:
         asked = all(c.name in _TELLS for a in call.arguments for c in calls_in(a))
-        return call if asked and _fits(call, _plain(type_)) else None
+        is_given = call.name != DECLARES or len(call.arguments) <= MOST_DECLARED
+        return call if asked and is_given and _fits(call, _plain(type_)) else None
     if value.type in ("parenthesized_expression", "initializer_list") and len(named(value)) == 1:
         return read_by(named(value)[0], type_)
     if call is not None and call.name in _CONVERTS and len(call.arguments) == 1:

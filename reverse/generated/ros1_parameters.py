@@ -12,6 +12,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.generated.env_values import constant
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
+from rebsync.reverse.generated.parameters import DECLARES, MOST_DECLARED
 from rebsync.reverse.generated.ros1_values import initial_values
 from rebsync.reverse.generated.ros2_words import arguments_in, constant_of_model
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, string_of
@@ -146,7 +147,7 @@ class _ParameterReader:
         call = call_of(inner)
         asked = self._asked(call) if call is not None else None
         if asked is not None and call is not None and not asked.into:
-            if call.name == "declare_parameter":
+            if call.name == DECLARES:
                 self.declared[string_of(call.arguments[0]) or ""] = asked
         elif asked is not None:
             yield from asked.read(asked.into, statement)
@@ -198,7 +199,7 @@ class _ParameterReader:
     def _in_ros2(self, call: CppCall, key: str) -> _Asked | None:
         path = key.replace(".", "/")
         rest = call.arguments[1:]
-        if call.name == "declare_parameter" and rest:
+        if call.name == DECLARES and 0 < len(rest) < MOST_DECLARED:
             of_model = constant_of_model(key)
             default = self._default(call, rest[0])
             return _Asked(of_model or path, default, True, "", rest[0] if of_model else None)

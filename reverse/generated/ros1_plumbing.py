@@ -168,7 +168,7 @@ def _odd_in_constructor(
     arguments = dict(arguments_in(function))
     fields = (f for c in code.lineage(owner.name) for f in c.fields)
     variables = {f.name for f in fields if declared_type(code, f.type) is not None}
-    waiting, done = set(roles.globals), set[str]()
+    waiting, done = roles.globals.keys() - roles.asked.values(), set[str]()
     for statement in working(function.body):
         once = {c.name for c in calls_in(statement) if c.name in _ONCE and c.on == "mailbox_"}
         if statement.id in roles.reading and "start" not in done:

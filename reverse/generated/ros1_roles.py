@@ -96,7 +96,7 @@ class Roles:
     arguments the first one's first. `topics` are those of shims by their names, `offers` as what
     those of shims are offered, `wired` the calls that make them and publishers of the rebec; `own`
     are parameters of the node that state variables get, `reading` the statements that do that, and
-    `asked` those that read constants in people's words; `told` are those that people are told of,
+    `asked` those that read constants in people's words, with the members that get these; `told` are those that people are told of,
     `silent` the variables of them that are only logged; `passing` are callbacks of timers that only
     post a message; `odd_sends` what functions that send do besides; `posted` are the servers that
     no subscription takes messages to, `lost` the calls that send there all the same.
@@ -121,7 +121,7 @@ class Roles:
     wired: set[int] = field(default_factory=set)
     own: dict[str, OwnParameter] = field(default_factory=dict)
     told: list[OwnParameter] = field(default_factory=list)
-    asked: set[int] = field(default_factory=set)
+    asked: dict[int, str] = field(default_factory=dict)
     reading: set[int] = field(default_factory=set)
     silent: set[str] = field(default_factory=set)
     posted: set[str] = field(default_factory=set)
@@ -147,7 +147,7 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
             for name, key, default, statement in constants_read(code, owner, function):
                 if name not in roles.globals:
                     roles.globals[name] = key, default
-                    roles.asked.add(statement)
+                    roles.asked[statement] = name
     for member in owner.fields:
         if any(marker.startswith("statevar ") for marker in member.markers):
             roles.odd_globals.discard(member.name)

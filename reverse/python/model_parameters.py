@@ -24,6 +24,7 @@ from rebsync.reverse.python.py_tree import field, named, number_of, text_of
 _READS = frozenset({PARAMETER_OF_ROS_1, "declared", "read_array", "declare_array"})
 _OF_ROS_2 = frozenset({"declared", "declare_array"})
 _DECLARES = frozenset({"self.declare_parameter", "node.declare_parameter"})
+_MOST_DECLARED = 3  # the next one is `ignore_override`: nobody else gives it a value then
 _ASKS = frozenset({"self.get_parameter", "node.get_parameter"})
 _GIVES = {"integer_value": "int", "double_value": "double", "bool_value": "boolean"}
 _CONVERTS = frozenset(
@@ -84,9 +85,17 @@ def declared_by(call: Node) -> tuple[str, ParameterRead] | None:
     """The parameter that `self.declare_parameter("x", 7)` declares, by its name."""
     called, arguments = call_parts(call) or ("", [])
     name = string_value(arguments[0]) if len(arguments) > 1 else None
-    if called not in _DECLARES or name is None:
+    if called not in _DECLARES or name is None or not all(map(_is_descriptor, arguments[2:])):
+        return None
+    if len(arguments) > _MOST_DECLARED:
         return None
     return name, _of_ros2(name, arguments[1])
+
+
+def _is_descriptor(argument: Node) -> bool:
+    """Whether it is none of the arguments by a name that change what a parameter is given."""
+    is_named = argument.type == "keyword_argument"
+    return not is_named or text_of(field(argument, "name")) == "descriptor"
 
 
 def only_declares(call: Node, function: Node) -> bool:

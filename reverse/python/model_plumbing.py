@@ -13,6 +13,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.names import graph_name
 from rebsync.records import dataclass
+from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
 from rebsync.reverse.python.model_filled import made_of
@@ -55,10 +56,7 @@ _CALLED = frozenset(
     }
 )
 _AT_TOP = frozenset(
-    {
-        *("import_statement", "import_from_statement", "future_import_statement"),
-        *("class_definition", "comment"),
-    }
+    {"comment", "import_statement", "import_from_statement", "future_import_statement"}
 )
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
 DECORATORS = frozenset({"abstractmethod", "final", "override", "staticmethod", "classmethod"})
@@ -308,7 +306,7 @@ def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
     for statement in named(module.node):
         inner = _inner(statement)
         called, _ = call_parts(inner.child_by_field_name("right") if inner else None) or ("", [])
-        definition = statement.child_by_field_name("definition")
+        definition = statement.child_by_field_name("definition") or statement
         if any(c.type == "wildcard_import" for c in statement.children):
             yield statement
             continue
@@ -316,8 +314,9 @@ def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
             continue
         if constants.is_quiet(module, statement):
             continue
-        if definition is not None and definition.type == "class_definition":
-            continue
+        is_class = definition.type == "class_definition"
+        if is_class and text_of(field(definition, "name")) not in NO_PYTHON_CLASSES:
+            continue  # of those names generated code means its own
         if statement.type == "if_statement" and "TYPE_CHECKING" in text_of(statement):
             continue
         yield statement

@@ -21,6 +21,8 @@ from rebsync.static.types import INT
 if TYPE_CHECKING:
     from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 
+_PLACES = ("identifier", "attribute")
+
 _FUNCTIONS = frozenset({"function_definition", "lambda", "class_definition"})
 _WHOLE = "say what is stored here element by element"
 
@@ -265,11 +267,14 @@ def asserted(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
 
 
 def _is_of_its_type(reader: ModelStatementReader, node: Node) -> bool:
-    """Whether it is `isinstance(x, int)` of a whole number: of others Python may have another."""
+    """Whether it is `isinstance(x, int)` of a whole number: of others Python may have another.
+
+    What is asked is a variable: other expressions may fail, or change something.
+    """
     called, arguments = call_parts(node) or ("", [])
     binds, local = reader.expressions.names.constants.binds, reader.expressions.locals
     is_own = any(binds(word) or word in local for word in ("isinstance", "int"))
-    if called != "isinstance" or len(arguments) != 2 or is_own:
+    if called != "isinstance" or len(arguments) != 2 or is_own or arguments[0].type not in _PLACES:
         return False
     kind = reader.expressions.kind(reader.expressions.read(arguments[0]))
     return text_of(arguments[1]) == "int" and kind == INT

@@ -9,7 +9,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.python import model_endings as endings
 from rebsync.reverse.python.model_types import markers_above, without_parentheses
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_tree import field, named, text_of, whole_number_of
 from rebsync.static.types import is_integer
 
 if TYPE_CHECKING:
@@ -57,14 +57,14 @@ def _asked(part: Node) -> tuple[Node, list[Node]] | None:
     subject, right = parts
     numbers = [right] if signs == ["=="] else named(right)
     is_set = signs == ["=="] or (signs == ["in"] and right.type == "tuple")
-    is_plain = subject.type in ("identifier", "attribute")
+    is_plain = subject.type in ("identifier", "attribute") and bool(numbers)
     return (subject, numbers) if is_set and is_plain and all(map(_is_number, numbers)) else None
 
 
 def _is_number(node: Node) -> bool:
     if node.type == "unary_operator" and text_of(field(node, "operator")) == "-":
-        return field(node, "argument").type == "integer"
-    return node.type == "integer"
+        node = field(node, "argument")
+    return whole_number_of(node) is not None
 
 
 def _value(text: str) -> int:

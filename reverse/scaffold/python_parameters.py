@@ -15,8 +15,8 @@ def as_declared(value: ast.expr, function: ast.FunctionDef) -> ast.expr:
     """
     asked = _asked(value)
     match asked:
-        case ast.Call(ast.Attribute(ast.Name("self"), "declare_parameter"), [key, default, *_]):
-            return _declared(key, default)
+        case ast.Call(ast.Attribute(ast.Name("self"), "declare_parameter"), [key, default, *more]):
+            return value if _ignores(asked, more) else _declared(key, default)
         case ast.Call(ast.Attribute(ast.Name("self"), "get_parameter"), [ast.Constant() as key]):
             found = [d for k, d in _declarations(function) if k.value == key.value]
             return _declared(key, found[0]) if len(found) == 1 else value
@@ -43,13 +43,18 @@ def _declarations(function: ast.FunctionDef) -> list[tuple[ast.Constant, ast.exp
             case ast.Expr(
                 ast.Call(
                     ast.Attribute(ast.Name("self"), "declare_parameter"),
-                    [ast.Constant() as key, default, *_],
-                )
-            ):
+                    [ast.Constant() as key, default, *more],
+                ) as call
+            ) if not _ignores(call, more):
                 found.append((key, default))
             case _:
                 pass
     return found
+
+
+def _ignores(call: ast.Call, more: list[ast.expr]) -> bool:
+    """Whether a declaration may have `ignore_override`: nobody else gives it a value then."""
+    return len(more) > 1 or any(k.arg != "descriptor" for k in call.keywords)
 
 
 def _declared(key: ast.expr, default: ast.expr) -> ast.expr:

@@ -26,6 +26,11 @@ _OPEN_ESCAPE = re.compile(r'\\(?:x[0-9a-fA-F]+|[0-7]{1,2})"\Z')
 # What a rebec is made of, extraction reads.
 _REBEC = re.compile(r"::\w+rebec\(node[,)]|.*(?:node\.param|readArray)\(")
 _LOGS = ("ROS_", "RCLCPP_", "printf(", "std::cout", "std::cerr")
+# What stands in the arguments of a log and does nothing but give a value; and what does more.
+_LOOKS = frozenset({"get_logger", "get_name", "getName", "getNamespace", "c_str", "what", "now"})
+_CALLED = re.compile(r"(\w+)(?:<[^()]*>)?\(")
+_CHANGES = re.compile(r"\+\+|--|(?<![=!<>])=(?!=)")
+_LITERAL = re.compile(r'"(?:\\.|[^"\\])*"')
 _TOKEN = re.compile(rf'{LINE_COMMENT}|/\*.*?\*/|"(?:\\.|[^"\\])*"|\w+|\S', re.DOTALL)
 
 
@@ -104,7 +109,17 @@ def _all_statements(source: Source, own: frozenset[str]) -> Iterator[Piece]:
         depth += (token.text in ("(", "[")) - (token.text in (")", "]"))
         if depth == 0 and token.text in (";", "{", "}"):
             text = "".join(piece.text for piece in held)
-            if not text.startswith(_LOGS) and not _REBEC.match(text):
+            if not _only_logs(text) and not _REBEC.match(text):
                 yield Piece(text, Span(held[0].span.start, token.span.end))
             held = []
     yield from held
+
+
+def _only_logs(statement: str) -> bool:
+    """Whether a statement without its layout logs, and does nothing else to do so."""
+    if not statement.startswith(_LOGS):
+        return False
+    plain = _LITERAL.sub('""', statement)
+    called = _CALLED.findall(plain)
+    own = called[:1] if plain.startswith(("ROS_", "RCLCPP_", "printf(")) else []
+    return not _CHANGES.search(plain) and all(c in _LOOKS for c in called[len(own) :])

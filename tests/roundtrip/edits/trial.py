@@ -33,7 +33,7 @@ FILES = (
     *("early.toml", "compiled_python.toml", "compiled_cpp.toml", "sensors.toml"),
     *("helpers_python.toml", "helpers_cpp.toml", "builds.toml", "spelt_python.toml"),
     *("gate_cpp.toml", "gate_python.toml", "gate2_cpp.toml", "gate2_python.toml"),
-    *("gate3_cpp.toml", "gate3_python.toml"),
+    *("gate3_cpp.toml", "gate3_python.toml", "reviewed.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
