@@ -114,12 +114,30 @@ def check_operator(effects: EffectReader, node: Node) -> None:
         raise effects.touches(node, f'what "{text_of(node)}" does is not known: {why}')
 
 
-def check_object(effects: EffectReader, node: Node, type_: Node | None) -> None:
-    """Raises `Touches` where to make an object, or to end it, may run what was not read."""
+def check_object(
+    effects: EffectReader, node: Node, type_: Node | None, value: Node | None = None
+) -> None:
+    """Raises `Touches` where to make an object, or to end it, may run what was not read.
+
+    Its type is that of a `value` where `auto` stands for it.
+    """
     form = effects.scope.form
-    why = form.unread_calls.of_type(effects.cpp, type_) if form is not None else None
-    if why is not None and type_ is not None:
-        raise effects.touches(node, f'what "{text_of(type_)}" does is not known: {why}')
+    if form is None or type_ is None:
+        return
+    is_found_out = value is not None and type_.type == "placeholder_type_specifier"
+    told = value if value is not None and is_found_out else type_
+    calls = form.unread_calls
+    why = (calls.of_copied if is_found_out else calls.of_type)(effects.cpp, told)
+    if why is not None:
+        raise effects.touches(node, f'what "{text_of(told)}" does is not known: {why}')
+
+
+def check_handed(effects: EffectReader, argument: Node) -> None:
+    """Raises `Touches` where a function is handed on that was not read: it may be called."""
+    form = effects.scope.form
+    why = form.unread_calls.of_handed(effects.cpp, argument) if form is not None else None
+    if why is not None:
+        raise effects.touches(argument, f'what "{text_of(argument)}" does is not known: {why}')
 
 
 def check_deleted(effects: EffectReader, node: Node) -> None:
@@ -135,7 +153,7 @@ def _function(effects: EffectReader, call: CppCall, name: str) -> bool:
     """Whether a function of the code only looks; `Touches` if it acts on more than it gets."""
     meant: tuple[CppFunction, ...] = ()
     match effects.scope.functions.get(name):
-        case None if hides(name):
+        case None if hides(name) or name in effects.scope.macros:
             if _is_calm_macro(effects, name):
                 return True
             raise effects.touches(call.node, f'"{name}" may be a macro that hides statements')
@@ -145,6 +163,7 @@ def _function(effects: EffectReader, call: CppCall, name: str) -> bool:
             _check_read(effects, call)
             return False
         case Called() | Inline() as known:
+            _check_read(effects, call)  # of several by a name one may have no body
             meant = meant_by(known, call.name, len(call.arguments))
     if not meant or not all(_is_calm(effects, f) for f in meant):
         raise effects.touches(call.node, f'"{name}" may change what the model has')

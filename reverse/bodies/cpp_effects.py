@@ -13,6 +13,7 @@ from rebsync.reverse.bodies.cpp_call_effects import (
     RENAMED,
     check_call,
     check_deleted,
+    check_handed,
     check_macro,
     check_object,
     check_operator,
@@ -171,7 +172,7 @@ class Effects(EffectReader):
         for declarator in node.children_by_field_name("declarator"):
             value = declarator.child_by_field_name("value")
             if not any(each in text_of(declarator).partition("=")[0] for each in "&*"):
-                check_object(self, declarator, written)
+                check_object(self, declarator, written, value)
             inner = declarator.child_by_field_name("declarator")
             target = inner if declarator.type == "init_declarator" and inner else declarator
             if value is not None and gives_itself(value):
@@ -222,6 +223,7 @@ class Effects(EffectReader):
             if argument.type == "lambda_expression":
                 self._handed(argument)
                 continue
+            check_handed(self, argument)
             name, meaning = self.root_of(argument)
             is_value = argument.type == "call_expression" and not cpp_roots.is_element(argument)
             if is_value or not is_modelled(argument, meaning):

@@ -119,7 +119,7 @@ def _outside(reader: CppStatementReader, declared: DeclaratorParts, unread: Unre
     try:
         effects = Effects(reader.cpp, reader.scope, frozenset(reader.own))
         if declared.kind not in _REFERS:
-            check_object(effects, declared.node, declared.type)
+            check_object(effects, declared.node, declared.type, declared.value)
         if declared.value is not None:
             _check_value(reader, effects, declared)
             reader.demote(effects.written, unread)

@@ -42,7 +42,9 @@ def is_moment(node: Node) -> bool:
     is_constant = any(text_of(c) == "const" for c in named(node) if c.type == "type_qualifier")
     declarators = node.children_by_field_name("declarator")
     is_single = [d.type for d in declarators] == ["init_declarator"]
-    is_kept = any(c.type == "storage_class_specifier" for c in named(node))  # from the first time on
+    is_kept = any(
+        c.type == "storage_class_specifier" for c in named(node)
+    )  # from the first time on
     is_of_type = text_of(part(node, "type")) == cpp_mailbox.MOMENT
     if not is_constant or not is_single or is_kept or not is_of_type:
         return False

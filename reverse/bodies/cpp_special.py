@@ -190,7 +190,9 @@ def _inline(reader: CppStatementReader, function: Node, count: int) -> Inline | 
     if isinstance(found, Called) and found.overloads:
         meant = meant_by(found, name, count)
         return Inline(meant[0]) if len(meant) == 1 else None
-    return found if isinstance(found, Inline) else None
+    if isinstance(found, Inline) and found.function.may_take(count):
+        return found
+    return None
 
 
 def _checked(reader: CppStatementReader, node: Node) -> m.Expression:

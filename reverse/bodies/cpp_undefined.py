@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Collection, Iterator
 from functools import cached_property
 
 from tree_sitter import Node
 
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppFunction, function_of
 from rebsync.reverse.syntax.cpp_index import CONTAINERS, Code, CppClass
-from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts
 
 # Bases of nodes that are the client libraries' own, or have no functions to be called.
 _PLAIN_BASES = frozenset({"Nodelet", "Node", "LifecycleNode", "noncopyable"})
 _PLAIN_BASES |= {"enable_shared_from_this"}
+_SCOPES = ("namespace_definition", "class_specifier", "struct_specifier")
+_ARGUMENTS = re.compile(r"<[^<>]*>")
 _WITHOUT_BODY = frozenset({"default_method_clause", "delete_method_clause"})
 
 
@@ -31,7 +35,15 @@ class Undefined:
         declared = [f for f in owner.functions if f.name == name]
         open_ = [f for f in declared if f.body is None and not _is_defaulted(f)]
         apart = self.code.definitions.get((owner.name, name), ())
+        if len(self.code.all_classes.get(owner.name, ())) > 1:
+            path = (*_scopes_around(owner.node), owner.name)
+            apart = [f for f in apart if _scopes_of(f) == path]
         return len(open_) > len(apart)
+
+    def lacks_override(self, owner: CppClass, name: str) -> bool:
+        """Whether a class says that it has a function of a name, and the files do not define it."""
+        is_own = any(f.name == name and not f.pure for f in owner.functions)
+        return is_own and self.lacks_body(owner, name)
 
     def unread_bases(self, owner: CppClass) -> frozenset[str]:
         """The classes that a class descends from that no file has, and that no table knows."""
@@ -68,15 +80,38 @@ class Undefined:
         nodes = [(cpp, node) for cpp, node in self._top if node.type == "declaration"]
         nodes += [(cpp, n) for cpp in self.code.files for n in _declared_inside(cpp)]
         found = (function_of(cpp, node, "") for cpp, node in nodes)
-        return frozenset(f.name for f in found if f is not None) - self.defined
+        return frozenset(f.name for f in found if f is not None and not self._is_defined(f))
+
+    def _is_defined(self, function: CppFunction) -> bool:
+        """Whether one of these has a body: overloads by the number of what they take."""
+        count, path = _taken(function), _scopes_of(function)
+        bodies = self._bodies.get(function.name, ())
+        return any(_taken(f) == count and _scopes_of(f) == path for f in bodies)
+
+    @cached_property
+    def _bodies(self) -> dict[str, list[CppFunction]]:
+        """The functions with a body, by their names."""
+        found: dict[str, list[CppFunction]] = {}
+        for (_, name), functions in self.code.definitions.items():
+            found.setdefault(name, []).extend(functions)
+        return found
 
     @cached_property
     def forward(self) -> frozenset[str]:
-        """The classes that are declared without their members."""
+        """The classes that are declared without their members, with and without their scopes."""
         kinds = ("class_specifier", "struct_specifier")
-        found = (node for _, node in self._top if node.type in kinds)
-        names = (n for node in found if (n := node.child_by_field_name("name")) is not None)
-        return frozenset(map(text_of, names)) - self.code.all_classes.keys()
+        found = [node for _, node in self._top if node.type in kinds]
+        names = [(n, text_of(name)) for n in found if (name := n.child_by_field_name("name"))]
+        every = [c for classes in self.code.all_classes.values() for c in classes]
+        read = {(*_scopes_around(c.node), c.name) for c in every}
+        paths = {(*_scopes_around(node), name) for node, name in names} - read
+        plain = {name for _, name in names} - self.code.all_classes.keys()
+        return frozenset(plain.union("::".join(p) for p in paths if len(p) > 1))
+
+    def is_forward(self, name: str) -> bool:
+        """Whether a class that is named with its scope is one that is only declared."""
+        plain = name.removeprefix("::")
+        return any(f == plain or f.endswith(f"::{plain}") for f in self.forward)
 
     @cached_property
     def undefined(self) -> frozenset[str]:
@@ -87,9 +122,21 @@ class Undefined:
 
     @cached_property
     def has_undefined(self) -> bool:
-        """Whether a class has a constructor or destructor without a body."""
-        every = [c for classes in self.code.all_classes.values() for c in classes]
-        return any(self.lacks_body(c, n) for c in every for n in (c.name, f"~{c.name}"))
+        """Whether to make or end objects of some class runs what has no body."""
+        return any(
+            map(self.is_made_unread, (c for each in self.code.all_classes.values() for c in each))
+        )
+
+    def is_made_unread(self, owner: CppClass) -> bool:
+        """Whether to make or end an object of a class runs what has no body, its parts apart."""
+        if any(self.lacks_body(owner, n) for n in (owner.name, f"~{owner.name}")):
+            return True
+        values = (f.value for f in (*owner.fields, *owner.others) if f.value is not None)
+        return bool(self.declared) and any(
+            text_of(part(call, "function")) in self.declared
+            for value in values
+            for call in inside(value, "call_expression")
+        )
 
     @cached_property
     def operators(self) -> frozenset[str]:
@@ -107,6 +154,32 @@ def _declared_inside(cpp: Cpp) -> Iterator[Node]:
         for each in inside(cpp.root, "declaration"):
             if any(text_of(c) == "extern" for c in each.named_children):
                 yield each
+
+
+def _scopes_around(node: Node, kinds: Collection[str] = _SCOPES) -> tuple[str, ...]:
+    """The namespaces and classes that a node stands in, the outermost first."""
+    names = (n.child_by_field_name("name") for n in ancestors(node) if n.type in kinds)
+    return tuple(p for n in reversed([*names]) if n is not None for p in text_of(n).split("::"))
+
+
+def _scopes_of(function: CppFunction) -> tuple[str, ...]:
+    """The namespaces and classes that a function is of, which is defined outside of its class."""
+    declarator = function.node.child_by_field_name("declarator")
+    while declarator is not None and declarator.type != "function_declarator":
+        inner = declarator.child_by_field_name("declarator")
+        declarator = inner or next(iter(reversed(declarator.named_children)), None)
+    name = declarator.child_by_field_name("declarator") if declarator is not None else None
+    text = "".join(text_of(name).split()) if name is not None else ""
+    while text != (plain := _ARGUMENTS.sub("", text)):
+        text = plain
+    around = _scopes_around(function.node, ("namespace_definition",))
+    return (*around, *text.removeprefix("::").split("::")[:-1])
+
+
+def _taken(function: CppFunction) -> int:
+    """How many arguments a function takes; `(void)` is none."""
+    types = ["".join(text_of(p.node).split()) for p in function.parameters]
+    return 0 if types == ["void"] else len(types)
 
 
 def is_library(name: str) -> bool:

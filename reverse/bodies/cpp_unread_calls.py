@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from tree_sitter import Node
 
+from rebsync.reverse.bodies.cpp_object_parts import UNDEFINED as _UNDEFINED
+from rebsync.reverse.bodies.cpp_object_parts import ObjectParts
 from rebsync.reverse.bodies.cpp_provenance import Provenance, ProvenanceAnalysis
 from rebsync.reverse.bodies.cpp_undefined import Undefined, is_library
 from rebsync.reverse.bodies.known_functions import is_known, is_matrix
@@ -29,7 +31,6 @@ from rebsync.reverse.values.cpp_static_types import (
     is_arrow,
 )
 
-_UNDEFINED = "no file that was read defines it"
 _OVERRIDDEN = "a class that was not read may override it"
 _INHERITED = "a class that was not read may have it"
 _GIVEN = "nothing that was read makes the object"
@@ -54,6 +55,9 @@ OPERATORS = {
     "subscript_expression": ("argument",),
     "field_expression": ("argument",),
 }
+# Methods of containers that compare no elements.
+_COUNTING = frozenset({"size", "empty", "begin", "end", "cbegin", "cend", "front", "back", "data"})
+_CALL = "operator()"
 _SIGNS = {"subscript_expression": "[]", "field_expression": "->"}
 
 
@@ -68,6 +72,7 @@ class UnreadCalls:
         self._calls = Calls(self._texts, self._types)
         self._provenance = ProvenanceAnalysis(self._texts, self._calls, self._statics)
         self._open = Undefined(code, self._texts)
+        self._parts = ObjectParts(self._texts, self._statics, self._open)
         self._found: dict[int, str | None] = {}
 
     def of_call(self, cpp: Cpp, call: CppCall) -> str | None:
@@ -80,16 +85,23 @@ class UnreadCalls:
 
     def of_operator(self, cpp: Cpp, node: Node) -> str | None:
         """Why an operator may: of a class of the files, or declared by these alone."""
+        if node.type == "assignment_expression" and self._open.has_undefined:
+            left = self._statics.of(cpp, part(node, "left"))
+            if left is not None and (why := self._held_object(left, "reset")) is not None:
+                return why
         if not self._open.operators or node.type not in OPERATORS:
             return None
         if node.type == "field_expression" and not is_arrow(node):
             return None
         sign = text_of(node.child_by_field_name("operator") or node.children[0])
         name = f"operator{_SIGNS.get(node.type, sign)}"
+        operands = [self._statics.of(cpp, part(node, each)) for each in OPERATORS[node.type]]
+        if (why := self._parts.of_elements(operands)) is not None:
+            return why
         if name not in self._open.operators:
             return None
-        for operand in OPERATORS[node.type]:
-            owner = self._statics.class_of(self._statics.of(cpp, part(node, operand)))
+        for operand in operands:
+            owner = self._statics.class_of(operand)
             if owner is None:
                 continue
             if name in self._open.declared:
@@ -100,18 +112,33 @@ class UnreadCalls:
 
     def of_type(self, cpp: Cpp, type_: Node | None) -> str | None:
         """Why to make or end an object of a type may."""
-        return self._of_object(self._statics.class_of(self._statics.written(cpp, type_)))
+        return self._parts.of_object(self._statics.written(cpp, type_))
+
+    def of_copied(self, cpp: Cpp, value: Node) -> str | None:
+        """Why to make an object of a value may, where `auto` stands for its type."""
+        return self._parts.of_object(self._statics.of(cpp, value))
+
+    def of_handed(self, cpp: Cpp, argument: Node) -> str | None:
+        """Why a function may that is handed on, or an object that is one: it may be called."""
+        node = part(argument, "argument") if _is_address(argument) else argument
+        if node.type in ("identifier", "qualified_identifier"):
+            scope, _, name = "".join(text_of(node).split()).rpartition("::")
+            owner = self._texts.class_near(scope.rpartition("::")[2], cpp) if scope else None
+            if owner is not None and self._declares(owner, name):
+                return self._of_class(owner, name, Provenance.MADE)
+            is_variable = not scope and self._types.variable(cpp, node) is not None
+            if name in self._open.declared and owner is None and not is_variable:
+                return _UNDEFINED
+        if _CALL not in self._open.operators:
+            return None
+        owner = self._statics.class_of(self._statics.of(cpp, argument))
+        is_function = owner is not None and self._declares(owner, _CALL)
+        return self._of_class(owner, _CALL, Provenance.MADE) if owner and is_function else None
 
     def of_deleted(self, cpp: Cpp, pointer: Node) -> str | None:
         """Why to end what a pointer leads to may."""
         type_ = self._statics.dereferenced(self._statics.of(cpp, pointer))
-        return self._of_object(self._statics.class_of(type_))
-
-    def _of_object(self, owner: CppClass | None) -> str | None:
-        if owner is None or not self._open.has_undefined:
-            return None
-        parts = ((c, n) for c in self._texts.lineage(owner) for n in (c.name, f"~{c.name}"))
-        return _UNDEFINED if any(self._open.lacks_body(c, n) for c, n in parts) else None
+        return self._parts.of_object(type_, is_held=True)
 
     # --- functions outside of classes, and what is held in variables ----------------------------
 
@@ -135,7 +162,7 @@ class UnreadCalls:
         if around is not None and self._declares(around, name):
             return self._of_class(around, name, Provenance.MADE)
         if name in self._code.all_classes:
-            return self._of_object(self._texts.class_near(name, cpp))
+            return self._parts.of_class(self._texts.class_near(name, cpp))
         if self._is_function_pointer(name):
             return _HELD
         if name in self._open.declared:
@@ -175,8 +202,7 @@ class UnreadCalls:
 
     def _of_scope(self, cpp: Cpp, scope: str, name: str, call: CppCall) -> str | None:
         if is_library(f"{scope}::{name}"):
-            is_held = name not in _KEEPING and any(self._is_held(cpp, a) for a in call.arguments)
-            return _HELD if is_held else None
+            return None if name in _KEEPING else self._of_library(cpp, call)
         owner = self._texts.class_near(scope.partition("<")[0].rpartition("::")[2], cpp)
         if owner is not None:
             return self._of_class(owner, name, Provenance.MADE)
@@ -185,6 +211,15 @@ class UnreadCalls:
         if around is not None and last in self._open.unread_bases(around):
             return _INHERITED if self._is_plain(name) else None
         return _UNDEFINED if name in self._open.declared else None
+
+    def _of_library(self, cpp: Cpp, call: CppCall) -> str | None:
+        """Why a function of a library may: it calls what it gets, and operators of elements."""
+        for argument in call.arguments:
+            if self._is_held(cpp, argument):
+                return _HELD
+            if (why := self.of_handed(cpp, argument)) is not None:
+                return why
+        return self._parts.of_elements([self._statics.of(cpp, a) for a in call.arguments])
 
     def _is_held(self, cpp: Cpp, argument: Node) -> bool:
         """Whether an argument holds a function, which `std::invoke` and algorithms call."""
@@ -235,7 +270,11 @@ class UnreadCalls:
         if name in ("first", "second") and type_.last == "pair":
             return self._held(cpp, function)
         if type_.pointers or is_library(type_.name):
-            return self._held_object(type_, name)
+            is_looking = name in _COUNTING
+            elements = None if is_looking else self._parts.of_elements([type_])
+            return self._held_object(type_, name) or elements
+        if "::" in type_.name and self._open.is_forward(type_.name):
+            return _UNDEFINED
         owner = self._statics.class_of(type_)
         if owner is not None:
             return self._of_class(owner, name, self._provenance.of(cpp, call.target))
@@ -249,10 +288,9 @@ class UnreadCalls:
     def _held_object(self, type_: StaticType, name: str) -> str | None:
         """Why a pointer or a container may, that makes or ends what it holds."""
         if name == "reset" and type_.last in POINTING and type_.arguments:
-            return self.of_type(type_.cpp, type_.arguments[0])
-        if name in _MAKING and not type_.pointers:
-            return self._of_object(self._statics.class_of(self._statics.element(type_)))
-        return None
+            held = self._statics.written(type_.cpp, type_.arguments[0])
+            return self._parts.of_object(held, is_held=True)
+        return self._parts.of_object(type_) if name in _MAKING and not type_.pointers else None
 
     def _by_name(self, name: str) -> str | None:
         """Of an object whose class is not known: whether a class has such a method, unread."""
@@ -274,6 +312,10 @@ class UnreadCalls:
             if self._open.lacks_body(class_, name):
                 is_read = bool(below) and made is Provenance.MADE
                 return None if is_read and _is_virtual(above) else _UNDEFINED
+            if _is_virtual(above):
+                others = self._texts.descendants(class_)
+                if any(self._open.lacks_override(each, name) for each in others):
+                    return _UNDEFINED
             if _is_virtual(above) and made is not Provenance.MADE:
                 return _OVERRIDDEN
             return None
@@ -292,3 +334,7 @@ class UnreadCalls:
 
 def _is_virtual(functions: list[CppFunction]) -> bool:
     return any(f.pure or f.overrides or text_of(f.node).startswith("virtual") for f in functions)
+
+
+def _is_address(node: Node) -> bool:
+    return node.type == "pointer_expression" and node.children[0].type == "&"

@@ -187,13 +187,8 @@ class Called:
     def taking(self, count: int) -> tuple[CppFunction, ...]:
         """The functions that may be meant where so many arguments are given."""
         if self.function is not None:
-            return (self.function,)
-        return tuple(f for f in self.overloads if _takes(f, count))
-
-
-def _takes(function: CppFunction, count: int) -> bool:
-    needed = sum(p.default is None for p in function.parameters)
-    return needed <= count <= len(function.parameters)
+            return (self.function,) if self.function.may_take(count) else ()
+        return tuple(f for f in self.overloads if f.may_take(count))
 
 
 @dataclass(frozen=True, slots=True)
@@ -258,7 +253,9 @@ def meant_by(called: Called | Inline, name: str, count: int) -> tuple[CppFunctio
     """The functions that a call of so many arguments may mean; none where that is not known."""
     if is_another(called, name):
         return ()
-    return (called.function,) if isinstance(called, Inline) else called.taking(count)
+    if isinstance(called, Inline):
+        return (called.function,) if called.function.may_take(count) else ()
+    return called.taking(count)
 
 
 # --- set-up -------------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 DECLARES = "declare_parameter"
-# Its arguments but for `ignore_override`, by which no launch description gives the parameter a value.
+# Its arguments but for `ignore_override`, by which nobody else gives the parameter a value.
 MOST_DECLARED = 3
 READS = frozenset({"param", DECLARES, "declareArray"})
 _HINT = "compute with it in the model's constructor"

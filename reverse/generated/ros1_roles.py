@@ -96,7 +96,8 @@ class Roles:
     arguments the first one's first. `topics` are those of shims by their names, `offers` as what
     those of shims are offered, `wired` the calls that make them and publishers of the rebec; `own`
     are parameters of the node that state variables get, `reading` the statements that do that, and
-    `asked` those that read constants in people's words, with the members that get these; `told` are those that people are told of,
+    `asked` those that read constants in people's words, with the members that get these; `told` are
+    those that people are told of,
     `silent` the variables of them that are only logged; `passing` are callbacks of timers that only
     post a message; `odd_sends` what functions that send do besides; `posted` are the servers that
     no subscription takes messages to, `lost` the calls that send there all the same.

@@ -109,8 +109,10 @@ def note_helpers(bodies: Bodies, helpers: Helpers) -> None:
     names = {function.name for _, function in near}
     called = frozenset[str]().union(*(called_by(code, caller, names) for caller in callers))
     for owner, function in near:
-        # Objects are made and destroyed without a call of that name.
-        runs = function.name in called or function.name.lstrip("~") == owner.name
+        # Objects are made and destroyed, and operators run, without a call of that name.
+        is_implicit = function.name.lstrip("~") == owner.name
+        is_implicit = is_implicit or function.name.startswith("operator")
+        runs = function.name in called or is_implicit
         touched = _touched(bodies, owner, function) if runs else None
         if touched is not None:
             why = f'what "{owner.name}::{function.name}" does where it is called is not read'
@@ -126,8 +128,11 @@ def _touched(bodies: Bodies, owner: CppClass, function: CppFunction) -> Touches 
     members = {n: whole.members[n] for n in shared}
     free = {n: f for n, f in whole.functions.items() if _is_free(f)}
     scope = replace(whole, members=members, functions=free, calm=Calm())
+    effects = Effects(function.cpp, scope, returning=True)
     try:
-        Effects(function.cpp, scope, returning=True).check(function.body or function.node)
+        if function.initialisers is not None:
+            effects.check(function.initialisers)
+        effects.check(function.body or function.node)
     except Touches as touches:
         return touches.with_traceback(None)
     return None

@@ -79,6 +79,14 @@ class CppFunction:
         """The parameters' types as text, which tells overloads apart."""
         return tuple(_STD.sub("", "".join(text_of(p.type).split())) for p in self.parameters)
 
+    def may_take(self, count: int) -> bool:
+        """Whether it may be called with so many arguments."""
+        texts = [text_of(p.node) for p in self.parameters]
+        if any("..." in text for text in texts):
+            return True
+        needed = sum(p.default is None for p in self.parameters)
+        return count == 0 if texts == ["void"] else needed <= count <= len(texts)
+
     @property
     def gives_place(self) -> bool:
         """Whether it returns a reference or a pointer."""
