@@ -11,10 +11,13 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
+from rebsync.reverse.bodies.cpp_kinds import LOOPS, SHORT_CIRCUIT
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 
-_CALL = re.compile(r"(?<![A-Z_])\b[a-z]\w*\s*\(")
+# Names in capitals are macros, which are asked elsewhere what they hide.
+_CALL = re.compile(r"\b(?:[a-z_]\w*|[A-Z]\w*[a-z]\w*)\s*(?:<[^;(){}]*>\s*)?\(|[\])]\s*\(")
+_NOTHING = re.compile(r"\bnullopt\b|=\s*\{\s*\}")  # of another name for it, perhaps
 _HARMLESS = re.compile(r"\b(?:if|while|for|switch|sizeof|value|has_value|value_or)\s*\(")
 _WAYS = {"if_statement": "consequence", "while_statement": "body"}
 _LEAVING = ("return", "break", "continue", "throw")
@@ -87,16 +90,21 @@ def _left_before(below: Node, node: Node, name: str) -> bool:
 
 
 def _may_change(first: Node, node: Node, name: str) -> bool:
-    """Whether something between two places may take a value away: a store, or a call."""
+    """Whether something between two places may take a value away: a store, or a call.
+
+    In a loop that begins there that is all of it, as it goes round.
+    """
     root = first
     while root.parent is not None:
         root = root.parent
-    between = (root.text or b"")[
-        first.start_byte - root.start_byte : node.start_byte - root.start_byte
-    ]
+    loops = (n for n in ancestors(node) if n.type in LOOPS and n.start_byte >= first.start_byte)
+    end = max((n.end_byte for n in loops), default=node.start_byte)
+    between = (root.text or b"")[first.start_byte - root.start_byte : end - root.start_byte]
     text = _HARMLESS.sub("(", between.decode("utf-8", "replace"))
     stores = re.search(rf"{re.escape(name)}\s*(?:=(?!=)|\.\s*(?:reset|emplace|swap))", text)
-    return stores is not None or _CALL.search(text) is not None
+    another = re.search(rf"(?:[\w>*]|[^&]&)\s+{re.escape(name)}\s*[;={{(,:]", text)
+    found = (stores, another, _CALL.search(text), _NOTHING.search(text))
+    return any(each is not None for each in found)
 
 
 def _plain(text: str) -> str:
