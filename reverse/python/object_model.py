@@ -15,11 +15,12 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.python import client_modules
 from rebsync.reverse.python.body_effects import is_getter
 from rebsync.reverse.python.body_reading import Reading
+from rebsync.reverse.python.body_units import scope_around
 from rebsync.reverse.python.class_creation import PLAIN_BASES, class_departures
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_index import CLASS, FUNCTION, Scope
 from rebsync.reverse.python.py_tree import field, text_of
-from rebsync.reverse.python.py_worth import Class, External
+from rebsync.reverse.python.py_worth import Class, External, Instance
 
 _HOOKS = frozenset(
     {"__setattr__", "__getattr__", "__getattribute__", "__delattr__", "__new__", "__del__"}
@@ -30,6 +31,7 @@ _PLAIN_DECORATORS = frozenset(
     | {"override", "typing.override", "typing_extensions.override"}
 )
 _WITHOUT_DICT = frozenset({"builtins.object", "abc.ABC"})
+_BY_NAMES = ("__dict__", "__class__")
 _DESCRIBES = frozenset({"__get__", "__set__", "__delete__"})
 
 
@@ -46,6 +48,7 @@ def _departures(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
     for scope in reading.unit.lineage:
         yield from _of_class(reading, scope)
         yield from _of_members(reading, scope)
+    yield from _by_names(reading)
     yield from _slots(reading)
     yield from _replaced(reading)
     yield from _private(reading)
@@ -68,9 +71,33 @@ def _of_members(reading: Reading, scope: Scope) -> Iterator[tuple[Scope, Node, s
                 yield from _decorated(reading, scope, name, binding.node)
             elif binding.how == "value" and _may_describe(reading, scope, binding.value):
                 yield scope, binding.node, f'"{name}" may be a descriptor: what it does is not read'
-    if b"__dict__" in (scope.node.text or b""):
-        for node in _attributes(scope.node, "__dict__"):
-            yield scope, node, "attributes that are set by their names are not read"
+
+
+def _by_names(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
+    """The dictionaries of what may be such an object, and stores in its class, in all files."""
+    for path, module in reading.code.modules.items():
+        for name in _BY_NAMES:
+            for node in _attributes(module.node, name):
+                scope = scope_around(reading.code, node, path)
+                is_read = name == "__class__" and not _holds_what_is_set(node)
+                if not is_read and _may_be_of(reading, scope, field(node, "object")):
+                    yield scope, node, "attributes that are set by their names are not read"
+
+
+def _may_be_of(reading: Reading, scope: Scope, node: Node) -> bool:
+    """Whether a value may be an object of the unit: nothing shows that it is of other classes."""
+    family = reading.unit.lineage
+    ways = reading.values.ways(node, scope)
+    others = (isinstance(w, Instance) and w.scope not in family for w in ways)
+    return not ways or not all(others)
+
+
+def _holds_what_is_set(node: Node) -> bool:
+    """Whether an attribute of this is the target of a store."""
+    target = node.parent
+    store = target.parent if target is not None else None
+    is_attribute = target is not None and target.type == "attribute"
+    return is_attribute and store is not None and store.child_by_field_name("left") == target
 
 
 def _slots(reading: Reading) -> Iterator[tuple[Scope, Node, str]]:
