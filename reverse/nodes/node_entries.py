@@ -10,6 +10,7 @@ from rebsync.reverse.bodies.cpp_effects import touching
 from rebsync.reverse.bodies.scope import Called, Inline, Scope
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.nodes.node_bodies import Bodies
+from rebsync.reverse.nodes.node_programs import NodeObject
 from rebsync.reverse.nodes.node_starts import used_in_main
 from rebsync.reverse.nodes.node_units import Start
 from rebsync.reverse.syntax.cpp_calls import CppCall
@@ -37,9 +38,16 @@ def note_entry(bodies: Bodies, start: Start | None) -> None:
             unread = Unread(entry.cpp.span(call.node), why)
             bodies.findings.unreadable(entry.cpp.source, unread, bodies.unit.name)
     for node in inside(entry.body, "declaration"):
-        if node.start_byte >= made.end_byte and _hands_on(bodies, start, node):
+        is_late = node.start_byte >= made.end_byte
+        if is_late and (_hands_on(bodies, start, node) or _keeps_function(start.made, node)):
             unread = Unread(entry.cpp.span(node), "what this does to the object is not known")
             bodies.findings.unreadable(entry.cpp.source, unread, bodies.unit.name)
+
+
+def _keeps_function(made: NodeObject | None, declaration: Node) -> bool:
+    """Whether a variable gets a function of its own that names the object: calls of it act."""
+    words = (w for f in inside(declaration, "lambda_expression") for w in inside(f, "identifier"))
+    return made is not None and any(text_of(w) == made.variable for w in words)
 
 
 def _hands_on(bodies: Bodies, start: Start, declaration: Node) -> bool:

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
-from rebsync.reverse.graph import Fact, ParameterFact, Resolved
+from rebsync.reverse.graph import Fact, ParameterFact, Resolved, Unresolved
 from rebsync.reverse.libraries.routines import Access
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_tree import text_of
 from rebsync.reverse.texts import TEXT
 from rebsync.static.values import converted
+
+_DECLARES = "declare_parameter"
+_MOST_DECLARED = 3  # the next one is `ignore_override`
 
 _TYPES = {bool: "boolean", int: "int", float: "double", str: TEXT.name}
 TypeOf = Callable[[Node], m.Type | None]
@@ -120,3 +123,20 @@ def _as(value: object, type_: m.Type) -> Value | None:
             return converted(value, type_) if type_ != TEXT else None
         case _:
             return None
+
+
+def list_given_otherwise(
+    fact: ParameterFact, facts: Iterable[Fact], listed: Callable[[ParameterFact, str], None]
+) -> None:
+    """Lists that a parameter may have another value than who starts the node gives it.
+
+    The code sets what it reads as well, or declares it with `ignore_override`.
+    """
+    call = call_of(fact.site.call)
+    is_declared = fact.access is Access.DECLARE and call is not None and call.name == _DECLARES
+    if is_declared and call is not None and len(call.arguments) > _MOST_DECLARED:
+        listed(fact, "nobody else gives this parameter a value")
+    if fact.access is Access.SET:
+        read = (f for f in facts if isinstance(f, ParameterFact) and f.access is Access.GET)
+        if any(Unresolved in (type(f.name), type(fact.name)) or f.name == fact.name for f in read):
+            listed(fact, "the code sets this parameter, and reads it")

@@ -41,7 +41,7 @@ from rebsync.reverse.nodes.node_loops import (
     served_within,
 )
 from rebsync.reverse.nodes.node_names import Names
-from rebsync.reverse.nodes.node_parameters import ConstructorParameter, asked
+from rebsync.reverse.nodes.node_parameters import ConstructorParameter, asked, list_given_otherwise
 from rebsync.reverse.nodes.node_reach import reached
 from rebsync.reverse.nodes.node_servers import Server, replaced, share_variable
 from rebsync.reverse.nodes.node_state import State
@@ -141,8 +141,6 @@ class Setup:
         running = {n.id for n in (*self.running, *(s.body for s in self.servers))}
         return any(n.id in running for n in ancestors(fact.site.call))
 
-    # --- calls ----------------------------------------------------------------------------------
-
     def _plain(self, fact: Fact) -> None:
         """A call that asks for something is no statement of the model."""
         statement = enclosing_statement(fact.site.call)
@@ -232,6 +230,7 @@ class Setup:
     # --- parameters -----------------------------------------------------------------------------
 
     def _parameter(self, fact: ParameterFact) -> None:
+        list_given_otherwise(fact, self.facts, self._listed)
         statement = enclosing_statement(fact.site.call)
         found = asked(fact, self.instances, lambda n: self._type(n, fact), self.facts)
         if found is None or statement is None:
