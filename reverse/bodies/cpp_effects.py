@@ -100,6 +100,9 @@ class Effects(EffectReader):
     def _write(self, node: Node) -> None:
         name, meaning = self.root_of(node)
         self._subscripts(node)
+        form = self.scope.form
+        if name not in self.inner and form is not None and name in form.naming_macros:
+            raise self.touches(node, f'"{name}" is a macro: what it names is changed')
         if node.type in OPERATORS:
             check_operator(self, node)
         if not is_modelled(node, meaning):

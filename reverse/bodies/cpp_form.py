@@ -59,6 +59,14 @@ class CppForm:
         return frozenset(name.encode() for name, node in texts if any(inside(node, *_ACTING)))
 
     @cached_property
+    def naming_macros(self) -> frozenset[str]:
+        """The macros without parameters whose text names a variable."""
+        known = {id(cpp) for cpp in self._code.files}
+        values = self._code.constants.items()
+        texts = ((name, node) for (_, name), (cpp, node) in values if id(cpp) not in known)
+        return frozenset(n for n, v in texts if any(inside(v, "identifier", "this")))
+
+    @cached_property
     def unread_calls(self) -> UnreadCalls:
         """Which calls may run what no file has."""
         return UnreadCalls(self._code)
