@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from typing import Generic, TypeAlias, TypeVar
+from weakref import WeakMethod
 
 from rebsync.records import dataclass
 
@@ -26,16 +27,16 @@ class LeastFixpoint(Generic[T]):
     What functions do that call each other so does not depend on which of them is looked at first,
     and no chain of calls is too long. Each equation is asked for once; then only what is new in a
     set goes on to those that use it. `settled` gets the names of sets that grow no more, and gives
-    more elements of some.
+    more elements of some. Both are methods of who has this: they are not kept alive.
     """
 
     def __init__(
         self,
         equation: Callable[[str], Equation[T]],
-        settled: Callable[[Collection[str]], Mapping[str, frozenset[T]]] = lambda _: {},
+        settled: Callable[[Collection[str]], Mapping[str, frozenset[T]]] | None = None,
     ) -> None:
-        self._equation = equation
-        self._settled = settled
+        self._equation = WeakMethod(equation)
+        self._settled = WeakMethod(settled) if settled is not None else None
         self._known: dict[str, frozenset[T]] = {}
 
     def of(self, name: str) -> frozenset[T]:
@@ -50,12 +51,15 @@ class LeastFixpoint(Generic[T]):
         return equation.own.union(*added)
 
     def _solve(self, first: str) -> None:
+        equation_of = self._equation()
+        settled = self._settled() if self._settled is not None else None
+        assert equation_of is not None
         equations: dict[str, Equation[T]] = {}
         waiting = [first]
         while waiting:
             name = waiting.pop()
             if name not in equations:
-                equations[name] = self._equation(name)
+                equations[name] = equation_of(name)
                 uses = (used for used, _ in equations[name].uses)
                 waiting += (u for u in uses if u not in self._known)
         users: dict[str, list[tuple[str, Transfer[T]]]] = {}
@@ -67,7 +71,8 @@ class LeastFixpoint(Generic[T]):
             growing.append((name, self.solved(Equation(equation.own, tuple(known)))))
         found = dict.fromkeys(equations, frozenset[T]())
         _grow(found, users, growing)
-        _grow(found, users, [*self._settled(found.keys()).items()])
+        if settled is not None:
+            _grow(found, users, [*settled(found.keys()).items()])
         self._known |= found
 
 

@@ -7,7 +7,6 @@ Numbers and texts that it gets it leaves as they are ([decision 72]).
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from functools import cache
 
 from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
@@ -34,18 +33,22 @@ class ForeignFilling:
         self._table = notes.table
         self._program = notes.origins.graph.program
         self._function = notes.function.name
-        self._names_of = cache(self._aliases)
-        self._handed = cache(self._is_handed)
+        self._names: dict[frozenset[Key], frozenset[Key]] = {}
+        self._handed: dict[frozenset[Key], bool] = {}
 
     def may_fill(self, body: s.Body, function: str, over: Iterable[e.Expression]) -> bool:
         """Whether a body calls what may fill one of some containers of the function."""
         calls = [c for c in walk(body) if isinstance(c, s.Call) and self._is_foreign(c, function)]
         keys = {key_of(each, self._function) for each in over} - {None} if calls else set()
-        names = self._names_of(frozenset(k for k in keys if k is not None))
-        return bool(names) and (
-            any(self._gets(c, function, names) for c in calls)
-            or (bool(calls) and self._handed(names))
-        )
+        asked = frozenset(k for k in keys if k is not None)
+        if asked not in self._names:
+            self._names[asked] = self._aliases(asked)
+        names = self._names[asked]
+        if not names or not calls:
+            return False
+        if names not in self._handed:
+            self._handed[names] = self._is_handed(names)
+        return self._handed[names] or any(self._gets(c, function, names) for c in calls)
 
     def _gets(self, call: s.Call, function: str, names: frozenset[Key]) -> bool:
         """Whether a call gets what has one of some names."""

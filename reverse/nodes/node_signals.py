@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import PurePosixPath
 
 from tree_sitter import Node
 
-from rebsync.reserved import RUNTIME_HEADERS
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.nodes.node_bodies import Bodies
+from rebsync.reverse.nodes.runtime_part import runtime_part
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, part, text_of
@@ -27,11 +26,9 @@ def note_signals(bodies: Bodies, generated: bool) -> None:
 
     Those of the run-time part of `generated` classes are known: `check` compares its text.
     """
-    mailboxes = bodies.code.all_classes.get("Mailbox", ()) if generated else ()
-    runtime = {PurePosixPath(c.cpp.source.path).parent for c in mailboxes}
+    runtime = runtime_part(bodies.code, generated)
     for function in _functions(bodies):
-        header = PurePosixPath(function.cpp.source.path)
-        if header.parent in runtime and header.stem in RUNTIME_HEADERS:
+        if function.cpp in runtime:
             continue
         for call in bodies.code.calls_of(function):
             if call.target is not None or call.name.rpartition("::")[2] not in _SETS:

@@ -252,7 +252,7 @@ class _ClassReader:
         note_bound(node.bodies)
         note_hidden(node.bodies)
         note_entry(node.bodies, alike[0].start if alike else None)
-        note_locks(node.bodies)
+        note_locks(node.bodies, self.system.generated)
         note_unmodelled(node.bodies)
         note_handed(node.bodies)
         note_spinning(node.bodies, alike[0].start if alike else None)

@@ -184,7 +184,7 @@ def test_it_ends_in_order_when_interrupted(tmp_path: Path, command: str, status:
         connection.close()
         assert "What else could happen" in text
         os.kill(running.pid, signal.SIGINT)
-        out, err = running.communicate(timeout=30)
+        out, err = running.communicate(timeout=120)
     finally:
         running.kill()
         running.wait()

@@ -70,6 +70,16 @@ def test_containers_that_are_stored_in_each_other_end() -> None:
     assert {p.raises for p in _analysis(_STORED).of("use")} == {"an exception"}
 
 
+class _Given:
+    """Equations by the names of their sets."""
+
+    def __init__(self, equations: dict[str, Equation[int]]) -> None:
+        self._equations = equations
+
+    def equation(self, name: str) -> Equation[int]:
+        return self._equations[name]
+
+
 def test_the_least_sets_are_found() -> None:
     def same(x: int) -> frozenset[int]:
         return frozenset({x})
@@ -77,12 +87,14 @@ def test_the_least_sets_are_found() -> None:
     def next_of(x: int) -> frozenset[int]:
         return frozenset({x + 1}) if x < 3 else frozenset()
 
-    equations = {
-        "a": Equation(frozenset({1}), (("b", same),)),
-        "b": Equation(frozenset[int](), (("a", next_of), ("c", same))),
-        "c": Equation(frozenset({7}), (("c", same),)),
-    }
-    found = LeastFixpoint(equations.__getitem__)
+    given = _Given(
+        {
+            "a": Equation(frozenset({1}), (("b", same),)),
+            "b": Equation(frozenset[int](), (("a", next_of), ("c", same))),
+            "c": Equation(frozenset({7}), (("c", same),)),
+        }
+    )
+    found = LeastFixpoint(given.equation)
     assert found.of("b") == {2, 3, 7}
     assert found.of("a") == {1, 2, 3, 7}
 

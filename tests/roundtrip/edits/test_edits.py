@@ -17,13 +17,13 @@ from tests.roundtrip.edits.trial import FILES, Case, made
 _EVERY = 8  # of how many edits one goes through all steps
 
 
-def tested(file: str) -> list[Case]:
+def drawn_cases(file: str) -> list[Case]:
     """One in three of the cases of a file, or in eight of the longest one."""
     every = 8 if file == "cpp.toml" else 3
     return [case for case in in_one_dialect(file) if drawn("tested", case.name, every) == 0]
 
 
-CASES = [case for file in FILES for case in tested(file)]
+CASES = [case for file in FILES for case in drawn_cases(file)]
 
 
 @pytest.mark.parametrize("case", CASES, ids=str)
