@@ -138,6 +138,8 @@ def _conditional(ctx: Lowering, node: Node) -> e.Expression:
 def _comparison(ctx: Lowering, node: Node) -> e.Expression:
     """`a < b < c` is `a < b and b < c`, where `b` is evaluated once."""
     operators = [_COMPARED[text_of(c)] for c in node.children_by_field_name("operators")]
+    if node.has_error or len(named(node)) != len(operators) + 1:
+        raise NoLowering("no comparison of Python", node)
     first, second, *rest = named(node)
     left, right = ctx.values((first, second))
     return _chain(ctx, left, right, rest, operators, node)
