@@ -39,13 +39,6 @@ def test_everything_has_a_lowering(name: str) -> None:
     assert not [n for body in bodies for n in statements(body) if isinstance(n, s.Unsupported)]
 
 
-@pytest.mark.parametrize("code", ["y = x < 3 4 < 5", "y = (x < 3 4 < 5) and x"])
-def test_what_is_no_comparison_has_no_lowering(code: str) -> None:
-    program = program_of(f"def main(x):\n    {code}\n    return y\n")
-    bodies = [program.function(f).body for f in program.functions]
-    assert [n for body in bodies for n in statements(body) if isinstance(n, s.Unsupported)]
-
-
 @given(st.randoms(use_true_random=False))
 def test_drawn_modules(random: Random) -> None:
     text = module_text(random)
