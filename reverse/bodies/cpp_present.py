@@ -7,11 +7,11 @@ holds there says that there is one, and nothing between could take it away.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_kinds import LOOPS, SHORT_CIRCUIT
+from rebsync.reverse.bodies.cpp_kinds import LOOPS
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_tree import named, text_of
 
@@ -20,6 +20,7 @@ _CALL = re.compile(r"\b(?:[a-z_]\w*|[A-Z]\w*[a-z]\w*)\s*(?:<[^;(){}]*>\s*)?\(|[\
 _NOTHING = re.compile(r"\bnullopt\b|=\s*\{\s*\}")  # of another name for it, perhaps
 _HARMLESS = re.compile(r"\b(?:if|while|for|switch|sizeof|value|has_value|value_or)\s*\(")
 _WAYS = {"if_statement": "consequence", "while_statement": "body"}
+_AND, _OR = ("&&", "and"), ("||", "or")
 _LEAVING = ("return", "break", "continue", "throw")
 
 
@@ -27,7 +28,8 @@ def is_asked(node: Node, optional: str) -> bool:
     """Whether a place is only reached where an optional, as it is written, holds a value."""
     name, below = _plain(optional), node
     while (at := below.parent) is not None and not at.type.endswith("_definition"):
-        if _says(at, below, name) and not _may_change(below, node, name):
+        asked = _says(at, below, name)
+        if asked is not None and not _may_change(asked.end_byte, node, name):
             return True
         if at.type == "compound_statement" and _left_before(below, node, name):
             return True
@@ -37,70 +39,86 @@ def is_asked(node: Node, optional: str) -> bool:
     return False
 
 
-def _says(at: Node, below: Node, name: str) -> bool:
-    """Whether what is below something runs only where its condition holds, which says so."""
-    if at.type == "binary_expression":
-        operator, left = at.child_by_field_name("operator"), at.child_by_field_name("left")
-        is_and = operator is not None and text_of(operator) in ("&&", "and")
-        return is_and and left is not None and left != below and _asks(left, name)
-    if at.type == "conditional_expression" or at.type in _WAYS:
+def _says(at: Node, below: Node, name: str) -> Node | None:
+    """What says that there is a value, in a condition that holds wherever what is below runs."""
+    condition = None
+    if at.type == "binary_expression" and _operator(at) in _AND:
+        condition = at.child_by_field_name("left")
+        condition = condition if condition != below else None
+    elif at.type == "conditional_expression" or at.type in _WAYS:
         way = at.child_by_field_name(_WAYS.get(at.type, "consequence"))
-        condition = at.child_by_field_name("condition")
-        return way == below and condition is not None and _asks(condition, name)
-    return False
-
-
-def _asks(condition: Node, name: str) -> bool:
+        condition = at.child_by_field_name("condition") if way == below else None
     yes = {name, f"{name}.has_value()", f"{name}!=std::nullopt"}
-    return not yes.isdisjoint(_plain(text_of(n)) for n in _conjuncts(condition))
+    return _one_of(condition, _AND, yes)
 
 
-def _conjuncts(node: Node) -> Iterator[Node]:
-    inner = named(node)
-    if node.type in ("condition_clause", "parenthesized_expression") and len(inner) == 1:
-        yield from _conjuncts(inner[0])
-    elif node.type == "binary_expression" and _is_and(node):
+def _one_of(condition: Node | None, joined: tuple[str, str], texts: Collection[str]) -> Node | None:
+    """The last of the parts of a condition that has one of some texts."""
+    found = [n for n in _parts(condition, joined) if _plain(text_of(n)) in texts]
+    return found[-1] if found else None
+
+
+def _parts(node: Node | None, joined: tuple[str, str]) -> Iterator[Node]:
+    """The conditions that a condition joins by `&&`, or by `||`."""
+    inner = named(node) if node is not None else ()
+    is_around = node is not None and node.type in ("condition_clause", "parenthesized_expression")
+    if is_around and len(inner) == 1:
+        yield from _parts(inner[0], joined)
+    elif node is not None and node.type == "binary_expression" and _operator(node) in joined:
         for each in inner:
-            yield from _conjuncts(each)
-    else:
+            yield from _parts(each, joined)
+    elif node is not None:
         yield node
 
 
-def _is_and(node: Node) -> bool:
+def _operator(node: Node) -> str:
     operator = node.child_by_field_name("operator")
-    text = text_of(operator) if operator is not None else ""
-    return text in SHORT_CIRCUIT and text in ("&&", "and")
+    return text_of(operator) if operator is not None else ""
 
 
 def _left_before(below: Node, node: Node, name: str) -> bool:
-    """Whether a statement before leaves the block where there is no value."""
+    """Whether a statement before leaves the block wherever there is no value."""
     no = {f"!{name}", f"!{name}.has_value()", f"{name}==std::nullopt"}
     before = below.prev_named_sibling
     while before is not None:
         condition = before.child_by_field_name("condition")
         way = before.child_by_field_name("consequence")
         if before.type == "if_statement" and condition is not None and way is not None:
-            is_no = any(_plain(text_of(n)) in no for n in _conjuncts(condition))
+            asked = _one_of(condition, _OR, no)
             last = named(way)[-1:] if way.type == "compound_statement" else [way]
-            if is_no and any(n.type.startswith(_LEAVING) for n in last):
-                first = before.next_named_sibling
-                return first is not None and not _may_change(first, node, name)
+            if asked is not None and any(n.type.startswith(_LEAVING) for n in last):
+                stays = before.child_by_field_name("alternative") or before.next_named_sibling
+                return not (
+                    stays is None
+                    or _takes_away(_between(node, asked.end_byte, condition.end_byte), name)
+                    or _may_change(stays.start_byte, node, name)
+                )
         before = before.prev_named_sibling
     return False
 
 
-def _may_change(first: Node, node: Node, name: str) -> bool:
-    """Whether something between two places may take a value away: a store, or a call.
+def _may_change(start: int, node: Node, name: str) -> bool:
+    """Whether something from a place to another may take a value away.
 
     In a loop that begins there that is all of it, as it goes round.
     """
-    root = first
+    loops = (n for n in ancestors(node) if n.type in LOOPS and n.start_byte >= start)
+    end = max((n.end_byte for n in loops), default=node.start_byte)
+    return _takes_away(_between(node, start, end), name)
+
+
+def _between(node: Node, start: int, end: int) -> str:
+    """The text of a file of which a node is, from a byte to another."""
+    root = node
     while root.parent is not None:
         root = root.parent
-    loops = (n for n in ancestors(node) if n.type in LOOPS and n.start_byte >= first.start_byte)
-    end = max((n.end_byte for n in loops), default=node.start_byte)
-    between = (root.text or b"")[first.start_byte - root.start_byte : end - root.start_byte]
-    text = _HARMLESS.sub("(", between.decode("utf-8", "replace"))
+    text = (root.text or b"")[start - root.start_byte : end - root.start_byte]
+    return text.decode("utf-8", "replace")
+
+
+def _takes_away(code: str, name: str) -> bool:
+    """Whether some code may take a value away: by a store, or a call."""
+    text = _HARMLESS.sub("(", code)
     stores = re.search(rf"{re.escape(name)}\s*(?:=(?!=)|\.\s*(?:reset|emplace|swap))", text)
     another = re.search(rf"(?:[\w>*]|[^&]&)\s+{re.escape(name)}\s*[;={{(,:]", text)
     found = (stores, another, _CALL.search(text), _NOTHING.search(text))
