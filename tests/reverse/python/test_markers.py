@@ -7,7 +7,7 @@ import pytest
 from rebsync.grammars.parser import parse_model
 from rebsync.printing import print_model
 from rebsync.source import Source
-from tests.reverse.python.laws import extracted, python_files
+from tests.reverse.python.laws import assert_says, extracted, python_files
 
 _MODEL = """reactiveclass Robot(3) {
   statevars { int n; int cell; }
@@ -113,3 +113,38 @@ def test_what_is_no_store_is_no_step() -> None:
     found = edited(step, "            if self._n == 4:\n                i = 3\n", "ros1-py")
     assert "for" not in found
     assert "while (i > n) {\n      cell = i;\n      if (n == 4) {" in found
+
+
+@pytest.mark.parametrize(
+    ("body", "helper"),
+    [
+        ("switch (id) { case 1: n = 1; case 2: n = 2; break; default: n = 3; }", "in switch(id):"),
+        ("switch (id) { case 1: n = 1; break; case 2: default: n = 3; }", "in switch(id):"),
+        (
+            "switch (id) { case 1: if (n > 3) break; n = 1; break; default: n = 3; }",
+            "in switch(id):",
+        ),
+        ("switch (id) { case 1: return; break; default: n = 3; }", "in switch(id):"),
+        ("switch (id) { default: n = 3; }", "in switch(id):"),
+        ("switch (id + 1) { case 1: n = 1; break; default: n = 3; }", "in switch("),
+        ("for (int i = 9; i > n; i--) { if (n == 4) continue; cell = i; }", "in rounds():"),
+        ("for (int i = 9; ; i--) { if (i < 4) break; cell = i; }", "in rounds():"),
+    ],
+    ids=[
+        "falls through",
+        "default beside a case",
+        "break within",
+        "break that nothing reaches",
+        "default alone",
+        "expression",
+        "continue",
+        "no condition",
+    ],
+)
+def test_what_a_chain_or_while_would_not_say_keeps_its_helper(body: str, helper: str) -> None:
+    start, end = _MODEL.index("    while"), _MODEL.index("  }\n}\nmain")
+    model = parse_model(Source("robot.rebeca", f"{_MODEL[:start]}{body}\n{_MODEL[end:]}")).model
+    files = python_files(model, "ros1-py")
+    (path,) = (p for p in files if p.endswith("/robot.py"))
+    assert helper in files[path]
+    assert_says(files, model)
