@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -23,6 +24,18 @@ _LONG = (
     *("ros1/", "ros2/", "ros2py/", "forward/test_compiles", "hooks/"),
     *("reverse/native/", "roundtrip/edits/"),
 )
+
+
+def pytest_configure() -> None:
+    """Has signals end what they end at a terminal.
+
+    A shell's `&` starts tests that ignore some, and so would each process that a test starts.
+    """
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+        if signal.getsignal(number) == signal.SIG_IGN:
+            signal.signal(number, signal.SIG_DFL)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

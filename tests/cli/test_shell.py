@@ -113,10 +113,8 @@ def test_an_interrupt(tmp_path: Path) -> None:
     assert (process.returncode, err.strip()) == (Status.INTERRUPTED, b"interrupted")
 
 
-# A shell's background job inherits that interrupts are ignored; a user's terminal does not.
 _SLOW = """
-import signal, sys
-signal.signal(signal.SIGINT, signal.default_int_handler)
+import sys
 import rebsync.cli.fmt, rebsync.files
 from rebsync.cli import main
 def wait(path):

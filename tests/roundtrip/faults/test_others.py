@@ -116,8 +116,6 @@ def kill():
 
 {code}
 cli.rebsync.main = command
-signal.signal(signal.SIGINT, signal.default_int_handler)
-signal.signal(signal.SIGTERM, signal.SIG_DFL)  # what has started the tests may not heed it
 sys.exit(cli.main())
 """
 
