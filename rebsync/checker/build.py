@@ -159,7 +159,7 @@ def _load(path: Path) -> ctypes.CDLL:
 def _compile(
     units: list[Unit], compiler: tuple[str, ...], scratch: Path, wanted: Callable[[], bool]
 ) -> list[Path]:
-    for source in _TEMPLATES.glob("*.h"):
+    for source in _TEMPLATES.glob("*.[ch]"):
         shutil.copyfile(source, scratch / source.name)
     with ExitStack() as ending:
         running = []

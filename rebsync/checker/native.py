@@ -1,4 +1,4 @@
-"""The interface of the search in C, as runtime.c and engine.h define it."""
+"""The interface of the search in C, as runtime.c and search.h define it."""
 
 from __future__ import annotations
 
@@ -10,19 +10,21 @@ from rebsync.checker.reduction import PersistentSets
 from rebsync.checker.steps import FailureKind, Semantics
 from rebsync.checker.symmetry import Symmetry, inverse
 
-PARTS = (
+KERNEL = (
     "machine.h",
-    "engine.h",
+    "kernel.h",
+    "common.h",
+    "kernel_data.h",
     "components.h",
     "endless.h",
     "outcomes.h",
-    "visited.h",
-    "compaction.h",
-    "storing.h",
     "orbits.h",
     "expansion.h",
-    "standstill.h",
+    "observing.h",
+    "collecting.h",
+    "kernel.c",
 )
+PARTS = (*KERNEL, "search.h", "visited.h", "compaction.h", "storing.h", "standstill.h")
 SEMANTICS: tuple[Semantics, ...] = ("tts", "ftts", "core")
 END = ("finished", "slice", "states", "endless", "memory", "stopped", "violated")
 NOT_FOUND = -2  # instead of a state: there is no memory, or it was ended

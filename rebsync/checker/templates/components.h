@@ -2,11 +2,11 @@
 #ifndef REBSYNC_COMPONENTS_H
 #define REBSYNC_COMPONENTS_H
 
-#include "engine.h"
+#include "kernel_data.h"
 
-static inline struct component *component(struct engine *e, uint32_t rebec, uint32_t id)
+static inline struct component *component(struct kernel *k, uint32_t rebec, uint32_t id)
 {
-    return (struct component *)e->actors[rebec].components.data + id;
+    return (struct component *)k->actors[rebec].components.data + id;
 }
 
 /* --- packing: small numbers take one byte */
@@ -32,12 +32,12 @@ static inline cell take_number(const unsigned char **from)
     return (cell)(bits >> 1) ^ -(cell)(bits & 1);
 }
 
-static int arguments_of(struct engine *e, cell server)
+static int arguments_of(struct kernel *k, cell server)
 {
-    return server < 0 ? 0 : e->model->server[server].arguments;
+    return server < 0 ? 0 : k->model->server[server].arguments;
 }
 
-static unsigned char *put_message(struct engine *e, unsigned char *to, const cell *message)
+static unsigned char *put_message(struct kernel *k, unsigned char *to, const cell *message)
 {
     cell due = message[DUE];
     to = put_number(to, message[ARRIVAL]);
@@ -45,65 +45,65 @@ static unsigned char *put_message(struct engine *e, unsigned char *to, const cel
     to = put_number(to, message[SENDER]);
     /* 0 is none; so times from 0 on are one more */
     to = put_number(to, due == NO_DEADLINE ? 0 : due >= 0 ? due + 1 : due);
-    for (int i = 0, n = arguments_of(e, message[SERVER]); i < n; i++)
+    for (int i = 0, n = arguments_of(k, message[SERVER]); i < n; i++)
         to = put_number(to, message[ARGUMENTS + i]);
     return to;
 }
 
-static void take_message(struct engine *e, const unsigned char **from, cell *message)
+static void take_message(struct kernel *k, const unsigned char **from, cell *message)
 {
-    memset(message, 0, e->model->stride * sizeof(cell));
+    memset(message, 0, k->model->stride * sizeof(cell));
     message[ARRIVAL] = take_number(from);
     message[SERVER] = take_number(from);
     message[SENDER] = take_number(from);
     cell due = take_number(from);
     message[DUE] = due == 0 ? NO_DEADLINE : due > 0 ? due - 1 : due;
-    for (int i = 0, n = arguments_of(e, message[SERVER]); i < n; i++)
+    for (int i = 0, n = arguments_of(k, message[SERVER]); i < n; i++)
         message[ARGUMENTS + i] = take_number(from);
 }
 
-/* Packs a local state into e->text. */
-static void pack_local(struct engine *e, uint32_t rebec, const struct local *l)
+/* Packs a local state into k->text. */
+static void pack_local(struct kernel *k, uint32_t rebec, const struct local *l)
 {
-    size_t stride = e->model->stride, variables = e->model->rebec[rebec].cells;
+    size_t stride = k->model->stride, variables = k->model->rebec[rebec].cells;
     size_t cells = 4 + variables + (l->messages + 1) * stride + l->frame_cells;
-    unsigned char *to = room_for(e, &e->text, cells * 10, 1);
+    unsigned char *to = room_for(k->escape, &k->text, cells * 10, 1);
     for (size_t i = 0; i < variables; i++)
         to = put_number(to, l->variables[i]);
     to = put_number(to, l->busy);
-    if (e->model->reads_clock)
+    if (k->model->reads_clock)
         to = put_number(to, l->clock);
     to = put_number(to, (cell)l->frame_count);
     to = put_number(to, (cell)l->messages);
     for (size_t i = 0; i < l->messages; i++)
-        to = put_message(e, to, l->bag + i * stride);
+        to = put_message(k, to, l->bag + i * stride);
     if (l->frame_count) {
-        to = put_message(e, to, l->message);
+        to = put_message(k, to, l->message);
         for (size_t i = 0; i < l->frame_cells; i++)
             to = put_number(to, l->frames[i]);
     }
-    e->text.count = (size_t)((char *)to - e->text.data);
+    k->text.count = (size_t)((char *)to - k->text.data);
 }
 
-static void room_for_frames(struct engine *e, struct local *l, size_t cells)
+static void room_for_frames(struct kernel *k, struct local *l, size_t cells)
 {
     if (!enough((void **)&l->frames, &l->frames_room, cells, sizeof(cell)))
-        give_up(e);
+        give_up(k->escape);
 }
 
 /* Room for so many messages in the bag. */
-static void room_for_bag(struct engine *e, struct local *l, size_t messages)
+static void room_for_bag(struct kernel *k, struct local *l, size_t messages)
 {
-    if (!enough((void **)&l->bag, &l->bag_room, messages * e->model->stride, sizeof(cell)))
-        give_up(e);
+    if (!enough((void **)&l->bag, &l->bag_room, messages * k->model->stride, sizeof(cell)))
+        give_up(k->escape);
 }
 
-static void unpack_frames(struct engine *e, const unsigned char *from, struct local *l)
+static void unpack_frames(struct kernel *k, const unsigned char *from, struct local *l)
 {
     size_t at = 0;
     for (size_t frame = 0; frame < l->frame_count; frame++) {
         cell pc = take_number(&from), count = take_number(&from);
-        room_for_frames(e, l, at + 2 + count);
+        room_for_frames(k, l, at + 2 + count);
         l->frames[at++] = pc;
         l->frames[at++] = count;
         for (; count; count--)
@@ -112,75 +112,80 @@ static void unpack_frames(struct engine *e, const unsigned char *from, struct lo
     l->frame_cells = at;
 }
 
-static void unpack_local(struct engine *e, uint32_t rebec, uint32_t id, struct local *l)
+/* Unpacks the content of a local state. */
+static void take_local(struct kernel *k, uint32_t rebec, const unsigned char *from, struct local *l)
 {
-    size_t stride = e->model->stride, variables = e->model->rebec[rebec].cells;
-    const unsigned char *from =
-        (unsigned char *)e->actors[rebec].bytes.data + component(e, rebec, id)->at;
+    size_t stride = k->model->stride, variables = k->model->rebec[rebec].cells;
     for (size_t i = 0; i < variables; i++)
         l->variables[i] = take_number(&from);
     l->busy = take_number(&from);
-    l->clock = e->model->reads_clock ? take_number(&from) : 0;
+    l->clock = k->model->reads_clock ? take_number(&from) : 0;
     l->frame_count = (size_t)take_number(&from);
     l->messages = (size_t)take_number(&from);
-    room_for_bag(e, l, l->messages);
+    room_for_bag(k, l, l->messages);
     for (size_t i = 0; i < l->messages; i++)
-        take_message(e, &from, l->bag + i * stride);
+        take_message(k, &from, l->bag + i * stride);
     l->frame_cells = 0;
     if (l->frame_count) {
-        take_message(e, &from, l->message);
-        unpack_frames(e, from, l);
+        take_message(k, &from, l->message);
+        unpack_frames(k, from, l);
     }
+}
+
+static void unpack_local(struct kernel *k, uint32_t rebec, uint32_t id, struct local *l)
+{
+    const char *bytes = k->actors[rebec].bytes.data + component(k, rebec, id)->at;
+    take_local(k, rebec, (const unsigned char *)bytes, l);
 }
 
 /* --- what a local state means for the whole */
 
-static int32_t priority_of(struct engine *e, cell server)
+static int32_t priority_of(struct kernel *k, cell server)
 {
-    return server < 0 ? INT32_MAX : e->model->server[server].priority;
+    return server < 0 ? INT32_MAX : k->model->server[server].priority;
 }
 
 /* The best priority of the messages that have come first. */
-static int32_t best_priority(struct engine *e, const struct local *l)
+static int32_t best_priority(struct kernel *k, const struct local *l)
 {
     int32_t best = INT32_MAX;
     const cell *message = l->bag;
     for (size_t i = 0; i < l->messages && message[ARRIVAL] == l->bag[ARRIVAL]; i++) {
-        int32_t priority = priority_of(e, message[SERVER]);
+        int32_t priority = priority_of(k, message[SERVER]);
         best = priority < best ? priority : best;
-        message += e->model->stride;
+        message += k->model->stride;
     }
     return best;
 }
 
-static int64_t next_time(struct engine *e, const struct local *l)
+static int64_t next_time(struct kernel *k, const struct local *l)
 {
     if (l->frame_count)
         return l->busy;
     if (!l->messages)
         return NEVER;
-    int64_t arrival = l->bag[ARRIVAL], least = e->semantics == TTS ? arrival : 0;
-    if (e->semantics == FTTS) {
+    int64_t arrival = l->bag[ARRIVAL], least = k->semantics == TTS ? arrival : 0;
+    if (k->semantics == FTTS) {
         least = arrival > l->busy ? arrival : l->busy;
         least = least > 0 ? least : 0;
     }
     return least;
 }
 
-static void describe(struct engine *e, uint32_t rebec, const struct local *l, struct component *c)
+static void describe(struct kernel *k, uint32_t rebec, const struct local *l, struct component *c)
 {
     int suspended = l->frame_count > 0;
     const cell *bag = l->bag;
     int able = suspended ? !l->busy : l->messages && !l->busy && bag[ARRIVAL] <= 0;
-    c->next = next_time(e, l);
+    c->next = next_time(k, l);
     c->outcomes = NONE;
     c->places = (uint32_t)(l->messages + (suspended && l->message[SERVER] >= 0));
     c->flags = able ? ABLE : 0;
-    if (!suspended && !l->messages && !l->busy && !e->model->reads_clock)
+    if (!suspended && !l->messages && !l->busy && !k->model->reads_clock)
         c->flags |= STILL;
-    c->rank = e->semantics == CORE ? 0 : e->model->rebec[rebec].priority;
-    if (able && e->model->global_ranks && e->semantics != CORE)
-        c->rank = suspended ? priority_of(e, l->message[SERVER]) : best_priority(e, l);
+    c->rank = k->semantics == CORE ? 0 : k->model->rebec[rebec].priority;
+    if (able && k->model->global_ranks && k->semantics != CORE)
+        c->rank = suspended ? priority_of(k, l->message[SERVER]) : best_priority(k, l);
 }
 
 /* --- numbers of local states */
@@ -191,15 +196,15 @@ static size_t length_of(struct actor *a, uint32_t id)
     return (id + 1 < a->components.count ? c[1].at : a->bytes.count) - c->at;
 }
 
-static uint64_t content_hash(struct engine *e, uint32_t rebec, uint32_t id)
+static uint64_t content_hash(struct kernel *k, uint32_t rebec, uint32_t id)
 {
-    struct actor *a = e->actors + rebec;
-    return hash_of(a->bytes.data + component(e, rebec, id)->at, length_of(a, id));
+    struct actor *a = k->actors + rebec;
+    return hash_of(a->bytes.data + component(k, rebec, id)->at, length_of(a, id));
 }
 
-static void enlarge_table(struct engine *e, struct actor *a)
+static void enlarge_table(struct kernel *k, struct actor *a)
 {
-    uint64_t size = a->mask ? 2 * (a->mask + 1) : TABLE, *table = zeroed(e, size, sizeof *table);
+    uint64_t size = a->mask ? 2 * (a->mask + 1) : TABLE, *table = zeroed(k->escape, size, sizeof *table);
     for (uint64_t i = 0; a->mask && i <= a->mask; i++) {
         uint64_t entry = a->table[i], at = (entry >> 32) & (size - 1);
         if (!entry)
@@ -214,42 +219,39 @@ static void enlarge_table(struct engine *e, struct actor *a)
 }
 
 /* The number of a local state. */
-static uint32_t number_of(struct engine *e, uint32_t rebec, const struct local *l)
+static uint32_t number_of(struct kernel *k, uint32_t rebec, const struct local *l)
 {
-    struct actor *a = e->actors + rebec;
-    pack_local(e, rebec, l);
+    struct actor *a = k->actors + rebec;
+    pack_local(k, rebec, l);
     if (4 * a->components.count >= 3 * a->mask)
-        enlarge_table(e, a);
-    size_t length = e->text.count;
-    uint64_t content = hash_of(e->text.data, length), hash = content >> 32, at = hash & a->mask;
+        enlarge_table(k, a);
+    size_t length = k->text.count;
+    uint64_t content = hash_of(k->text.data, length), hash = content >> 32, at = hash & a->mask;
     for (; a->table[at]; at = (at + 1) & a->mask) {
         uint32_t id = (uint32_t)a->table[at] - 1;
         if (a->table[at] >> 32 != hash)
             continue;
-        const char *bytes = a->bytes.data + component(e, rebec, id)->at;
-        if (length_of(a, id) == length && !memcmp(bytes, e->text.data, length))
+        const char *bytes = a->bytes.data + component(k, rebec, id)->at;
+        if (length_of(a, id) == length && !memcmp(bytes, k->text.data, length))
             return id;
     }
     if (a->components.count >= NONE - 1)
-        give_up(e);
-    room_for(e, &a->bytes, a->bytes.count + length, 1);
-    if (e->compact)
-        *(uint64_t *)added(e, &a->hashes, sizeof content) = content;
-    struct component *c = added(e, &a->components, sizeof *c);
-    memcpy(a->bytes.data + a->bytes.count, e->text.data, length);
+        give_up(k->escape);
+    room_for(k->escape, &a->bytes, a->bytes.count + length, 1);
+    if (k->hashes)
+        *(uint64_t *)added(k->escape, &a->hashes, sizeof content) = content;
+    struct component *c = added(k->escape, &a->components, sizeof *c);
+    memcpy(a->bytes.data + a->bytes.count, k->text.data, length);
     c->at = a->bytes.count;
     a->bytes.count += length;
-    describe(e, rebec, l, c);
+    describe(k, rebec, l, c);
     a->table[at] = hash << 32 | a->components.count;
-    uint32_t id = (uint32_t)a->components.count - 1;
-    if (id > e->fields[rebec].mask)
-        e->wide = 1;
-    return id;
+    return (uint32_t)a->components.count - 1;
 }
 
 /* --- what changes it, remembered */
 
-static void enlarge_memo(struct engine *e, struct memo *m, uint64_t components)
+static void enlarge_memo(struct kernel *k, struct memo *m, uint64_t components)
 {
     uint64_t size = m->entries ? m->mask + 1 : 0;
     if (size >= MEMO_AT_MOST || 4 * components <= size)
@@ -261,7 +263,7 @@ static void enlarge_memo(struct engine *e, struct memo *m, uint64_t components)
     if (!entries && m->entries)
         return;
     if (!entries)
-        give_up(e);
+        give_up(k->escape);
     memset(in_large_pages(entries, size * sizeof *entries), 255, size * sizeof *entries);
     free(m->entries);
     m->entries = entries;
@@ -280,33 +282,33 @@ static void pass_message(cell *message, int64_t time)
         message[DUE] -= time;
 }
 
-static uint32_t compute_later(struct engine *e, uint32_t rebec, uint32_t id, int64_t time)
+static uint32_t compute_later(struct kernel *k, uint32_t rebec, uint32_t id, int64_t time)
 {
-    struct local *l = &e->scratch;
-    unpack_local(e, rebec, id, l);
+    struct local *l = &k->scratch;
+    unpack_local(k, rebec, id, l);
     for (size_t i = 0; i < l->messages; i++)
-        pass_message(l->bag + i * e->model->stride, time);
+        pass_message(l->bag + i * k->model->stride, time);
     if (l->frame_count)
         pass_message(l->message, time);
     l->busy = l->busy > time ? l->busy - time : 0;
     l->clock += time;
-    enlarge_memo(e, &e->actors[rebec].passed, e->actors[rebec].components.count);
-    return number_of(e, rebec, l);
+    enlarge_memo(k, &k->actors[rebec].passed, k->actors[rebec].components.count);
+    return number_of(k, rebec, l);
 }
 
 /* The local state when so much time has passed. */
-static inline uint32_t later(struct engine *e, uint32_t rebec, uint32_t id, int64_t time)
+static inline uint32_t later(struct kernel *k, uint32_t rebec, uint32_t id, int64_t time)
 {
-    if (component(e, rebec, id)->flags & STILL)
+    if (component(k, rebec, id)->flags & STILL)
         return id;
     if (time >> 31)
-        return compute_later(e, rebec, id, time);
+        return compute_later(k, rebec, id, time);
     uint64_t key = (uint64_t)id << 32 | (uint64_t)time;
-    struct remembered *known = remembered(&e->actors[rebec].passed, key);
+    struct remembered *known = remembered(&k->actors[rebec].passed, key);
     if (known->key == key)
         return known->value;
-    uint32_t value = compute_later(e, rebec, id, time);
-    known = remembered(&e->actors[rebec].passed, key);
+    uint32_t value = compute_later(k, rebec, id, time);
+    known = remembered(&k->actors[rebec].passed, key);
     known->key = key;
     return known->value = value;
 }
@@ -320,11 +322,11 @@ static int compare_messages(const cell *a, const cell *b, size_t stride)
 }
 
 /* Puts a message into a bag: a sorted multiset, or a queue. */
-static void insert_message(struct engine *e, struct local *l, const cell *message)
+static void insert_message(struct kernel *k, struct local *l, const cell *message)
 {
-    size_t stride = e->model->stride, at = l->messages++;
-    room_for_bag(e, l, l->messages);
-    while (e->semantics != CORE && at &&
+    size_t stride = k->model->stride, at = l->messages++;
+    room_for_bag(k, l, l->messages);
+    while (k->semantics != CORE && at &&
            compare_messages(l->bag + (at - 1) * stride, message, stride) > 0) {
         memcpy(l->bag + at * stride, l->bag + (at - 1) * stride, stride * sizeof(cell));
         at--;
@@ -334,9 +336,9 @@ static void insert_message(struct engine *e, struct local *l, const cell *messag
 
 /* Takes out what is lost when another message comes for a server: its oldest, if it has no more
  * than so many. */
-static void displace(struct engine *e, struct local *l, cell server)
+static void displace(struct kernel *k, struct local *l, cell server)
 {
-    size_t depth = server < 0 ? 0 : (size_t)e->model->server[server].depth, stride = e->model->stride;
+    size_t depth = server < 0 ? 0 : (size_t)k->model->server[server].depth, stride = k->model->stride;
     size_t waiting = 0, oldest = l->messages;
     for (size_t i = l->messages; depth && i-- > 0;)
         if (l->bag[i * stride + SERVER] == server) {
@@ -350,67 +352,67 @@ static void displace(struct engine *e, struct local *l, cell server)
     l->messages--;
 }
 
-static uint32_t compute_received(struct engine *e, uint32_t rebec, uint32_t id, uint32_t message)
+static uint32_t compute_received(struct kernel *k, uint32_t rebec, uint32_t id, uint32_t message)
 {
-    struct actor *a = e->actors + rebec;
-    const cell *new = (cell *)e->messages.data + (size_t)message * e->model->stride;
-    uint32_t places = component(e, rebec, id)->places + 1;
-    unpack_local(e, rebec, id, &e->scratch);
-    size_t before = e->scratch.messages;
-    displace(e, &e->scratch, new[SERVER]);
-    places -= (uint32_t)(before - e->scratch.messages);
-    insert_message(e, &e->scratch, new);
+    struct actor *a = k->actors + rebec;
+    const cell *new = (cell *)k->messages.data + (size_t)message * k->model->stride;
+    uint32_t places = component(k, rebec, id)->places + 1;
+    unpack_local(k, rebec, id, &k->scratch);
+    size_t before = k->scratch.messages;
+    displace(k, &k->scratch, new[SERVER]);
+    places -= (uint32_t)(before - k->scratch.messages);
+    insert_message(k, &k->scratch, new);
     a->largest = places > a->largest ? places : a->largest;
-    enlarge_memo(e, &a->received, a->components.count);
-    return number_of(e, rebec, &e->scratch);
+    enlarge_memo(k, &a->received, a->components.count);
+    return number_of(k, rebec, &k->scratch);
 }
 
 /* The local state with one more message, for which there is a place. */
-static inline uint32_t received(struct engine *e, uint32_t rebec, uint32_t id, uint32_t message)
+static inline uint32_t received(struct kernel *k, uint32_t rebec, uint32_t id, uint32_t message)
 {
     uint64_t key = (uint64_t)id << 32 | message;
-    struct remembered *known = remembered(&e->actors[rebec].received, key);
+    struct remembered *known = remembered(&k->actors[rebec].received, key);
     if (known->key == key)
         return known->value;
-    uint32_t value = compute_received(e, rebec, id, message);
-    known = remembered(&e->actors[rebec].received, key);
+    uint32_t value = compute_received(k, rebec, id, message);
+    known = remembered(&k->actors[rebec].received, key);
     known->key = key;
     return known->value = value;
 }
 
 /* --- numbers of messages */
 
-static void enlarge_message_table(struct engine *e)
+static void enlarge_message_table(struct kernel *k)
 {
-    size_t stride = e->model->stride;
-    uint64_t size = e->message_mask ? 2 * (e->message_mask + 1) : TABLE;
-    uint32_t *table = zeroed(e, size, sizeof *table);
-    for (uint32_t id = 0; id < e->messages.count; id++) {
-        const cell *message = (cell *)e->messages.data + (size_t)id * stride;
+    size_t stride = k->model->stride;
+    uint64_t size = k->message_mask ? 2 * (k->message_mask + 1) : TABLE;
+    uint32_t *table = zeroed(k->escape, size, sizeof *table);
+    for (uint32_t id = 0; id < k->messages.count; id++) {
+        const cell *message = (cell *)k->messages.data + (size_t)id * stride;
         uint64_t at = hash_of(message, stride * sizeof(cell)) & (size - 1);
         while (table[at])
             at = (at + 1) & (size - 1);
         table[at] = id + 1;
     }
-    free(e->message_table);
-    e->message_table = table;
-    e->message_mask = size - 1;
+    free(k->message_table);
+    k->message_table = table;
+    k->message_mask = size - 1;
 }
 
-static uint32_t message_number(struct engine *e, const cell *message)
+static uint32_t message_number(struct kernel *k, const cell *message)
 {
-    size_t size = e->model->stride * sizeof(cell);
-    if (2 * e->messages.count >= e->message_mask)
-        enlarge_message_table(e);
-    uint64_t at = hash_of(message, size) & e->message_mask;
-    for (; e->message_table[at]; at = (at + 1) & e->message_mask) {
-        uint32_t id = e->message_table[at] - 1;
-        if (!memcmp(e->messages.data + id * size, message, size))
+    size_t size = k->model->stride * sizeof(cell);
+    if (2 * k->messages.count >= k->message_mask)
+        enlarge_message_table(k);
+    uint64_t at = hash_of(message, size) & k->message_mask;
+    for (; k->message_table[at]; at = (at + 1) & k->message_mask) {
+        uint32_t id = k->message_table[at] - 1;
+        if (!memcmp(k->messages.data + id * size, message, size))
             return id;
     }
-    memcpy(added(e, &e->messages, size), message, size);
-    e->message_table[at] = (uint32_t)e->messages.count;
-    return (uint32_t)e->messages.count - 1;
+    memcpy(added(k->escape, &k->messages, size), message, size);
+    k->message_table[at] = (uint32_t)k->messages.count;
+    return (uint32_t)k->messages.count - 1;
 }
 
 #endif

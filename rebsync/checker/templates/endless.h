@@ -2,7 +2,7 @@
 #ifndef REBSYNC_ENDLESS_H
 #define REBSYNC_ENDLESS_H
 
-#include "engine.h"
+#include "kernel_data.h"
 
 enum { SLICE_OF_BODY = 1 << 20, WATCHED = 1 << 20, SHARE = 8 };
 
@@ -19,13 +19,13 @@ static void take_slice(struct machine *m, int64_t size)
 }
 
 /* Begins to count the instructions of a run. */
-static void begin_count(struct engine *e)
+static void begin_count(struct kernel *k)
 {
-    e->watch.on = 0;
-    e->watch.from = WATCHED;
-    e->machine.left = e->instructions;
-    e->machine.cause = 0;
-    take_slice(&e->machine, SLICE_OF_BODY);
+    k->watch.on = 0;
+    k->watch.from = WATCHED;
+    k->machine.left = k->instructions;
+    k->machine.cause = 0;
+    take_slice(&k->machine, SLICE_OF_BODY);
 }
 
 static int give_up_body(struct machine *m, enum cause cause, int32_t pc)
@@ -37,24 +37,24 @@ static int give_up_body(struct machine *m, enum cause cause, int32_t pc)
 
 /* --- whether all comes back to what it was */
 
-static size_t cells_of(const struct engine *e)
+static size_t cells_of(const struct kernel *k)
 {
-    int32_t index = e->machine.index;
-    return index < 0 ? 0 : (size_t)e->model->rebec[index].cells;
+    int32_t index = k->machine.index;
+    return index < 0 ? 0 : (size_t)k->model->rebec[index].cells;
 }
 
 /* Keeps the state before the instruction `pc`; `top` cells of the frame are in use. */
-static void remember(struct engine *e, int32_t pc, size_t top)
+static void remember(struct kernel *k, int32_t pc, size_t top)
 {
-    struct machine *m = &e->machine;
-    struct watch *w = &e->watch;
-    size_t variables = cells_of(e), stack = m->base + top;
+    struct machine *m = &k->machine;
+    struct watch *w = &k->watch;
+    size_t variables = cells_of(k), stack = m->base + top;
     w->cells.count = w->frames.count = 0;
-    cell *to = (cell *)room_for(e, &w->cells, variables + stack, sizeof(cell));
+    cell *to = (cell *)room_for(k->escape, &w->cells, variables + stack, sizeof(cell));
     memcpy(to, m->stack, stack * sizeof(cell));
     if (variables)
         memcpy(to + stack, m->variables, variables * sizeof(cell));
-    struct frame *frames = room_for(e, &w->frames, m->depth, sizeof *frames);
+    struct frame *frames = room_for(k->escape, &w->frames, m->depth, sizeof *frames);
     if (m->depth)
         memcpy(frames, m->frames, m->depth * sizeof *frames);
     w->on = 1;
@@ -67,27 +67,27 @@ static void remember(struct engine *e, int32_t pc, size_t top)
     w->elapsed = m->elapsed;
 }
 
-static int same_frames(const struct engine *e)
+static int same_frames(const struct kernel *k)
 {
-    const struct frame *then = (struct frame *)e->watch.frames.data, *now = e->machine.frames;
-    for (size_t i = 0; i < e->watch.depth; i++)
+    const struct frame *then = (struct frame *)k->watch.frames.data, *now = k->machine.frames;
+    for (size_t i = 0; i < k->watch.depth; i++)
         if (then[i].pc != now[i].pc || then[i].base != now[i].base)
             return 0;
     return 1;
 }
 
 /* Whether the body goes on as it did from the state that was kept. */
-static int repeats(const struct engine *e, int32_t pc, size_t top)
+static int repeats(const struct kernel *k, int32_t pc, size_t top)
 {
-    const struct machine *m = &e->machine;
-    const struct watch *w = &e->watch;
+    const struct machine *m = &k->machine;
+    const struct watch *w = &k->watch;
     const cell *then = (cell *)w->cells.data;
-    size_t variables = cells_of(e);
+    size_t variables = cells_of(k);
     return w->pc == pc && w->depth == m->depth && w->base == m->base && w->stack == m->base + top &&
            w->chosen == m->chosen && w->sent == m->sent && w->elapsed == m->elapsed &&
            !memcmp(then, m->stack, w->stack * sizeof(cell)) &&
            !(variables && memcmp(then + w->stack, m->variables, variables * sizeof(cell))) &&
-           same_frames(e);
+           same_frames(k);
 }
 
 /* Notes the head of the outermost loop that was gone through. */
@@ -100,19 +100,19 @@ static void note_head(struct watch *w, const struct machine *m, int32_t pc)
 }
 
 /* Looks whether the state repeats, in windows that grow with the run; 0 if it does. */
-static int compare(struct engine *e, int64_t done, int32_t pc, size_t top)
+static int compare(struct kernel *k, int64_t done, int32_t pc, size_t top)
 {
-    struct watch *w = &e->watch;
+    struct watch *w = &k->watch;
     if (w->on) {
-        note_head(w, &e->machine, pc);
-        if (repeats(e, pc, top))
+        note_head(w, &k->machine, pc);
+        if (repeats(k, pc, top))
             return 0;
         if (done >= w->to) {
             w->on = 0;
             w->from = 2 * done;
         }
     } else if (done >= w->from) {
-        remember(e, pc, top);
+        remember(k, pc, top);
         w->to = done + done / SHARE;
     }
     return 1;
@@ -122,17 +122,17 @@ static int compare(struct engine *e, int64_t done, int32_t pc, size_t top)
  * the body is given up, else it has. */
 static int more(struct machine *m, int32_t pc, int32_t count, size_t top)
 {
-    struct engine *e = m->engine;
+    struct kernel *k = m->kernel;
     if (m->exhausted)
         return 0;
     if (m->left + m->budget < 0)
         return give_up_body(m, INSTRUCTIONS, pc + count + (int32_t)(m->left + m->budget));
     m->left += m->budget;
-    glance(e, m->slice - m->budget);
-    int64_t done = e->instructions - m->left;
-    if (!compare(e, done, pc, top))
-        return give_up_body(m, REPEATS, e->watch.head);
-    take_slice(m, e->watch.on ? 0 : SLICE_OF_BODY);
+    glance(k, m->slice - m->budget);
+    int64_t done = k->instructions - m->left;
+    if (!compare(k, done, pc, top))
+        return give_up_body(m, REPEATS, k->watch.head);
+    take_slice(m, k->watch.on ? 0 : SLICE_OF_BODY);
     return 1;
 }
 

@@ -55,7 +55,7 @@ struct machine {
     int32_t stride; /* cells of a message */
     int32_t index, pc, failure;
     int splits, exhausted, cause;
-    void *engine;
+    void *kernel;
     int (*more)(struct machine *, int32_t pc, int32_t count, size_t top);
 };
 

@@ -1,422 +1,366 @@
-/* The breadth-first search: everything that does not depend on the model. */
-#include <time.h>
-
-#include "expansion.h"
+/* The breadth-first search. */
 #include "standstill.h"
+#include "storing.h"
 
 /* Why a slice of the search ends. */
-enum end { FINISHED, SLICE, STATES, UNENDING, MEMORY, STOPPED, AT_FIRST };
+enum end { FINISHED, SLICE, STATES, CUT, MEMORY, STOPPED, AT_FIRST };
 
 struct figures {
     uint64_t states, transitions, expanded, depth, level, dropped, events, initials;
     struct cut cut;
 };
 
-/* --- beginning */
+/* --- its life */
 
-static void make_local(struct engine *e, struct local *l)
+static void make_packed(struct search *s)
 {
-    size_t variables = 1;
-    for (uint32_t r = 0; r < e->rebecs; r++) {
-        size_t cells = (size_t)e->model->rebec[r].cells;
-        variables = cells > variables ? cells : variables;
-    }
-    l->variables = zeroed(e, variables, sizeof(cell));
-    room_for_bag(e, l, 1);
-    l->message = zeroed(e, e->model->stride, sizeof(cell));
+    s->fields = zeroed(s->escape, s->rebecs, sizeof *s->fields);
+    lay_out(s, s->fields, &s->words);
+    s->batch_words = zeroed(s->escape, BATCH * s->words, sizeof *s->batch_words);
+    s->ids = zeroed(s->escape, s->rebecs, sizeof *s->ids);
+    s->unpacked = zeroed(s->escape, s->rebecs, sizeof *s->unpacked);
 }
 
-static void make_observed(struct engine *e)
+static void measure_nothing(struct search *s)
 {
-    e->views = zeroed(e, e->rebecs, sizeof *e->views);
-    e->machine.states = e->views;
-    e->observed = zeroed(e, e->rebecs, sizeof *e->observed);
-    for (uint32_t r = 0; r < e->rebecs; r++) {
-        if (!e->model->observed[r])
-            continue;
-        size_t cells = (size_t)OBSERVED * e->model->rebec[r].cells;
-        e->observed[r].variables = zeroed(e, cells, sizeof(cell));
-        memset(e->observed[r].ids, 255, sizeof e->observed[r].ids);
-    }
+    for (int32_t i = 0; i < s->model->measures; i++)
+        s->measured[i] = (struct measured){0, -1, 0, -1, -1};
 }
 
-static void make_actors(struct engine *e)
+void rebsync_free(struct search *s)
 {
-    e->actors = zeroed(e, e->rebecs, sizeof *e->actors);
-    e->fields = zeroed(e, e->rebecs, sizeof *e->fields);
-    lay_out(e, e->fields, &e->words);
-    for (uint32_t r = 0; r < e->rebecs; r++) {
-        enlarge_memo(e, &e->actors[r].received, 1);
-        enlarge_memo(e, &e->actors[r].passed, 1);
-    }
-    e->batch_words = zeroed(e, BATCH * e->words, sizeof *e->batch_words);
-    e->ids = zeroed(e, e->rebecs, sizeof *e->ids);
-    e->next = zeroed(e, e->rebecs, sizeof *e->next);
-    e->unpacked = zeroed(e, e->rebecs, sizeof *e->unpacked);
-}
-
-static void make_machine(struct engine *e)
-{
-    const struct model *m = e->model;
-    e->covered = zeroed(e, 2 * (size_t)m->branches, 1);
-    e->uncounted = zeroed(e, 2 * (size_t)m->branches, 1);
-    e->served = zeroed(e, (size_t)m->servers, 1);
-    make_local(e, &e->scratch);
-    make_local(e, &e->result);
-    e->machine.variables = e->result.variables;
-    e->machine.covered = e->covered;
-    e->machine.stride = m->stride;
-    e->machine.splits = e->semantics == TTS;
-    e->machine.message = e->scratch.message;
-    e->machine.engine = e;
-    e->machine.more = more;
-    for (uint32_t r = 0; r < e->rebecs; r++)
-        e->machine.places += m->rebec[r].capacity;
-}
-
-void rebsync_free(struct engine *e)
-{
-    for (uint32_t r = 0; e->actors && r < e->rebecs; r++) {
-        struct actor *a = e->actors + r;
-        free(a->components.data);
-        free(a->bytes.data);
-        free(a->hashes.data);
-        free(a->table);
-        free(a->received.entries);
-        free(a->passed.entries);
-        free(a->renamed.entries);
-    }
-    for (uint32_t r = 0; e->observed && r < e->rebecs; r++)
-        free(e->observed[r].variables);
     void *parts[] = {
-        e->actors, e->observed, e->views, e->fields, e->batch_words, e->ids, e->next, e->unpacked,
-        e->covered, e->uncounted, e->served, e->scratch.variables, e->scratch.bag,
-        e->scratch.message, e->scratch.frames, e->result.variables, e->result.bag,
-        e->result.message, e->result.frames, e->machine.stack, e->machine.frames,
-        e->machine.choices, e->machine.options, e->machine.sends, e->text.data, e->messages.data,
-        e->outcomes.data, e->sends.data, e->events.data, e->message_table, e->states.data,
-        e->parents.data, e->times.data, e->table, e->invariants,
-        e->persistent, e->names, e->origins,
-        e->positions, e->orbit, e->references, e->colours, e->turned, e->faults, e->measured, e->watch.cells.data, e->watch.frames.data};
+        s->fields, s->batch_words, s->ids, s->unpacked, s->events.data, s->states.data,
+        s->parents.data, s->times.data, s->table, s->invariants, s->faults, s->measured};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
-    free_prints(e);
-    if (e->steps)
-        fclose(e->steps);
-    free(e);
+    free_prints(s);
+    if (s->arrivals)
+        fclose(s->arrivals);
+    kernel_free(s->kernel);
+    free(s);
 }
 
-static int32_t *copied(struct engine *e, const int32_t *numbers, size_t count)
-{
-    int32_t *copy = zeroed(e, count, sizeof *copy);
-    memcpy(copy, numbers, count * sizeof *copy);
-    return copy;
-}
-
-static void measure_nothing(struct engine *e)
-{
-    for (int32_t i = 0; i < e->model->measures; i++)
-        e->measured[i] = (struct measured){0, -1, 0, -1, -1};
-}
-
-struct engine *rebsync_new(const struct model *model, int semantics, int compact,
+struct search *rebsync_new(const struct model *model, int semantics, int compact,
                            const int32_t *invariants, int invariant_count,
                            const int32_t *persistent, int persistent_count)
 {
-    struct engine *e = calloc(1, sizeof *e);
-    if (!e)
+    struct search *s = calloc(1, sizeof *s);
+    if (!s)
         return NULL;
-    e->model = model;
-    e->rebecs = (uint32_t)model->rebecs;
-    e->semantics = semantics;
-    e->compact = compact;
-    e->until = NEVER;
-    e->symmetries.order = 1;
-    if (setjmp(e->escape)) {
-        rebsync_free(e);
+    s->model = model;
+    s->rebecs = (uint32_t)model->rebecs;
+    s->compact = compact;
+    s->until = NEVER;
+    s->collect_at = COLLECT;
+    if (setjmp(s->escape->to)) {
+        rebsync_free(s);
         return NULL;
     }
-    e->collect_at = COLLECT;
-    if (compact && !(e->steps = tmpfile()))
-        give_up(e);
-    make_actors(e);
-    make_machine(e);
-    make_observed(e);
-    e->invariants = copied(e, invariants, (size_t)invariant_count);
-    e->invariant_count = (uint32_t)invariant_count;
-    e->measured = zeroed(e, (size_t)model->measures, sizeof *e->measured);
-    measure_nothing(e);
-    e->persistent = copied(e, persistent, (size_t)persistent_count * (e->rebecs + 1));
-    e->persistent_count = (uint32_t)persistent_count;
-    return e;
+    s->kernel = kernel_new(model, semantics, compact);
+    if (!s->kernel || !kernel_persistent(s->kernel, persistent, persistent_count))
+        give_up(s->escape);
+    if (compact && !(s->arrivals = tmpfile()))
+        give_up(s->escape);
+    make_packed(s);
+    s->invariants = copied(s->escape, invariants, (size_t)invariant_count);
+    s->invariant_count = (uint32_t)invariant_count;
+    s->measured = zeroed(s->escape, (size_t)model->measures, sizeof *s->measured);
+    measure_nothing(s);
+    return s;
 }
 
 /* Lets the search reduce states to canonical ones, with the tables of orbits.h; 0 without memory. */
-int rebsync_symmetry(struct engine *e, struct symmetries found, const int32_t *names,
+int rebsync_symmetry(struct search *s, struct symmetries found, const int32_t *names,
                      const int32_t *origins, const int32_t *positions, const int32_t *orbit,
                      const int32_t *references)
 {
-    size_t rebecs = e->rebecs;
-    if (setjmp(e->escape))
-        return 0;
-    e->names = copied(e, names, rebecs * (found.order + found.movable));
-    e->origins = copied(e, origins, rebecs * found.order);
-    e->positions = copied(e, positions, rebecs);
-    e->orbit = copied(e, orbit, rebecs);
-    e->references = (struct reference *)copied(e, references, 3 * (size_t)found.references);
-    e->colours = zeroed(e, rebecs, sizeof *e->colours);
-    e->turned = zeroed(e, rebecs, sizeof *e->turned);
-    for (uint32_t r = 0; r < e->rebecs; r++)
-        enlarge_memo(e, &e->actors[r].renamed, 1);
-    e->symmetries = found;
-    return 1;
+    s->symmetric = 1;
+    return kernel_symmetry(s->kernel, found, names, origins, positions, orbit, references);
 }
 
 /* --- searching */
 
-static void begin(struct engine *e)
+/* The initial states are stored. */
+static void begun(struct search *s)
 {
-    uint32_t *ids = zeroed(e, e->rebecs, sizeof *ids);
-    struct local *l = &e->result;
-    for (uint32_t r = 0; r < e->rebecs; r++) {
-        const struct rebec *rebec = e->model->rebec + r;
-        memcpy(l->variables, rebec->blank, rebec->cells * sizeof(cell));
-        l->busy = l->clock = 0;
-        l->messages = l->frame_count = l->frame_cells = 0;
-        ids[r] = number_of(e, r, l);
-    }
-    e->purpose = START;
-    e->ordinal = 0;
-    construct_from(e, ids, 0);
-    flush(e);
-    free(ids);
-    e->level_end = e->initials = e->count;
-    e->purpose = SEARCH;
+    s->level_end = s->initials = s->count;
+    s->beginning = 0;
 }
 
-/* Forgets what was stored of initial states when one of them is never complete. */
-static void undo(struct engine *e)
+/* Stores the initial states; 0 when a constructor does not end. */
+static int begin(struct search *s)
 {
-    e->count = e->pending = e->dropped = 0;
-    e->parents.count = e->times.count = e->events.count = 0;
-    free_prints(e);
-    if (e->compact)
-        rewind(e->steps);
-    e->slots = 0;
-    measure_nothing(e);
-}
-
-/* Enters the next level, when the last one is expanded; 0 when there is none. */
-static int go_deeper(struct engine *e)
-{
-    flush(e);
-    if (e->expanded == e->count)
+    s->beginning = 1;
+    enum answer answer = kernel_initial(s->kernel, store, s);
+    if (answer == UNENDING)
         return 0;
-    e->depth++;
-    e->level_end = e->count;
+    expect(s, answer);
+    flush(s);
+    begun(s);
     return 1;
 }
 
-static int search_on(struct engine *e, uint64_t states, int64_t due)
+/* Forgets what was stored of initial states when one of them is never complete. */
+static void undo(struct search *s)
 {
+    s->count = s->pending = s->dropped = 0;
+    s->parents.count = s->times.count = s->events.count = 0;
+    free_prints(s);
+    if (s->compact)
+        rewind(s->arrivals);
+    s->slots = 0;
+    measure_nothing(s);
+}
+
+/* Enters the next level, when the last one is expanded; 0 when there is none. */
+static int go_deeper(struct search *s)
+{
+    flush(s);
+    if (s->expanded == s->count)
+        return 0;
+    s->depth++;
+    s->level_end = s->count;
+    return 1;
+}
+
+static int search_on(struct search *s, uint64_t states, int64_t due)
+{
+    size_t made;
     for (uint64_t turn = 1;; turn++) {
-        if (e->expanded == e->level_end && !go_deeper(e))
+        if (s->expanded == s->level_end && !go_deeper(s))
             return FINISHED;
-        if (e->count + e->pending >= states) {
-            flush(e);
-            if (e->count >= states)
+        if (s->count + s->pending >= states) {
+            flush(s);
+            if (s->count >= states)
                 return STATES;
         }
         if (turn % TURNS == 0 && clock_now() >= due)
             return SLICE;
-        e->current = e->expanded;
-        unpack(e, words_of(e, e->current), e->ids);
-        if (!expand(e)) {
-            flush(e);
-            return UNENDING;
+        unpack(s, words_of(s, s->expanded), s->ids);
+        enum answer answer = kernel_successors(s->kernel, s->ids, 1, &made, store, s);
+        if (answer == UNENDING) {
+            flush(s);
+            return CUT;
         }
-        e->expanded++;
-        if (e->compact && turn % TURNS == 0) {
-            flush(e);
-            tidy(e);
+        expect(s, answer);
+        s->expanded++;
+        if (s->compact && turn % TURNS == 0) {
+            flush(s);
+            tidy(s);
         }
     }
 }
 
 /* What was found is still to be told, which takes memory too: the table of states can go. */
-static void exhaust(struct engine *e)
+static void exhaust(struct search *s)
 {
-    free(e->table);
-    e->table = NULL;
-    free_prints(e);
-    e->pending = 0;
-    e->exhausted = 1;
-    if (e->purpose == START)
-        e->initials = e->count;
+    free(s->table);
+    s->table = NULL;
+    free_prints(s);
+    s->pending = 0;
+    s->exhausted = 1;
+    if (s->beginning)
+        begun(s);
 }
 
 /* Leaves what was found so far; the state that was expanded is not. */
-static void stop(struct engine *e)
+static void stop(struct search *s)
 {
-    e->stopped = 1;
-    flush(e);
-    if (e->purpose == START)
-        e->initials = e->count;
+    s->stopped = 1;
+    flush(s);
+    if (s->beginning)
+        begun(s);
 }
 
 /* What is asked now and then, by searches and by what is done afterwards; NULL asks nobody. */
-void rebsync_watch(struct engine *e, void (*look)(int *goes_on))
+void rebsync_watch(struct search *s, void (*look)(int *goes_on))
 {
-    e->look = look;
-    e->looked = clock_now();
+    kernel_watch(s->kernel, look);
 }
 
 /* From now on the first violation ends the search: a failure, one of these predicates that is false,
  * or a deadlock if that is one. */
-void rebsync_stop_at_first(struct engine *e, const int32_t *faults, int count, int deadlock)
+void rebsync_stop_at_first(struct search *s, const int32_t *faults, int count, int deadlock)
 {
-    free(e->faults);
-    e->faults = NULL;
-    e->first = e->deadlock_is_fault = 0;
-    if (setjmp(e->escape))
+    free(s->faults);
+    s->faults = NULL;
+    s->first = s->deadlock_is_fault = 0;
+    if (setjmp(s->escape->to))
         return;
-    e->faults = copied(e, faults, (size_t)count);
-    e->fault_count = (uint32_t)count;
-    e->deadlock_is_fault = deadlock;
-    e->first = 1;
+    s->faults = copied(s->escape, faults, (size_t)count);
+    s->fault_count = (uint32_t)count;
+    s->deadlock_is_fault = deadlock;
+    s->first = 1;
 }
 
 /* Searches for about so many nanoseconds, until `states` are found, up to the time `until`; a body
  * may run so many instructions. */
-int rebsync_search(struct engine *e, uint64_t states, int64_t until, int64_t instructions,
+int rebsync_search(struct search *s, uint64_t states, int64_t until, int64_t instructions,
                    int64_t nanoseconds)
 {
-    e->looked = clock_now();
-    int64_t due = e->looked + nanoseconds;
-    e->until = until;
-    e->instructions = instructions;
-    int escaped = setjmp(e->escape);
-    if (escaped == STUCK_AT_START)
-        undo(e);
+    int64_t due = clock_now() + nanoseconds;
+    s->until = until;
+    kernel_limit(s->kernel, instructions);
+    int escaped = setjmp(s->escape->to);
     if (escaped == NO_MEMORY)
-        exhaust(e);
-    if (escaped == ENDED)
-        stop(e);
-    if (escaped == VIOLATED && e->purpose == START)
-        e->level_end = e->initials = e->count;
-    if (e->violated)
+        exhaust(s);
+    if (escaped == INTERRUPTED)
+        stop(s);
+    if (escaped == VIOLATED && s->beginning)
+        begun(s);
+    if (s->violated)
         return AT_FIRST;
-    if (e->exhausted)
+    if (s->exhausted)
         return MEMORY;
-    if (e->stopped)
+    if (s->stopped)
         return STOPPED;
-    if (escaped)
-        return UNENDING;
-    if (!e->initials)
-        begin(e);
-    int end = search_on(e, states, due);
-    flush(e);
+    if (!s->initials && !begin(s)) {
+        undo(s);
+        return CUT;
+    }
+    int end = search_on(s, states, due);
+    flush(s);
     return end;
 }
 
 /* --- afterwards */
 
-void rebsync_figures(struct engine *e, struct figures *f)
+void rebsync_figures(struct search *s, struct figures *f)
 {
-    f->states = e->count;
-    f->transitions = e->transitions;
-    f->expanded = e->expanded;
-    f->level = e->depth;
-    f->depth = e->depth + (e->count > e->level_end);
-    f->dropped = e->dropped;
-    f->events = e->events.count;
-    f->cut = e->cut;
-    f->initials = e->initials;
+    f->states = s->count;
+    f->transitions = s->transitions;
+    f->expanded = s->expanded;
+    f->level = s->depth;
+    f->depth = s->depth + (s->count > s->level_end);
+    f->dropped = s->dropped;
+    f->events = s->events.count;
+    f->cut = kernel_cut(s->kernel);
+    f->initials = s->initials;
 }
 
-const struct event *rebsync_events(struct engine *e)
+const struct event *rebsync_events(struct search *s)
 {
-    return (struct event *)e->events.data;
+    return (struct event *)s->events.data;
 }
 
-const struct measured *rebsync_measured(struct engine *e)
+const struct measured *rebsync_measured(struct search *s)
 {
-    return e->measured;
+    return s->measured;
 }
 
 /* Copies which servers and branches ran, and the largest bags. */
-void rebsync_covered(struct engine *e, unsigned char *served, unsigned char *covered, uint32_t *largest)
+void rebsync_covered(struct search *s, unsigned char *served, unsigned char *covered, uint32_t *largest)
 {
-    memcpy(served, e->served, (size_t)e->model->servers);
-    memcpy(covered, e->covered, 2 * (size_t)e->model->branches);
-    for (uint32_t r = 0; r < e->rebecs; r++)
-        largest[r] = e->actors[r].largest;
+    kernel_covered(s->kernel, served, covered, largest);
+}
+
+/* The first step from a state to another, and where it is sought. */
+struct way {
+    struct search *search;
+    uint64_t from, to;
+    int64_t code; /* -1: not found yet */
+};
+
+static void find_way(void *visitor, const struct transition *step)
+{
+    struct way *w = visitor;
+    struct search *s = w->search;
+    if (w->code >= 0 || !step->state || !is_state(s, step->state, (int64_t)w->to))
+        return;
+    int64_t before = s->times.count ? ((int64_t *)s->times.data)[w->from] : 0;
+    if (!s->times.count || before + step->time <= s->until)
+        w->code = (int64_t)step->code;
 }
 
 /* The state before one on its shortest way, or -1; `code` is that of the step between. It is -2
  * when there is no memory to find out, or the file of steps cannot be read. */
-int64_t rebsync_before(struct engine *e, uint64_t state, int64_t *code)
+int64_t rebsync_before(struct search *s, uint64_t state, int64_t *code)
 {
-    if (e->compact) {
-        struct step step;
-        if (!read_step(e, state, &step))
+    if (s->compact) {
+        struct arrival arrival;
+        if (!read_arrival(s, state, &arrival))
             return -2;
-        *code = step.code;
-        return step.parent == NONE ? -1 : (int64_t)step.parent;
+        *code = arrival.code;
+        return arrival.parent == NONE ? -1 : (int64_t)arrival.parent;
     }
-    uint32_t parent = ((uint32_t *)e->parents.data)[state];
-    if (state < e->initials) {
+    uint32_t parent = ((uint32_t *)s->parents.data)[state];
+    if (state < s->initials) {
         *code = parent;
         return -1;
     }
-    if (setjmp(e->escape)) {
-        e->purpose = SEARCH;
+    size_t made;
+    struct way way = {s, parent, state, -1};
+    unpack(s, words_of(s, parent), s->ids);
+    if (kernel_successors(s->kernel, s->ids, 1, &made, find_way, &way) != COMPLETE)
         return -2;
-    }
-    e->purpose = PATH;
-    e->current = parent;
-    e->wanted = (int64_t)state;
-    e->found = -1;
-    unpack(e, words_of(e, parent), e->ids);
-    expand(e);
-    e->purpose = SEARCH;
-    *code = e->found;
+    *code = way.code;
     return parent;
 }
 
-static void label(struct engine *e, uint64_t state, uint32_t words)
+/* Where the steps of states go, and how many there are. */
+struct graph {
+    uint64_t *first;
+    int64_t *target;
+    int32_t *actor;
+    int64_t *time;
+    uint64_t *labels;
+    uint16_t *turn; /* of a quotient: by which permutation the target is canonical */
+};
+
+struct drawing {
+    struct search *search;
+    struct graph graph;
+    int turns; /* whether there are permutations */
+    uint64_t edges;
+};
+
+/* Notes a step that fails, or leads to a state that was seen. */
+static void draw(void *visitor, const struct transition *step)
 {
-    uint64_t *labels = e->graph.labels + state * words;
+    struct drawing *d = visitor;
+    int64_t target = step->state ? seen(d->search, step->state) : -1;
+    if (step->state && target < 0)
+        return;
+    if (d->turns && step->state)
+        d->graph.turn[d->edges] = (uint16_t)step->turn;
+    d->graph.target[d->edges] = target;
+    d->graph.actor[d->edges] = step->actor;
+    d->graph.time[d->edges++] = step->time;
+}
+
+static void label(struct search *s, uint64_t *labels, uint32_t words)
+{
     memset(labels, 0, words * sizeof *labels);
-    observe_all(e, e->ids);
-    for (int32_t p = 0; p < e->model->predicates; p++)
-        if (holds(e, p) == 1)
+    kernel_observe(s->kernel, s->ids);
+    for (int32_t p = 0; p < s->model->predicates; p++) {
+        struct valuation found = value_of(s, p);
+        if (found.defined && found.value)
             labels[p / 64] |= UINT64_C(1) << p % 64;
+    }
 }
 
 /* Expands states again, from number `from` up to `to`, into arrays that are large enough; gives
  * how many edges there are so far, or -1 without memory. */
-int64_t rebsync_graph(struct engine *e, struct graph graph, uint64_t from, uint64_t to, uint64_t edges)
+int64_t rebsync_graph(struct search *s, struct graph graph, uint64_t from, uint64_t to, uint64_t edges)
 {
-    uint32_t words = e->model->predicates ? (uint32_t)(e->model->predicates + 63) / 64 : 1;
-    if (setjmp(e->escape)) {
-        e->purpose = SEARCH;
+    uint32_t words = s->model->predicates ? (uint32_t)(s->model->predicates + 63) / 64 : 1;
+    struct drawing drawing = {s, graph, s->symmetric, edges};
+    size_t made;
+    if (setjmp(s->escape->to))
         return -1;
-    }
-    if (!e->table)
-        fill_table(e, 2 * e->count + 1);
-    e->graph = graph;
-    e->edges = edges;
-    e->purpose = GRAPH;
+    if (!s->table)
+        fill_table(s, 2 * s->count + 1);
     for (uint64_t state = from; state < to; state++) {
-        e->current = state;
-        unpack(e, words_of(e, state), e->ids);
-        label(e, state, words);
-        e->graph.first[state] = e->edges;
-        if (state < e->expanded)
-            expand(e);
+        unpack(s, words_of(s, state), s->ids);
+        label(s, graph.labels + state * words, words);
+        graph.first[state] = drawing.edges;
+        if (state < s->expanded)
+            expect(s, kernel_successors(s->kernel, s->ids, 1, &made, draw, &drawing));
     }
-    e->graph.first[to] = e->edges;
-    e->purpose = SEARCH;
-    return (int64_t)e->edges;
+    graph.first[to] = drawing.edges;
+    return (int64_t)drawing.edges;
 }
+
+/* One library: what steps are is in here, and none of the above sees it. */
+#include "kernel.c"

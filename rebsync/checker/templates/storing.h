@@ -3,223 +3,207 @@
 #define REBSYNC_STORING_H
 
 #include "compaction.h"
-#include "outcomes.h"
 
 /* --- what is wrong */
 
 /* Whether an event is a violation. */
-static int is_fault(const struct engine *e, const struct event *found)
+static int is_fault(const struct search *s, const struct event *found)
 {
     if (found->kind == DEADLOCK)
-        return e->deadlock_is_fault;
+        return s->deadlock_is_fault;
     if (found->kind != PREDICATE)
         return 1;
-    for (uint32_t i = 0; i < e->fault_count; i++)
-        if (e->faults[i] == found->pc)
+    for (uint32_t i = 0; i < s->fault_count; i++)
+        if (s->faults[i] == found->pc)
             return 1;
     return 0;
 }
 
 /* Notes an event unless its cause is known. */
-static void note(struct engine *e, struct event found)
+static void note(struct search *s, struct event found)
 {
-    const struct event *known = (struct event *)e->events.data;
-    for (size_t i = 0; i < e->events.count; i++)
+    const struct event *known = (struct event *)s->events.data;
+    for (size_t i = 0; i < s->events.count; i++)
         if (known[i].kind == found.kind && known[i].pc == found.pc && known[i].rebec == found.rebec)
             return;
-    *(struct event *)added(e, &e->events, sizeof found) = found;
-    e->violated |= e->first && is_fault(e, &found);
+    *(struct event *)added(s->escape, &s->events, sizeof found) = found;
+    s->violated |= s->first && is_fault(s, &found);
 }
 
-/* The variables of a rebec as predicates read them. */
-static const cell *observe(struct engine *e, uint32_t rebec, uint32_t id)
+static struct valuation value_of(struct search *s, int32_t number)
 {
-    struct observed *o = e->observed + rebec;
-    size_t cells = e->model->rebec[rebec].cells;
-    cell *at = o->variables + (id % OBSERVED) * cells;
-    if (o->ids[id % OBSERVED] != id) {
-        const unsigned char *from =
-            (unsigned char *)e->actors[rebec].bytes.data + component(e, rebec, id)->at;
-        for (size_t i = 0; i < cells; i++)
-            at[i] = take_number(&from);
-        o->ids[id % OBSERVED] = id;
-    }
-    return at;
-}
-
-static void observe_all(struct engine *e, const uint32_t *ids)
-{
-    for (uint32_t r = 0; r < e->rebecs; r++)
-        if (e->model->observed[r])
-            e->views[r] = observe(e, r, ids[r]);
-}
-
-/* Runs a predicate or measure on the state observed last; whether it has a value, which is then on
- * the stack. */
-static int evaluate(struct engine *e, int32_t predicate)
-{
-    struct machine *m = &e->machine;
-    m->covered = e->uncounted;
-    m->index = -1;
-    m->clock = m->elapsed = 0;
-    m->depth = m->chosen = m->given = m->sent = 0;
-    m->exhausted = 0;
-    begin_count(e);
-    start(e, e->model->predicate[predicate], NULL, 0);
-    int status = e->model->run(m);
-    m->covered = e->covered;
-    if (m->exhausted)
-        give_up(e);
-    return status == DONE;
-}
-
-/* A predicate on the state observed last: 1, 0, or -1 when it has no value. */
-static int holds(struct engine *e, int32_t predicate)
-{
-    return evaluate(e, predicate) ? e->machine.stack[0] != 0 : -1;
+    struct valuation found = kernel_evaluate(s->kernel, number);
+    expect(s, found.answer);
+    return found;
 }
 
 /* The extremes of a measure with the state observed last. */
-static void measure(struct engine *e, int32_t number, int64_t state)
+static void measure(struct search *s, int32_t number, int64_t state)
 {
-    struct measured *m = e->measured + number;
-    if (!evaluate(e, e->model->predicates + number)) {
+    struct measured *m = s->measured + number;
+    struct valuation found = value_of(s, s->model->predicates + number);
+    if (!found.defined) {
         m->undefined = m->undefined < 0 ? state : m->undefined;
         return;
     }
-    int64_t value = e->machine.stack[0];
-    if (m->least_state < 0 || value < m->least) {
-        m->least = value;
+    if (m->least_state < 0 || found.value < m->least) {
+        m->least = found.value;
         m->least_state = state;
     }
-    if (m->greatest_state < 0 || value > m->greatest) {
-        m->greatest = value;
+    if (m->greatest_state < 0 || found.value > m->greatest) {
+        m->greatest = found.value;
         m->greatest_state = state;
     }
 }
 
-static void judge(struct engine *e, uint64_t state, const uint64_t *words, int deadlock)
+/* A predicate that does not hold, or has no value, in the state observed last. */
+static void judge_invariant(struct search *s, int32_t predicate, int64_t state)
 {
-    if (e->invariant_count || e->model->measures) {
-        unpack(e, words, e->unpacked);
-        observe_all(e, e->unpacked);
+    struct valuation found = value_of(s, predicate);
+    if (!found.defined)
+        note(s, (struct event){found.kind, found.pc, -1, state, -1});
+    else if (!found.value)
+        note(s, (struct event){PREDICATE, predicate, 0, state, -1});
+}
+
+static void judge(struct search *s, uint64_t state, const uint64_t *words, int deadlock)
+{
+    if (s->invariant_count || s->model->measures) {
+        unpack(s, words, s->unpacked);
+        kernel_observe(s->kernel, s->unpacked);
     }
-    for (uint32_t i = 0; i < e->invariant_count; i++) {
-        int truth = holds(e, e->invariants[i]);
-        struct event event = {PREDICATE, e->invariants[i], 0, (int64_t)state, -1};
-        if (truth < 0) {
-            event.kind = e->machine.failure;
-            event.pc = e->machine.pc;
-            event.rebec = -1;
-        }
-        if (truth < 1)
-            note(e, event);
-    }
-    for (int32_t i = 0; i < e->model->measures; i++)
-        measure(e, i, (int64_t)state);
+    for (uint32_t i = 0; i < s->invariant_count; i++)
+        judge_invariant(s, s->invariants[i], (int64_t)state);
+    for (int32_t i = 0; i < s->model->measures; i++)
+        measure(s, i, (int64_t)state);
     if (deadlock)
-        note(e, (struct event){DEADLOCK, 0, 0, (int64_t)state, -1});
+        note(s, (struct event){DEADLOCK, 0, 0, (int64_t)state, -1});
 }
 
 /* --- batches */
 
-static void add_state(struct engine *e, const struct pending *p, const uint64_t *words)
+static void add_state(struct search *s, const struct pending *p, const uint64_t *words)
 {
-    uint64_t state = e->count, place = state - e->forgotten;
-    size_t size = e->words * sizeof *words;
-    memcpy((char *)room_for(e, &e->states, (place + 1) * size, 1) + place * size, words, size);
-    if (e->compact)
-        write_step(e, (struct step){e->purpose == START ? NONE : p->parent, p->code});
+    uint64_t state = s->count, place = state - s->forgotten;
+    size_t size = s->words * sizeof *words;
+    memcpy((char *)room_for(s->escape, &s->states, (place + 1) * size, 1) + place * size, words, size);
+    if (s->compact)
+        write_arrival(s, (struct arrival){s->beginning ? NONE : p->parent, p->code});
     else
-        *(uint32_t *)added(e, &e->parents, sizeof(uint32_t)) = p->parent;
-    if (e->until != NEVER)
-        *(int64_t *)added(e, &e->times, sizeof(int64_t)) = p->time;
-    e->count++;
-    judge(e, state, words, p->deadlock);
+        *(uint32_t *)added(s->escape, &s->parents, sizeof(uint32_t)) = p->parent;
+    if (s->until != NEVER)
+        *(int64_t *)added(s->escape, &s->times, sizeof(int64_t)) = p->time;
+    s->count++;
+    judge(s, state, words, p->deadlock);
 }
 
-static void settle(struct engine *e, const struct pending *p, const uint64_t *words)
+static void settle(struct search *s, const struct pending *p, const uint64_t *words)
 {
     if (p->event >= 0) {
-        note(e, e->failed[p->event]);
+        note(s, s->failed[p->event]);
         return;
     }
-    room_for_state(e);
-    if (e->compact) {
-        if (!is_new_print(e, p->hash))
+    room_for_state(s);
+    if (s->compact) {
+        if (!is_new_print(s, p->hash))
             return;
     } else {
-        uint64_t at = find(e, words, p->hash);
-        if (e->table[at])
+        uint64_t at = find(s, words, p->hash);
+        if (s->table[at])
             return;
-        e->table[at] = tag_of(e, p->hash) | (uint32_t)(e->count + 1);
+        s->table[at] = tag_of(s, p->hash) | (uint32_t)(s->count + 1);
     }
-    add_state(e, p, words);
+    add_state(s, p, words);
 }
 
 /* Looks up and stores what has gathered, in its order. */
-static void flush(struct engine *e)
+static void flush(struct search *s)
 {
-    uint32_t count = e->pending;
-    e->pending = 0;
+    uint32_t count = s->pending;
+    s->pending = 0;
     for (uint32_t i = 0; i < count; i++) {
-        settle(e, e->batch + i, e->batch_words + (size_t)i * e->words);
-        if (!e->violated)
+        settle(s, s->batch + i, s->batch_words + (size_t)i * s->words);
+        if (!s->violated)
             continue;
-        e->transitions -= e->purpose == SEARCH ? count - i - 1 : 0;
-        longjmp(e->escape, VIOLATED);
+        s->transitions -= s->beginning ? 0 : count - i - 1;
+        longjmp(s->escape->to, VIOLATED);
     }
 }
 
-static struct pending *gather(struct engine *e, uint64_t code)
+static void room_in_batch(struct search *s, uint64_t code)
 {
     if (code > UINT32_MAX)
-        give_up(e);
-    if (e->pending == BATCH)
-        flush(e);
-    if (e->wide) {
-        flush(e);
-        repack(e);
-    }
-    struct pending *p = e->batch + e->pending;
-    p->parent = e->purpose == START ? (uint32_t)code : (uint32_t)e->current;
+        give_up(s->escape);
+    if (s->pending == BATCH)
+        flush(s);
+}
+
+/* Puts a step into the batch; the state whose step it is comes behind those expanded. */
+static struct pending *gather(struct search *s, uint64_t code)
+{
+    struct pending *p = s->batch + s->pending++;
+    p->parent = s->beginning ? (uint32_t)code : (uint32_t)s->expanded;
     p->code = (uint32_t)code;
     p->event = -1;
-    e->transitions += e->purpose == SEARCH;
+    s->transitions += !s->beginning;
     return p;
 }
 
-/* The state e->next has been reached by the step of a code. */
-static void store(struct engine *e, uint64_t code, int64_t time, int deadlock)
+/* Packs a state behind those of the batch; if it does not fit, all are packed anew. */
+static uint64_t *pack_pending(struct search *s, const uint32_t *state)
 {
-    if (e->until != NEVER) {
-        time += e->purpose == START ? 0 : ((int64_t *)e->times.data)[e->current - e->forgotten];
-        if (time > e->until) {
-            e->dropped++;
-            return;
-        }
-    }
-    struct pending *p = gather(e, code);
-    uint64_t *words = e->batch_words + (size_t)e->pending++ * e->words;
-    pack(e, e->next, words);
+    uint64_t *words = s->batch_words + (size_t)s->pending * s->words;
+    if (pack(s, state, words))
+        return words;
+    flush(s);
+    repack(s);
+    pack(s, state, s->batch_words);
+    return s->batch_words;
+}
+
+static void store_state(struct search *s, const struct transition *step, int64_t time)
+{
+    room_in_batch(s, step->code);
+    uint64_t *words = pack_pending(s, step->state);
+    struct pending *p = gather(s, step->code);
     p->time = time;
-    p->deadlock = deadlock;
-    if (e->compact) {
-        p->hash = print_of(e, e->next);
-        prefetch_print(e, p->hash);
+    p->deadlock = step->deadlock;
+    if (s->compact) {
+        p->hash = kernel_fingerprint(s->kernel, step->state);
+        prefetch_print(s, p->hash);
     } else {
-        p->hash = hash_words(e, words);
-        if (e->slots)
-            __builtin_prefetch(e->table + slot_of(e, p->hash), 1);
+        p->hash = hash_words(s, words);
+        if (s->slots)
+            __builtin_prefetch(s->table + slot_of(s, p->hash), 1);
     }
 }
 
-static void store_failure(struct engine *e, uint64_t ordinal, int32_t kind, int32_t pc, int32_t rebec)
+static void store_failure(struct search *s, const struct transition *step)
 {
-    struct pending *p = gather(e, ordinal);
-    int64_t state = e->purpose == START ? -1 : (int64_t)e->current;
-    e->failed[e->pending] = (struct event){kind, pc, rebec, state, (int64_t)ordinal};
-    p->event = (int32_t)e->pending++;
+    int64_t state = s->beginning ? -1 : (int64_t)s->expanded, code = (int64_t)step->code;
+    room_in_batch(s, step->code);
+    struct pending *p = gather(s, step->code);
+    p->event = (int32_t)(p - s->batch);
+    s->failed[p->event] = (struct event){step->kind, step->pc, step->rebec, state, code};
+}
+
+/* Takes in a step that the kernel has made. */
+static void store(void *search, const struct transition *step)
+{
+    struct search *s = search;
+    int64_t time = step->time;
+    if (!step->state) {
+        store_failure(s, step);
+        return;
+    }
+    if (s->until != NEVER) {
+        time += s->beginning ? 0 : ((int64_t *)s->times.data)[s->expanded - s->forgotten];
+        if (time > s->until) {
+            s->dropped++;
+            return;
+        }
+    }
+    store_state(s, step, time);
 }
 
 #endif

@@ -1,0 +1,95 @@
+/* What a search keeps. Of states it sees what kernel.h shows. */
+#ifndef REBSYNC_SEARCH_H
+#define REBSYNC_SEARCH_H
+
+#include <stdio.h>
+
+#include "common.h"
+
+/* Where the number of a component lies in a packed state. */
+struct field {
+    uint64_t mask;
+    uint32_t word, shift, width;
+};
+
+struct event {
+    int32_t kind, pc, rebec;
+    int64_t state, ordinal;
+};
+
+/* The extremes of a measure, each with the first state that has it; states are -1 for none. */
+struct measured {
+    int64_t least, least_state, greatest, greatest_state, undefined;
+};
+
+enum { PREDICATE = 8, DEADLOCK = 9 };
+
+/* States on their way into the visited set; `event` is a failed step instead, or -1. */
+struct pending {
+    uint64_t hash;
+    int64_t time;
+    uint32_t parent, code; /* of a step: its ordinal, and its turn */
+    int32_t event, deadlock;
+};
+
+/* A part of the table of fingerprints; 0 is a free slot. */
+struct shard {
+    uint64_t *prints, count, slots;
+};
+
+/* What has led to a state: a step from its parent, by its code; to an initial one a code alone. */
+struct arrival {
+    uint32_t parent, code;
+};
+
+/* Why a search is left in the middle of a step, besides what the kernel answers. */
+enum { VIOLATED = INTERRUPTED + 1 };
+
+struct search {
+    const struct model *model;
+    struct kernel *kernel;
+    int compact, symmetric;
+    uint32_t rebecs;
+
+    struct field *fields;
+    uint32_t words;
+    struct vector states, parents, times;
+    uint64_t count, forgotten, expanded, transitions, dropped, level_end, initials;
+    uint64_t depth;
+    uint32_t *table;
+    uint64_t slots;
+    uint32_t number_bits;
+    struct shard shards[SHARDS];
+    FILE *arrivals;
+    size_t collect_at; /* bytes of local states */
+    int exhausted; /* there was no more memory: the search does not go on */
+    int stopped; /* a search that was ended in the middle of a step does not go on */
+
+    struct pending batch[BATCH];
+    struct event failed[BATCH];
+    uint64_t *batch_words;
+    uint32_t pending;
+
+    uint32_t *ids, *unpacked;
+    int beginning; /* the states that are stored are initial */
+    int64_t until;
+
+    struct vector events;
+    int32_t *invariants; /* predicates */
+    uint32_t invariant_count;
+    struct measured *measured;
+    int first; /* the search ends at the first violation: at one of these predicates, for example */
+    int32_t *faults;
+    uint32_t fault_count;
+    int deadlock_is_fault, violated;
+    struct escape escape[1];
+};
+
+/* Leaves the search if the kernel could not do all. */
+static void expect(struct search *s, enum answer answer)
+{
+    if (answer != COMPLETE)
+        longjmp(s->escape->to, answer);
+}
+
+#endif
