@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from rebsync.checker.build import header
 from rebsync.checker.compile_bodies import bodies, branches, number
@@ -33,16 +33,21 @@ class ModelText:
         return self._template, repr(self._context)
 
     def render(self) -> str:
-        from jinja2 import Environment, StrictUndefined
+        return rendered(self._template, self._context)
 
-        environment = Environment(
-            undefined=StrictUndefined,
-            trim_blocks=True,
-            lstrip_blocks=True,
-            keep_trailing_newline=True,
-            autoescape=False,
-        )
-        return environment.from_string(self._template).render(self._context)
+
+def rendered(template: str, context: Mapping[str, object]) -> str:
+    """A template of C with the values of its names."""
+    from jinja2 import Environment, StrictUndefined
+
+    environment = Environment(
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,
+    )
+    return environment.from_string(template).render(context)
 
 
 def message_cells(program: Program) -> int:

@@ -1,6 +1,7 @@
 """Breadth-first search with the compiled engine: the model as C, and a search in C.
 
-It gives the same numbers as the interpreter; the search is in templates/runtime.c, on the kernel of templates/kernel.h.
+It gives the same numbers as the interpreter. The search is in templates/runtime.c, on the kernel of
+templates/kernel.h.
 """
 
 from __future__ import annotations

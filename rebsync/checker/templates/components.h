@@ -246,7 +246,10 @@ static uint32_t number_of(struct kernel *k, uint32_t rebec, const struct local *
     a->bytes.count += length;
     describe(k, rebec, l, c);
     a->table[at] = hash << 32 | a->components.count;
-    return (uint32_t)a->components.count - 1;
+    uint32_t id = (uint32_t)a->components.count - 1;
+    if (k->meet)
+        k->meet(k->meeter, rebec, id);
+    return id;
 }
 
 /* --- what changes it, remembered */

@@ -227,13 +227,16 @@ enum answer kernel_successors(struct kernel *k, const uint32_t *states, size_t c
 
 /* --- states */
 
+static inline uint64_t local_fingerprint(struct kernel *k, uint32_t rebec, uint32_t number)
+{
+    return k->hashes ? ((uint64_t *)k->actors[rebec].hashes.data)[number] : content_hash(k, rebec, number);
+}
+
 uint64_t kernel_fingerprint(struct kernel *k, const uint32_t *state)
 {
     uint64_t hash = UINT64_C(0xE7037ED1A0B428DB);
-    for (uint32_t r = 0; r < k->rebecs; r++) {
-        const uint64_t *known = (uint64_t *)k->actors[r].hashes.data;
-        hash = mixed(hash, known ? known[state[r]] : content_hash(k, r, state[r]));
-    }
+    for (uint32_t r = 0; r < k->rebecs; r++)
+        hash = mixed(hash, local_fingerprint(k, r, state[r]));
     hash = mixed(hash, UINT64_C(0x8EBC6AF09C88C6E3));
     return hash ? hash : 1;
 }
@@ -253,6 +256,12 @@ uint32_t kernel_number(struct kernel *k, uint32_t rebec, const unsigned char *co
     take_local(k, rebec, content, &k->scratch);
     uint32_t number = number_of(k, rebec, &k->scratch);
     LEAVE(k, number);
+}
+
+void kernel_meet(struct kernel *k, void (*meet)(void *of, uint32_t rebec, uint32_t number), void *of)
+{
+    k->meet = meet;
+    k->meeter = of;
 }
 
 uint32_t kernel_locals(const struct kernel *k, uint32_t rebec)

@@ -101,6 +101,9 @@ size_t kernel_content(struct kernel *k, uint32_t rebec, uint32_t number, const u
 /* The number of a local state by its content, which is one of this model; NONE without memory. */
 uint32_t kernel_number(struct kernel *k, uint32_t rebec, const unsigned char *content);
 
+/* Who is told of each new local state, from now on; it may not call the kernel. */
+void kernel_meet(struct kernel *k, void (*meet)(void *of, uint32_t rebec, uint32_t number), void *of);
+
 /* How many local states of a rebec are known. */
 uint32_t kernel_locals(const struct kernel *k, uint32_t rebec);
 

@@ -104,6 +104,8 @@ struct kernel {
     uint64_t ordinal;    /* of the step */
     visit *visit;
     void *visitor;
+    void (*meet)(void *of, uint32_t rebec, uint32_t number); /* NULL: nobody is told */
+    void *meeter;
 
     int32_t *persistent; /* rebecs that act alone, each with a mark for every one that disturbs it */
     uint32_t persistent_count;

@@ -95,7 +95,7 @@ static void suspend(struct kernel *k, struct local *l)
     }
 }
 
-static int run(struct kernel *k, uint32_t rebec, const struct local *l, int slot)
+static int run_once(struct kernel *k, uint32_t rebec, const struct local *l, int slot)
 {
     struct machine *m = &k->machine;
     const struct rebec *r = k->model->rebec + rebec;
@@ -180,7 +180,7 @@ static int act_once(struct kernel *k, uint32_t rebec, const struct local *l, int
 {
     struct machine *m = &k->machine;
     struct local *after = &k->result;
-    int status = run(k, rebec, l, slot);
+    int status = run_once(k, rebec, l, slot);
     if (status == ENDLESS) {
         note_cut(k, rebec, l, slot);
         return 0;

@@ -63,6 +63,7 @@ struct search *rebsync_new(const struct model *model, int semantics, int compact
     if (compact && !(s->arrivals = tmpfile()))
         give_up(s->escape);
     make_packed(s);
+    kernel_meet(s->kernel, meet, s);
     s->invariants = copied(s->escape, invariants, (size_t)invariant_count);
     s->invariant_count = (uint32_t)invariant_count;
     s->measured = zeroed(s->escape, (size_t)model->measures, sizeof *s->measured);

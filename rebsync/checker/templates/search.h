@@ -53,6 +53,7 @@ struct search {
 
     struct field *fields;
     uint32_t words;
+    int wide; /* a number does not fit its field any more */
     struct vector states, parents, times;
     uint64_t count, forgotten, expanded, transitions, dropped, level_end, initials;
     uint64_t depth;
@@ -86,7 +87,7 @@ struct search {
 };
 
 /* Leaves the search if the kernel could not do all. */
-static void expect(struct search *s, enum answer answer)
+static inline void expect(struct search *s, enum answer answer)
 {
     if (answer != COMPLETE)
         longjmp(s->escape->to, answer);

@@ -130,16 +130,21 @@ static void flush(struct search *s)
     }
 }
 
-static void room_in_batch(struct search *s, uint64_t code)
+/* Makes room in the batch for a step, and in words for its state. */
+static inline void room_in_batch(struct search *s, uint64_t code)
 {
     if (code > UINT32_MAX)
         give_up(s->escape);
     if (s->pending == BATCH)
         flush(s);
+    if (s->wide) {
+        flush(s);
+        repack(s);
+    }
 }
 
 /* Puts a step into the batch; the state whose step it is comes behind those expanded. */
-static struct pending *gather(struct search *s, uint64_t code)
+static inline struct pending *gather(struct search *s, uint64_t code)
 {
     struct pending *p = s->batch + s->pending++;
     p->parent = s->beginning ? (uint32_t)code : (uint32_t)s->expanded;
@@ -149,23 +154,12 @@ static struct pending *gather(struct search *s, uint64_t code)
     return p;
 }
 
-/* Packs a state behind those of the batch; if it does not fit, all are packed anew. */
-static uint64_t *pack_pending(struct search *s, const uint32_t *state)
-{
-    uint64_t *words = s->batch_words + (size_t)s->pending * s->words;
-    if (pack(s, state, words))
-        return words;
-    flush(s);
-    repack(s);
-    pack(s, state, s->batch_words);
-    return s->batch_words;
-}
-
 static void store_state(struct search *s, const struct transition *step, int64_t time)
 {
     room_in_batch(s, step->code);
-    uint64_t *words = pack_pending(s, step->state);
+    uint64_t *words = s->batch_words + (size_t)s->pending * s->words;
     struct pending *p = gather(s, step->code);
+    pack(s, step->state, words);
     p->time = time;
     p->deadlock = step->deadlock;
     if (s->compact) {

@@ -9,20 +9,25 @@ static inline uint64_t *words_of(struct search *s, uint64_t state)
     return (uint64_t *)s->states.data + (state - s->forgotten) * s->words;
 }
 
-/* Packs a state; 0 when a number does not fit its field. */
-static inline int pack(struct search *s, const uint32_t *ids, uint64_t *words)
+/* Whether the numbers of a state fit their fields. */
+static int fits(struct search *s, const uint32_t *ids)
 {
-    uint64_t beyond = 0;
+    for (uint32_t r = 0; r < s->rebecs; r++)
+        if (ids[r] > s->fields[r].mask)
+            return 0;
+    return 1;
+}
+
+static inline void pack(struct search *s, const uint32_t *ids, uint64_t *words)
+{
     for (uint32_t w = 0; w < s->words; w++)
         words[w] = 0;
     for (uint32_t r = 0; r < s->rebecs; r++) {
         const struct field *f = s->fields + r;
-        beyond |= ids[r] & ~f->mask;
         words[f->word] |= (uint64_t)ids[r] << f->shift;
         if (f->shift + f->width > 64)
             words[f->word + 1] |= (uint64_t)ids[r] >> (64 - f->shift);
     }
-    return !beyond;
 }
 
 static inline void unpack(struct search *s, const uint64_t *words, uint32_t *ids)
@@ -117,15 +122,18 @@ static inline uint64_t find(struct search *s, const uint64_t *words, uint64_t ha
 /* Whether local states make up the state of a number. */
 static int is_state(struct search *s, const uint32_t *ids, int64_t state)
 {
-    return pack(s, ids, s->batch_words) &&
-           !memcmp(s->batch_words, words_of(s, (uint64_t)state), s->words * sizeof(uint64_t));
+    if (!fits(s, ids))
+        return 0;
+    pack(s, ids, s->batch_words);
+    return !memcmp(s->batch_words, words_of(s, (uint64_t)state), s->words * sizeof(uint64_t));
 }
 
 /* The number of a state that was seen, or -1. */
 static int64_t seen(struct search *s, const uint32_t *ids)
 {
-    if (!pack(s, ids, s->batch_words))
+    if (!fits(s, ids))
         return -1;
+    pack(s, ids, s->batch_words);
     uint64_t at = find(s, s->batch_words, hash_words(s, s->batch_words));
     uint32_t numbers = (uint32_t)((UINT64_C(1) << s->number_bits) - 1);
     return s->table[at] ? (int64_t)(s->table[at] & numbers) - 1 : -1;
@@ -160,6 +168,14 @@ static void lay_out(struct search *s, struct field *fields, uint32_t *words)
     }
 }
 
+/* Told by the kernel of a new local state. */
+static void meet(void *search, uint32_t rebec, uint32_t number)
+{
+    struct search *s = search;
+    if (number > s->fields[rebec].mask)
+        s->wide = 1;
+}
+
 /* Packs all states anew: from the last one when they grow, else from the first. */
 static void repack(struct search *s)
 {
@@ -185,6 +201,7 @@ static void repack(struct search *s)
     s->fields = fields;
     s->words = words;
     free(before);
+    s->wide = 0;
     if (!s->compact)
         fill_table(s, s->slots ? s->slots : SLOTS);
 }
