@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from rebsync.checker.formulas import Atom
 from rebsync.checker.lowering import lower
-from rebsync.checker.lowering.defines import nodes
+from rebsync.checker.lowering.defines import values_named
 from rebsync.checker.machine import Failed
 from rebsync.checker.problem import Problem
 from rebsync.checker.search import Interpreted
@@ -25,7 +25,7 @@ def true_defines(
     Numbers are left out, and what has no value is not true. Empty if there is nothing to mark.
     """
     names = {each.name: each for each in problem.properties.defines}
-    truths = [each for each in _used(entry.formula, names) if _is_truth(problem, each)]
+    truths = [each for each in _used(entry.formula, names) if is_truth(problem, each)]
     if not truths:
         return ()
     asked = tuple(Property(each.name, Name(each.name)) for each in truths)
@@ -44,14 +44,14 @@ def _used(formula: Formula, names: dict[str, Define]) -> Iterator[Define]:
     waiting: list[Formula] = [*state_expressions(formula)]
     seen: set[str] = set()
     for root in waiting:
-        for node in nodes(root):
-            if isinstance(node, Name) and node.name in names and node.name not in seen:
-                seen.add(node.name)
-                yield names[node.name]
-                waiting.append(names[node.name].value)
+        for name in values_named(root):
+            if name in names and name not in seen:
+                seen.add(name)
+                yield names[name]
+                waiting.append(names[name].value)
 
 
-def _is_truth(problem: Problem, define: Define) -> bool:
+def is_truth(problem: Problem, define: Define) -> bool:
     """Whether a definition is a truth value: it could be a property by itself."""
     alone = Properties(problem.properties.defines, (Property(define.name, Name(define.name)),))
     found = check_properties(alone, problem.analysis)

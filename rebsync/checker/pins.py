@@ -16,11 +16,10 @@ from rebsync.checker.build import header
 from rebsync.checker.compile_model import ModelText, rendered
 from rebsync.checker.invariants import predicates_of
 from rebsync.checker.lowering import lower
+from rebsync.checker.marking import is_truth
 from rebsync.checker.problem import Problem
 from rebsync.checker.steps import Semantics
-from rebsync.diagnostics import Severity
 from rebsync.model import Name
-from rebsync.property_check import check_properties
 
 _OURS = re.compile(r'#include "(.+)"\n')
 
@@ -50,15 +49,9 @@ def _labels(problem: Problem) -> p.Properties:
     """Each assertion, and each definition that is true or false as one."""
     given = problem.properties
     names = {each.name for each in given.assertions}
-    defined = (p.Property(d.name, Name(d.name), d.span) for d in given.defines)
-    labels = (d for d in defined if d.name not in names and _is_boolean(d, problem))
-    return p.Properties(given.defines, (*given.assertions, *labels))
-
-
-def _is_boolean(label: p.Property, problem: Problem) -> bool:
-    asserted = p.Properties(problem.properties.defines, (label,))
-    found = check_properties(asserted, problem.analysis)
-    return not any(each.severity is Severity.ERROR for each in found)
+    truths = (d for d in given.defines if d.name not in names and is_truth(problem, d))
+    defined = (p.Property(d.name, Name(d.name), d.span) for d in truths)
+    return p.Properties(given.defines, (*given.assertions, *defined))
 
 
 def _unused(name: str, taken: Iterable[str]) -> str:

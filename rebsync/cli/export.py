@@ -26,7 +26,7 @@ from rebsync.report import print_report
 @view_options
 @output_option
 @click.pass_context
-def command(ctx: click.Context, model: str, tool: str, output: str, **_: object) -> Status:
+def command(ctx: click.Context, /, model: str, tool: str, output: str, **_: object) -> Status:
     """Print a model in the form that another tool accepts.
 
     For rmc: as the official compiler 2.30 reads it, with the annotations of rebsync taken out.

@@ -25,7 +25,7 @@ PRIMITIVES = {t.name: t for t in (BYTE, SHORT, INT, FLOAT, DOUBLE, BOOLEAN)}
 REFUSED = {
     "char": "a ROS node exchanges numbers, booleans and names of rebecs",
     "String": "a ROS node exchanges numbers, booleans and names of rebecs",
-    "Timer": "send a message to self with after(...) instead",
+    "Timer": "keep the time in an int (started = now); now - started is what has passed since",
     "ArrayList": "declare an array of fixed length, such as int[4], instead",
 }
 TYPE_NAMES = frozenset((*PRIMITIVES, *REFUSED, "void", "null", "ReactiveClass"))

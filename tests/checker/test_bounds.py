@@ -63,6 +63,13 @@ def test_a_shared_definition_says_what_it_said(engine: str) -> None:
     assert dict(found.properties) == {"p": "satisfied", "q": "violated", "l": "satisfied"}
 
 
+def test_a_definition_may_be_called_as_a_rebec_is() -> None:
+    """In `r.x` the rebec is meant."""
+    text = "property { define { r = r.x < 5; } Assertion { p: r || r; q: !r || r.x == 0; } }"
+    found = verify(problem(COUNTER, text), Options(engine="interpreted"))
+    assert dict(found.properties) == {"p": "satisfied", "q": "violated"}
+
+
 def test_what_may_have_no_value_is_computed_only_where_it_counts() -> None:
     text = "property { define { q = 10 / r.x; } Assertion { p: r.x == 0 || q > 1 && q < 11; } }"
     assert verify(problem(COUNTER, text), Options(engine="interpreted")).verdict == "satisfied"

@@ -29,16 +29,16 @@ pytestmark = pytest.mark.skipif(not shutil.which(COMPILER[0]), reason="no C comp
 def host(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The host, with what modules take from it."""
     program = tmp_path_factory.mktemp("host") / "host"
-    command = (*COMPILER, "-O1", "-rdynamic", "-I", _HOST, _HOST / "host.c", "-o", program, "-ldl")
-    subprocess.run(command, check=True)
+    flags = ("-O1", "-rdynamic", f"-I{_HOST}", str(_HOST / "host.c"), "-ldl")
+    subprocess.run((*COMPILER, *flags, "-o", str(program)), check=True)
     return program
 
 
 def _module(text: str, folder: Path) -> Path:
     source, library = folder / "model.c", folder / "model.so"
     source.write_text(text, encoding="utf-8")
-    flags = ("-std=gnu11", "-O0", "-w", "-fPIC", "-shared", "-ffp-contract=off", "-I", _HOST)
-    subprocess.run((*COMPILER, *flags, source, "-o", library, "-lm"), check=True)
+    flags = ("-std=gnu11", "-O0", "-w", "-fPIC", "-shared", "-ffp-contract=off", f"-I{_HOST}")
+    subprocess.run((*COMPILER, *flags, str(source), "-o", str(library), "-lm"), check=True)
     return library
 
 
@@ -69,7 +69,7 @@ def test_the_host_walks_what_verify_does(row: Expected, host: Path, tmp_path: Pa
     kinds = {violation.split()[0] for violation in row.violations}
     assert {kind for (kind,) in told["fails"]} == kinds - {"property", "deadlock", "zeno"}
     assert (told["deadlocks"] != {("0",)}) == ("deadlock" in kinds)
-    holds = dict(told["label"])
+    holds = {name: states for name, states in told["label"]}  # noqa: C416 - pairs, for mypy
     asserted = {each.name for each in system.properties.assertions}
     false = {f"property {name}" for name in asserted if holds[name] != str(row.states)}
     assert false == {v for v in row.violations if v.removeprefix("property ") in asserted}

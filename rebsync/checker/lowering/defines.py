@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import field
 
 from rebsync import properties as p
-from rebsync.model import Binary, Index, IntLiteral, Name, Paren, Type, children
+from rebsync.model import Binary, Index, IntLiteral, Member, Name, Paren, Type, children
 from rebsync.records import dataclass
 
 _PARTIAL = ("/", "%")
@@ -45,7 +45,7 @@ class Defines:
 
     def _named(self, formula: p.Formula) -> Iterator[str]:
         """The definitions that stand in a formula, each as often as it stands there."""
-        return (n.name for n in nodes(formula) if isinstance(n, Name) and n.name in self.values)
+        return (name for name in values_named(formula) if name in self.values)
 
     def _is_total(self, name: str) -> bool:
         """Whether a definition has a value in every state: no division, no computed index."""
@@ -67,6 +67,22 @@ def _may_fail(node: p.Formula) -> bool:
             return not isinstance(index, IntLiteral)
         case _:
             return False
+
+
+def values_named(formula: p.Formula) -> Iterator[str]:
+    """The names that stand for values in a formula, each as often as it stands there.
+
+    In `r.x` the name `r` is that of a rebec, though a definition may be called so too.
+    """
+    waiting = [formula]
+    while waiting:
+        match waiting.pop():
+            case Name(name):
+                yield name
+            case Member(Name()):
+                pass
+            case node:
+                waiting += children(node)  # type: ignore[arg-type]  # as below
 
 
 def nodes(formula: p.Formula) -> Iterator[p.Formula]:

@@ -25,8 +25,8 @@ pytestmark = pytest.mark.skipif(not shutil.which(COMPILER[0]), reason="no C comp
 def _built(model: str, folder: Path, *more: str) -> Path:
     source, program = folder / "model.c", folder / "shards"
     source.write_text(ModelText(read(model).program).render(), encoding="utf-8")
-    command = (*COMPILER, *_FLAGS, *more, source, _HERE / "shards.c", "-o", program, "-lm")
-    subprocess.run(command, check=True)
+    made = (str(source), str(_HERE / "shards.c"), "-o", str(program), "-lm")
+    subprocess.run((*COMPILER, *_FLAGS, *more, *made), check=True)
     return program
 
 
@@ -47,7 +47,7 @@ def test_it_stays_within_its_memory(tmp_path: Path) -> None:
     """What a step leaves behind is freed, and nothing is read beyond its end."""
     probe = tmp_path / "probe.c"
     probe.write_text("int main(void) { return 0; }\n", encoding="utf-8")
-    command = (*COMPILER, *_SANITIZED, probe, "-o", tmp_path / "probe")
+    command = (*COMPILER, *_SANITIZED, str(probe), "-o", str(tmp_path / "probe"))
     if subprocess.run(command, check=False, capture_output=True).returncode:
         pytest.skip("no sanitizers")
     program = _built("light", tmp_path, *_SANITIZED)
