@@ -16,10 +16,26 @@ typedef struct {
 #define chunk_str(s) ((chunk){(chunk_len)strlen(s), ((char *)s)})
 #define chunk_ld(l, d) ((chunk){l, d})
 
-/* dm.h; the real one holds more, behind a pointer all the same */
+/* bitvector.h and dm.h */
+typedef struct bitvector {
+    size_t n_bits;
+    size_t n_words;
+    size_t *data;
+} bitvector_t;
+typedef struct {
+    int size;
+    struct header_entry *data;
+    int *count;
+    int *min;
+    int *max;
+} matrix_header_t;
 typedef struct matrix {
     int rows;
     int cols;
+    int bits_per_row;
+    matrix_header_t row_perm;
+    matrix_header_t col_perm;
+    bitvector_t bits;
 } matrix_t;
 extern void dm_create(matrix_t *m, const int rows, const int cols);
 extern void dm_set(matrix_t *m, const int row, const int col);
