@@ -113,7 +113,11 @@ def _obstacle(program: Program, problem: Problem, options: Options) -> str | Non
 
 
 def over_orbits(found: Exploration, symmetry: Symmetry, program: Program) -> Exploration:
-    """A search of canonical states as one of all: each rebec has had the bags of its orbit."""
+    """A search of canonical states as one of all.
+
+    The largest bag of a rebec is that of any rebec of its orbit: where constructors make them
+    differ, it need not have been its own.
+    """
     if symmetry.order == 1:
         return found
     largest = list(found.covered.largest)
