@@ -28,7 +28,7 @@ from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
 from rebsync.reverse.ir.cpp.library import function_result, is_pure
 from rebsync.reverse.ir.cpp.methods import library_method
 from rebsync.reverse.ir.cpp.names import field_of, object_of, this_object
-from rebsync.reverse.ir.cpp.objects import as_value, class_of, ended_later, passed
+from rebsync.reverse.ir.cpp.objects import as_value, class_of, ended_later, locked, passed
 from rebsync.reverse.ir.cpp.overloads import resolve
 from rebsync.reverse.ir.cpp.sequencing import in_any_order
 from rebsync.reverse.ir.cpp.standard_functions import STANDARD
@@ -209,6 +209,9 @@ def _library(
         full = f"{full}<{', '.join(map(dump_type, inner))}>"
     arguments = library_arguments(context, nodes, place, is_pure(full))
     kinds = [getattr(a.value, "type", t.UNKNOWN) for a in arguments]
+    if full.partition("<")[0].endswith("::shared_ptr") and len(arguments) == 1:
+        of = kinds[0].to if isinstance(kinds[0], t.Reference) else kinds[0]
+        locked(context, Value(arguments[0].value, of), place)
     result_type = function_result(full, kinds)
     return stored_result(context, s.LibraryCallee(full), arguments, Declared(result_type), place)
 

@@ -19,7 +19,7 @@ from rebsync.reverse.ir.cpp.context import (
 )
 from rebsync.reverse.ir.cpp.conversions import converted
 from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
-from rebsync.reverse.ir.cpp.objects import class_of, implicitly
+from rebsync.reverse.ir.cpp.objects import address, class_of, implicitly
 from rebsync.reverse.ir.cpp.types import SIZE, Declared, ReferenceKind
 from rebsync.reverse.ir.dump_types import dump_type
 from rebsync.reverse.ir.operators import Conversion
@@ -45,9 +45,16 @@ def named_cast(
 
 
 def _dynamic(context: Context, value: Value, declared: Declared, place: Span) -> Value:
-    """`dynamic_cast<T*>(p)`: null where the object is of no such class; it is up to its class."""
+    """`dynamic_cast<T*>(p)`: null where the object is of no such class; it is up to its class.
+
+    `dynamic_cast<T&>(x)` throws there ([expr.dynamic.cast]).
+    """
+    if declared.reference is not ReferenceKind.NONE:
+        argument = s.CallArgument(address(context, value, place))
+        context.emit(s.Call(None, s.LibraryCallee("dynamic_cast"), (argument,), place))
+        return Value(value.expression, declared.type, value.is_lvalue)
     if not isinstance(declared.type, t.Reference):
-        raise Unlowered("a dynamic cast to a reference, which may throw")
+        raise Unlowered("a dynamic cast to what is no pointer")
     found = e.Convert(Conversion.CAST, value.expression, declared.type, True, place)
     return Value(found, declared.type)
 

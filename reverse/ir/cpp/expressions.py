@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from tree_sitter import Node
 
@@ -18,6 +18,7 @@ from rebsync.reverse.ir.cpp.context import (
     lowers_expression,
 )
 from rebsync.reverse.ir.cpp.conversions import common_type, is_arithmetic
+from rebsync.reverse.ir.cpp.functions_called import call_function
 from rebsync.reverse.ir.cpp.names import function_value, pointed
 from rebsync.reverse.ir.cpp.objects import (
     address,
@@ -76,13 +77,24 @@ def user_defined(context: Context, node: Node) -> Value:
     place, inner = context.place(node), named(node)
     suffix = text_of(node)[len(text_of(inner[0])) :] if inner else ""
     if suffix not in _DURATIONS:
-        raise Unlowered("a literal with a suffix that is not known")
+        return _literal_operator(context, suffix, inner, place)
     value = lower_value(context, inner[0])
     type_ = t.Record(f"std::chrono::{_DURATIONS[suffix]}")
     target = context.temporary(type_, place)
     callee = s.LibraryCallee(f'std::literals::operator""{suffix}')
     context.emit(s.Call(target, callee, (s.CallArgument(value.expression),), place))
     return Value(target, type_)
+
+
+def _literal_operator(context: Context, suffix: str, inner: Sequence[Node], place: Span) -> Value:
+    """A call of a literal operator of the program ([over.literal])."""
+    path = context.cpp.source.path
+    names = (f'operator""{suffix}', f'operator"" {suffix}')
+    named_so = (context.world.symbols.functions_named(n, context.scope, path) for n in names)
+    found = next(filter(None, named_so), [])
+    if len(found) != 1 or len(inner) != 2 or len(found[0].code.parameters) != 1:
+        raise Unlowered("a literal with a suffix that is not known")
+    return call_function(context, found[0], inner[:1], place)
 
 
 @lowers_expression("concatenated_string")

@@ -21,6 +21,7 @@ from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.ir.operators import Conversion
 from rebsync.source import Span
 
+_WEAK = frozenset({"std::weak_ptr", "boost::weak_ptr"})
 UNKNOWN_CONSTRUCTOR = "constructor of a type that is not known"
 
 
@@ -37,6 +38,9 @@ def address(context: Context, value: Value, place: Span) -> e.Expression:
     type_ = t.Reference(value.type)
     if value.is_lvalue:
         if isinstance(expression, e.Dereference):
+            of = getattr(expression.reference, "type", None)
+            if isinstance(of, t.Optional):  # which may be empty
+                context.emit(s.Evaluate(expression, place))
             return expression.reference
         if isinstance(expression, e.Local):
             context.shared.add(expression.name)
@@ -106,6 +110,8 @@ def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value
         return Value(made, to)
     if owner is not None and not isinstance(to, t.Record | t.FunctionType):
         raise Unlowered("a conversion of an object that its class does not declare")
+    if isinstance(to, t.Reference):
+        locked(context, value, place)
     found = converted(value.expression, value.type, to, place)
     if found is not None:
         return Value(found, to, value.is_lvalue and found is value.expression)
@@ -115,6 +121,14 @@ def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value
         made_value = e.Convert(Conversion.CAST, as_value(context, value, place), to, True, place)
         return Value(made_value, to)
     raise Unlowered("a conversion that is not known")
+
+
+def locked(context: Context, value: Value, place: Span) -> None:
+    """A shared pointer made of a weak one: it throws where the object is gone."""
+    if isinstance(value.type, t.Record) and value.type.name.partition("<")[0] in _WEAK:
+        argument = s.CallArgument(value.expression)
+        callee = s.LibraryCallee("std::shared_ptr::from_weak")
+        context.emit(s.Call(None, callee, (argument,), place))
 
 
 def _of_library(type_: t.Type) -> bool:
