@@ -70,6 +70,7 @@ def check_call(effects: EffectReader, node: Node) -> None:
         known = _is_matrix(effects, node, name, call) or known
     else:
         _method(effects, call, name, of, meaning)
+    _check_defaults(effects, call)
     does = known_functions.acts(effects.cpp, call, has_mailbox(effects.scope))
     if does is not None:
         raise effects.touches(node, f'"{text_of(part(node, "function"))}" {does}')
@@ -104,6 +105,24 @@ def check_macro(effects: EffectReader, node: Node) -> None:
             effects.anew(given[0], effects.scope, effects.inner).check(given[1])
         except Touches as touches:
             raise effects.touches(node, touches.why) from None
+
+
+def check_implicit(effects: EffectReader, node: Node) -> None:
+    """Raises `Touches` where an expression may run what was not read, with no call of it."""
+    form = effects.scope.form
+    why = form.unread_calls.implicit.of(effects.cpp, node) if form is not None else None
+    if why is not None:
+        raise effects.touches(node, f'what "{text_of(node)}" runs is not known: {why}')
+
+
+def _check_defaults(effects: EffectReader, call: CppCall) -> None:
+    """Raises `Touches` where what a call evaluates for missing arguments may touch the model."""
+    form = effects.scope.form
+    for cpp, value in form.unread_calls.implicit.defaults(effects.cpp, call) if form else ():
+        try:
+            effects.anew(cpp, effects.scope, ()).check(value)
+        except Touches as touches:
+            raise effects.touches(call.node, touches.why) from None
 
 
 def check_operator(effects: EffectReader, node: Node) -> None:

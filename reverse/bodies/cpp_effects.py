@@ -14,6 +14,7 @@ from rebsync.reverse.bodies.cpp_call_effects import (
     check_call,
     check_deleted,
     check_handed,
+    check_implicit,
     check_macro,
     check_object,
     check_operator,
@@ -21,6 +22,7 @@ from rebsync.reverse.bodies.cpp_call_effects import (
 )
 from rebsync.reverse.bodies.cpp_effect_reader import EffectReader
 from rebsync.reverse.bodies.cpp_endings import ENDLESS, ends
+from rebsync.reverse.bodies.cpp_implicit_calls import IMPLICIT
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOPS, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, is_number
@@ -46,6 +48,8 @@ class Effects(EffectReader):
         """Raises `Touches` where a piece of code may touch what the model has."""
         if (type_ := node.type) in OPERATORS:
             check_operator(self, node)
+        if type_ in IMPLICIT:
+            check_implicit(self, node)
         if type_ == "identifier":
             check_macro(self, node)
         elif type_ not in PLAIN:

@@ -6,6 +6,7 @@ compare, hash and copy by the operators of its class.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 
 from rebsync.records import dataclass
@@ -17,6 +18,7 @@ from rebsync.reverse.values.cpp_flow import Texts
 from rebsync.reverse.values.cpp_static_types import POINTING, StaticType, StaticTypes
 
 UNDEFINED = "no file that was read defines it"
+_KEYED = re.compile(r"map\Z|set\Z|priority_queue\Z")
 _KEPT = POINTING | {"function", "move_only_function"}  # which are made without what they hold
 
 
@@ -37,19 +39,22 @@ class ObjectParts:
             return None
         owner = self.statics.class_of(type_)
         below = self.texts.descendants(owner) if owner is not None and is_held else []
-        found = [*self._classes([type_]), *(c for b in below for c in self._within(b))]
+        found = [*self._classes([type_]), *(c for b in below for c in self.within(b))]
         return UNDEFINED if any(map(self.open.is_made_unread, found)) else None
 
     def of_class(self, owner: CppClass | None) -> str | None:
         """Why to make an object of a class may."""
         if owner is None or not self.open.has_undefined:
             return None
-        return UNDEFINED if any(map(self.open.is_made_unread, self._within(owner))) else None
+        return UNDEFINED if any(map(self.open.is_made_unread, self.within(owner))) else None
 
     def of_elements(self, types: Iterable[StaticType | None]) -> str | None:
         """Why a library may that has elements of some types: by an operator of their classes."""
         if not self.open.operators:
             return None
+        types = [*types]
+        if self.open.compares_unread and any(t and _KEYED.search(t.last) for t in types):
+            return UNDEFINED
         held = (t for each in types if each is not None for t in self._arguments(each))
         for type_ in held:
             owner = self.statics.class_of(type_)
@@ -59,6 +64,10 @@ class ObjectParts:
                 return UNDEFINED
         return None
 
+    def within(self, owner: CppClass) -> list[CppClass]:
+        """A class, and those of what its objects consist of."""
+        return self._classes([StaticType(owner.cpp, owner.name)])
+
     def _arguments(self, type_: StaticType) -> Iterator[StaticType]:
         """The types that are arguments of a template, and of those in turn."""
         for node in type_.arguments:
@@ -66,9 +75,6 @@ class ObjectParts:
             if inner is not None:
                 yield inner
                 yield from self._arguments(inner)
-
-    def _within(self, owner: CppClass) -> list[CppClass]:
-        return self._classes([StaticType(owner.cpp, owner.name)])
 
     def _classes(self, types: Iterable[StaticType | None]) -> list[CppClass]:
         """The classes of the objects that some types are, and consist of."""

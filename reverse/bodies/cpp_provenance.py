@@ -72,9 +72,12 @@ class ProvenanceAnalysis:
                     return self.variable(variable, depth)
                 of_unknown = node.type == "field_expression"
                 return self.of(cpp, part(node, "argument"), depth + 1) if of_unknown else _OTHER
-            case "subscript_expression" | "pointer_expression" | "cast_expression":
-                field_ = "value" if node.type == "cast_expression" else "argument"
-                return self.of(cpp, part(node, field_), depth + 1)
+            case "cast_expression":
+                return self.of(cpp, part(node, "value"), depth + 1)
+            case "subscript_expression":
+                return self.led_to(cpp, part(node, "argument"), "operator[]", depth + 1)
+            case "pointer_expression":
+                return self.led_to(cpp, part(node, "argument"), "operator*", depth + 1)
             case "parenthesized_expression" | "initializer_list" | "argument_list":
                 return max((self.of(cpp, n, depth + 1) for n in named(node)), default=_NONE)
             case "conditional_expression":
@@ -84,6 +87,19 @@ class ProvenanceAnalysis:
                 return self._result(cpp, node, depth)
             case _:
                 return Provenance.GIVEN
+
+    def led_to(self, cpp: Cpp, node: Node, by: str, depth: int = 0) -> Provenance:
+        """Where what an operator of an object leads to comes from; of others, the object."""
+        owner = self.statics.class_of(self.statics.of(cpp, node))
+        if owner is None:
+            return self.of(cpp, node, depth)
+        bodies = [f for c in self.texts.lineage(owner) for f in self.calls.bodies(c, by)]
+        return self._given_by(bodies, depth) if bodies else self.of(cpp, node, depth)
+
+    def _given_by(self, functions: Iterable[CppFunction], depth: int) -> Provenance:
+        """Where what some functions give comes from."""
+        returns = ((f.cpp, v) for f in functions for each in _returns(f.body) for v in named(each))
+        return max((self.of(c, v, depth + 1) for c, v in returns), default=Provenance.MADE)
 
     def variable(self, variable: Variable, depth: int = 0) -> Provenance:
         """Where what a variable holds, or points to, comes from."""
@@ -177,13 +193,7 @@ class ProvenanceAnalysis:
         if (name in _PASSING or name.endswith("_cast")) and given:
             return self.of(cpp, given[-1], depth + 1)
         if reached := self.calls.functions(cpp, node):
-            returns = [
-                value
-                for f in reached
-                for each in _returns(f.body)
-                for value in ((f.cpp, v) for v in named(each))
-            ]
-            return max((self.of(c, v, depth + 1) for c, v in returns), default=Provenance.MADE)
+            return self._given_by(reached, depth)
         if function.type == "field_expression":
             holder = self.of(cpp, part(function, "argument"), depth + 1)
             return holder if name in _HELD else max(holder, Provenance.LIBRARY)

@@ -19,6 +19,9 @@ from rebsync.reverse.values.cpp_flow import Texts
 _PLAIN_BASES = frozenset({"Nodelet", "Node", "LifecycleNode", "noncopyable"})
 _PLAIN_BASES |= {"enable_shared_from_this"}
 _SCOPES = ("namespace_definition", "class_specifier", "struct_specifier")
+ALLOCATING = frozenset({"operator new", "operator new[]", "operator delete", "operator delete[]"})
+# Classes of the standard library by which containers keep their elements apart.
+_COMPARING = ("hash", "less", "greater", "less_equal", "greater_equal", "equal_to")
 _ARGUMENTS = re.compile(r"<[^<>]*>")
 _WITHOUT_BODY = frozenset({"default_method_clause", "delete_method_clause"})
 
@@ -33,7 +36,7 @@ class Undefined:
     def lacks_body(self, owner: CppClass, name: str) -> bool:
         """Whether a class declares more functions of a name than the files define."""
         declared = [f for f in owner.functions if f.name == name]
-        open_ = [f for f in declared if f.body is None and not _is_defaulted(f)]
+        open_ = [f for f in declared if f.body is None and not is_defaulted(f)]
         apart = self.code.definitions.get((owner.name, name), ())
         if len(self.code.all_classes.get(owner.name, ())) > 1:
             path = (*_scopes_around(owner.node), owner.name)
@@ -129,9 +132,12 @@ class Undefined:
 
     def is_made_unread(self, owner: CppClass) -> bool:
         """Whether to make or end an object of a class runs what has no body, its parts apart."""
-        if any(self.lacks_body(owner, n) for n in (owner.name, f"~{owner.name}")):
+        if any(self.lacks_body(owner, n) for n in (owner.name, f"~{owner.name}", *ALLOCATING)):
             return True
-        values = (f.value for f in (*owner.fields, *owner.others) if f.value is not None)
+        made = (p.node for f in owner.functions if f.name == owner.name for p in f.parameters)
+        defaults = (p.child_by_field_name("default_value") for p in made)
+        fields = (f.value for f in (*owner.fields, *owner.others))
+        values = (value for value in (*fields, *defaults) if value is not None)
         return bool(self.declared) and any(
             text_of(part(call, "function")) in self.declared
             for value in values
@@ -143,6 +149,12 @@ class Undefined:
         """The operators that lack a body."""
         names = self.undefined | self.declared
         return frozenset(n for n in names if n.startswith("operator"))
+
+    @cached_property
+    def compares_unread(self) -> bool:
+        """Whether a specialisation of what compares or hashes elements lacks a body."""
+        classes = (c for name in _COMPARING for c in self.code.all_classes.get(name, ()))
+        return any(self.lacks_body(c, "operator()") for c in classes)
 
 
 def _declared_inside(cpp: Cpp) -> Iterator[Node]:
@@ -192,7 +204,7 @@ def is_library(name: str) -> bool:
     return first in known or is_message or first.endswith(("_msgs", "_srvs"))
 
 
-def _is_defaulted(function: CppFunction) -> bool:
+def is_defaulted(function: CppFunction) -> bool:
     """Whether it is `= default` or `= delete`, which no file need say more of."""
     return any(child.type in _WITHOUT_BODY for child in function.node.named_children)
 

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from tree_sitter import Node
 
+from rebsync.reverse.bodies.cpp_implicit_calls import ImplicitCalls
 from rebsync.reverse.bodies.cpp_object_parts import UNDEFINED as _UNDEFINED
 from rebsync.reverse.bodies.cpp_object_parts import ObjectParts
 from rebsync.reverse.bodies.cpp_provenance import Provenance, ProvenanceAnalysis
-from rebsync.reverse.bodies.cpp_undefined import Undefined, is_library
+from rebsync.reverse.bodies.cpp_undefined import Undefined, is_defaulted, is_library
 from rebsync.reverse.bodies.known_functions import is_known, is_matrix
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.tables.standard import OF_C
@@ -54,11 +55,15 @@ OPERATORS = {
     "pointer_expression": ("argument",),
     "subscript_expression": ("argument",),
     "field_expression": ("argument",),
+    "comma_expression": ("left", "right"),
 }
 # Methods of containers that compare no elements.
 _COUNTING = frozenset({"size", "empty", "begin", "end", "cbegin", "cend", "front", "back", "data"})
 _CALL = "operator()"
-_SIGNS = {"subscript_expression": "[]", "field_expression": "->"}
+_SIGNS = {"subscript_expression": "[]", "field_expression": "->", "comma_expression": ","}
+# By which operators others are rewritten ([over.match.oper]).
+_REWRITTEN = {"!=": "==", **dict.fromkeys(("<", ">", "<=", ">="), "<=>")}
+COMPARING = frozenset(f"operator{sign}" for sign in ("==", "<=>", *_REWRITTEN))
 
 
 class UnreadCalls:
@@ -73,6 +78,9 @@ class UnreadCalls:
         self._provenance = ProvenanceAnalysis(self._texts, self._calls, self._statics)
         self._open = Undefined(code, self._texts)
         self._parts = ObjectParts(self._texts, self._statics, self._open)
+        self.implicit = ImplicitCalls(
+            self._texts, self._statics, self._calls, self._parts, self._of_converted
+        )
         self._found: dict[int, str | None] = {}
 
     def of_call(self, cpp: Cpp, call: CppCall) -> str | None:
@@ -80,7 +88,7 @@ class UnreadCalls:
         key = call.node.id
         if key not in self._found:
             found = self._free(cpp, call) if call.target is None else self._method(cpp, call)
-            self._found[key] = found
+            self._found[key] = found or self.implicit.of_call(cpp, call)
         return self._found[key]
 
     def of_operator(self, cpp: Cpp, node: Node) -> str | None:
@@ -93,22 +101,28 @@ class UnreadCalls:
             return None
         if node.type == "field_expression" and not is_arrow(node):
             return None
-        sign = text_of(node.child_by_field_name("operator") or node.children[0])
-        name = f"operator{_SIGNS.get(node.type, sign)}"
         operands = [self._statics.of(cpp, part(node, each)) for each in OPERATORS[node.type]]
         if (why := self._parts.of_elements(operands)) is not None:
             return why
-        if name not in self._open.operators:
+        names = _operators(node) & self._open.operators
+        owners = [o for each in operands if (o := self._statics.class_of(each)) is not None]
+        if not names or not owners:
             return None
-        for operand in operands:
-            owner = self._statics.class_of(operand)
-            if owner is None:
-                continue
-            if name in self._open.declared:
-                return _UNDEFINED
-            if self._declares(owner, name):
-                return self._of_class(owner, name, Provenance.MADE)
-        return None
+        if names & self._open.declared:
+            return _UNDEFINED
+        found = (self._by_operator(owner, name) for owner in owners for name in sorted(names))
+        return next((why for why in found if why is not None), None)
+
+    def _by_operator(self, owner: CppClass, name: str) -> str | None:
+        """Why an operator of a class may; one that is defaulted runs those of the parts."""
+        if self._declares(owner, name) and (why := self._of_class(owner, name, Provenance.MADE)):
+            return why
+        is_parts = any(is_defaulted(f) for f in owner.functions if f.name in COMPARING)
+        parts = self._parts.within(owner) if is_parts else []
+        return _UNDEFINED if any(self._open.lacks_body(c, name) for c in parts) else None
+
+    def _of_converted(self, owner: CppClass, name: str) -> str | None:
+        return self._of_class(owner, name, Provenance.MADE)
 
     def of_type(self, cpp: Cpp, type_: Node | None) -> str | None:
         """Why to make or end an object of a type may."""
@@ -197,7 +211,10 @@ class UnreadCalls:
     def _is_plain(self, name: str) -> bool:
         """Whether a name is none that the tables of libraries have."""
         known = (libraries.node_methods(), libraries.looking(), libraries.keeping_arguments())
-        is_type = name in self._code.all_classes or name[:1].isupper()
+        is_type = name in self._code.all_classes or any(
+            place.type in ("type_identifier", "namespace_identifier")
+            for _, place in self._texts.everywhere(name)
+        )
         return not is_type and not any(name in names for names in known)
 
     def _of_scope(self, cpp: Cpp, scope: str, name: str, call: CppCall) -> str | None:
@@ -277,13 +294,19 @@ class UnreadCalls:
             return _UNDEFINED
         owner = self._statics.class_of(type_)
         if owner is not None:
-            return self._of_class(owner, name, self._provenance.of(cpp, call.target))
+            return self._of_class(owner, name, self._made(cpp, call.target, function))
         if type_.last in self._open.forward:
             return _UNDEFINED
         if name in libraries.looking():
             return None
         is_given = self._provenance.of(cpp, call.target) is Provenance.GIVEN
         return _GIVEN if is_given else None
+
+    def _made(self, cpp: Cpp, target: Node, function: Node) -> Provenance:
+        """Where the object that a method is called of comes from."""
+        if is_arrow(function):
+            return self._provenance.led_to(cpp, target, "operator->")
+        return self._provenance.of(cpp, target)
 
     def _held_object(self, type_: StaticType, name: str) -> str | None:
         """Why a pointer or a container may, that makes or ends what it holds."""
@@ -330,6 +353,13 @@ class UnreadCalls:
     def _declares(self, owner: CppClass, name: str) -> bool:
         of_class = (f.name for c in self._texts.lineage(owner) for f in c.functions)
         return any(each in (name, f"(*{name})") for each in of_class)
+
+
+def _operators(node: Node) -> frozenset[str]:
+    """The names of the operators that an expression may be a call of."""
+    sign = text_of(node.child_by_field_name("operator") or node.children[0])
+    sign = _SIGNS.get(node.type, sign)
+    return frozenset(f"operator{each}" for each in (sign, _REWRITTEN.get(sign)) if each)
 
 
 def _is_virtual(functions: list[CppFunction]) -> bool:

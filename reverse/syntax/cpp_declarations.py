@@ -28,6 +28,7 @@ WRAPPERS = frozenset(
     }
 )
 TYPES = frozenset({"class_specifier", "struct_specifier", "enum_specifier"})
+CONVERSION = "operator "  # what names of conversion functions begin with
 _CONSTANT = frozenset({b"const", b"constexpr"})
 _OVERRIDING = frozenset({b"override", b"final"})
 _REFERRING = frozenset({"pointer_declarator", "reference_declarator"})
@@ -167,7 +168,7 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
     if kind == "declaration" and declarator is not None and only_braces(node):
         body, declarator = part(declarator, "value"), part(declarator, "declarator")
     if declarator is None or declarator.type != "function_declarator":
-        return None
+        return conversion_function(cpp, node, owner)
     name = part(declarator, "declarator")
     while name.type == "qualified_identifier":
         scope = name.child_by_field_name("scope")
@@ -177,7 +178,7 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
     constructs = kind == "function_definition" and (result is None or node.has_error)
     lists = (c for c in node.named_children if c.type == "field_initializer_list")
     return CppFunction(
-        cpp.text(name),
+        _operator(text_of(name)) if name.type == "operator_name" else cpp.text(name),
         owner,
         tuple(parameters_in(part(declarator, "parameters"))),
         result,
@@ -189,6 +190,39 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
         pure=value is not None and text_of(value) == "0",
         overrides=not cpp.words.isdisjoint(_OVERRIDING)
         and any(c.type == "virtual_specifier" for c in declarator.named_children),
+    )
+
+
+def _operator(text: str) -> str:
+    """The name of an operator function as one writes it, with no blanks but before words."""
+    sign = "".join(text.removeprefix("operator").split())
+    return f"operator {sign}" if sign[:1].isalpha() else f"operator{sign}"
+
+
+def conversion_function(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
+    """`operator bool() const`, by the type that it converts to ([class.conv.fct])."""
+    declarator = node.child_by_field_id(_DECLARATOR)
+    while declarator is not None and declarator.type == "qualified_identifier":
+        scope = declarator.child_by_field_name("scope")
+        owner = unscoped(scope) if scope is not None else owner
+        declarator = declarator.child_by_field_name("name")
+    if declarator is None or declarator.type != "operator_cast":
+        return None
+    type_, inner = declarator.child_by_field_id(_TYPE), declarator.child_by_field_id(_DECLARATOR)
+    stars = text_of(inner).partition("(")[0].strip() if inner is not None else ""
+    value = node.child_by_field_name("default_value")
+    return CppFunction(
+        f"{CONVERSION}{text_of(type_) if type_ is not None else ''}{stars}",
+        owner,
+        (),
+        type_,
+        node.child_by_field_id(_BODY),
+        None,
+        (),
+        cpp,
+        node,
+        pure=value is not None and text_of(value) == "0",
+        overrides=inner is not None and any(c.type == "virtual_specifier" for c in named(inner)),
     )
 
 

@@ -74,7 +74,7 @@ class StaticTypes:
                 inner = self.of(cpp, part(node, "argument"), depth + 1)
                 if node.children[0].type == "&":
                     return replace(inner, pointers=inner.pointers + 1) if inner else None
-                return self.dereferenced(inner)
+                return self.dereferenced(inner, "operator*")
             case "parenthesized_expression" if len(named(node)) == 1:
                 return self.of(cpp, named(node)[0], depth + 1)
             case "conditional_expression":
@@ -158,9 +158,11 @@ class StaticTypes:
 
     # --- what is inside -------------------------------------------------------------------------
 
-    def dereferenced(self, type_: StaticType | None) -> StaticType | None:
-        """What `*` and `->` lead to."""
-        if type_ is None:
+    def dereferenced(
+        self, type_: StaticType | None, by: str = "operator->", depth: int = 0
+    ) -> StaticType | None:
+        """What `->` and, `by` that operator, `*` lead to."""
+        if type_ is None or depth > _DEEPEST:
             return None
         if type_.pointers:
             return replace(type_, pointers=type_.pointers - 1)
@@ -170,7 +172,8 @@ class StaticTypes:
             if len(type_.arguments) > 1:
                 return replace(type_, name=_PAIR)
             return self.written(type_.cpp, type_.arguments[0])
-        return self._result_of(self.class_of(type_), "operator->")
+        result = self._result_of(self.class_of(type_), by)
+        return self.dereferenced(result, by, depth + 1) if by == "operator->" else result
 
     def element(self, type_: StaticType | None, in_order: bool = False) -> StaticType | None:
         """What `[]` gives; of a map, taken `in_order`, a key with its value."""
@@ -251,7 +254,7 @@ class StaticTypes:
         if last is function and (found := self._result_of(around, name)):
             return found
         for definition in self.types.texts.code.definitions.get(("", name), ()):
-            return self._given(definition)
+            return self.given(definition)
         return StaticType(cpp, name) if name in self.types.texts.code.all_classes else None
 
     def _of_method(self, cpp: Cpp, node: Node, function: Node, depth: int) -> StaticType | None:
@@ -277,10 +280,11 @@ class StaticTypes:
         for class_ in self.types.texts.lineage(owner):
             for function in class_.functions:
                 if function.name == name and function.result is not None:
-                    return self._given(function)
+                    return self.given(function)
         return None
 
-    def _given(self, function: CppFunction) -> StaticType | None:
+    def given(self, function: CppFunction) -> StaticType | None:
+        """The type of what a function gives, references left out."""
         declarator, pointers = function.node.child_by_field_name("declarator"), 0
         while declarator is not None and declarator.type == "pointer_declarator":
             declarator, pointers = declarator.child_by_field_name("declarator"), pointers + 1

@@ -20,9 +20,9 @@ from rebsync.reverse.ir.cpp.symbols import (
 )
 from rebsync.reverse.syntax.cpp_declarations import (
     CppFunction,
+    conversion_function,
     declared_name,
     function_of,
-    parameters_in,
     with_values,
 )
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
@@ -218,16 +218,12 @@ def _variables(cpp: Cpp, node: Node, scope: str) -> Iterator[VariableSymbol]:
 def _function(
     cpp: Cpp, node: Node, scope: str, owner: str | None, is_template: bool
 ) -> Declaration | None:
-    found, converts_to = function_of(cpp, node, owner or ""), None
-    qualifier = ""
+    found = function_of(cpp, node, owner or "")
     if found is None:
-        conversion = _operator_cast(node)
-        if conversion is None:
-            return None
-        qualifier, cast = conversion
-        found, converts_to = _conversion(cpp, node, cast), cast.child_by_field_name("type")
-    else:
-        qualifier = _qualifier(node)
+        return None
+    qualifier = _qualifier(node)
+    is_conversion = conversion_function(cpp, node, "") is not None
+    converts_to = found.result if is_conversion else None
     words = {text_of(c) for c in node.children if c.type not in ("compound_statement", "comment")}
     declarator = node.child_by_field_name("declarator")
     while declarator is not None and declarator.type in _REFERRING:
@@ -251,33 +247,10 @@ def _qualifier(node: Node) -> str:
         declarator = inner
     if declarator is None:
         return ""
-    text = "".join(text_of(declarator).split())
+    text, _, is_operator = "".join(text_of(declarator).split()).partition("::operator")
+    if is_operator:
+        return text.partition("<")[0]
     return text.partition("<")[0] if "<" in text else text.rpartition("::")[0]
-
-
-def _operator_cast(node: Node) -> tuple[str, Node] | None:
-    """`operator bool() const` with what stands before it."""
-    if node.type not in ("function_definition", "field_declaration", "declaration"):
-        return None
-    declarator = node.child_by_field_name("declarator")
-    qualifier = ""
-    if declarator is not None and declarator.type == "qualified_identifier":
-        qualifier = "".join(text_of(declarator).split()).partition("::operator")[0]
-        while declarator is not None and declarator.type == "qualified_identifier":
-            declarator = declarator.child_by_field_name("name")
-    if declarator is None or declarator.type != "operator_cast":
-        return None
-    return qualifier, declarator
-
-
-def _conversion(cpp: Cpp, node: Node, cast: Node) -> CppFunction:
-    type_ = cast.child_by_field_name("type")
-    inner = cast.child_by_field_name("declarator")
-    parameters = inner.child_by_field_name("parameters") if inner is not None else None
-    taken = tuple(parameters_in(parameters)) if parameters is not None else ()
-    name = f"operator {text_of(type_) if type_ is not None else ''}"
-    body = node.child_by_field_name("body")
-    return CppFunction(name, "", taken, type_, body, None, (), cpp, node)
 
 
 def symbol_of(

@@ -1,0 +1,179 @@
+"""Calls that C++ makes where none is written: conversions, temporaries, defaults, literals.
+
+They run functions of the files as calls do, and so may run what was not read: conversion functions
+and converting constructors ([class.conv]), what begins and ends the life of what a call takes and
+gives by value ([class.temporary]), default arguments ([dcl.fct.default]), literal operators
+([over.literal]), and functions for memory ([class.free]).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import cached_property
+
+from tree_sitter import Node
+
+from rebsync.reverse.bodies.cpp_object_parts import UNDEFINED, ObjectParts
+from rebsync.reverse.bodies.cpp_undefined import ALLOCATING, Undefined
+from rebsync.reverse.syntax.cpp_calls import CppCall
+from rebsync.reverse.syntax.cpp_declarations import CppFunction, CppParameter
+from rebsync.reverse.syntax.cpp_index import CppClass
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.values.cpp_flow import Texts
+from rebsync.reverse.values.cpp_flow_calls import Calls
+from rebsync.reverse.values.cpp_static_types import StaticTypes
+
+OfClass = Callable[[CppClass, str], "str | None"]
+# What may be an object that is converted, by what it stands for.
+_OBJECTS = frozenset(
+    {"identifier", "field_expression", "call_expression", "subscript_expression"}
+    | {"pointer_expression", "conditional_expression", "compound_literal_expression"}
+)
+IMPLICIT = _OBJECTS | {"user_defined_literal", "new_expression", "delete_expression"}
+# Where an object is used as what it is, by the field of what stands around it.
+_AS_IT_IS = {
+    "field_expression": ("argument",),
+    "call_expression": ("function",),
+    "assignment_expression": ("left",),
+    "subscript_expression": ("argument",),
+    "init_declarator": ("declarator",),
+    "for_range_loop": ("right", "declarator"),
+    "update_expression": ("argument",),
+}
+
+
+class ImplicitCalls:
+    """Why what stands at some place may run what was not read though no call of it stands there."""
+
+    def __init__(
+        self,
+        texts: Texts,
+        statics: StaticTypes,
+        calls: Calls,
+        parts: ObjectParts,
+        of_class: OfClass,
+    ) -> None:
+        self._texts = texts
+        self._statics = statics
+        self._calls = calls
+        self._parts = parts
+        self._open: Undefined = parts.open
+        self._of_class = of_class
+
+    def of(self, cpp: Cpp, node: Node) -> str | None:
+        """Why an expression may: as it makes an object, or as its value is converted."""
+        match node.type:
+            case "user_defined_literal":
+                return self._literal(node)
+            case "compound_literal_expression":
+                made = self._parts.of_object(self._statics.written(cpp, part(node, "type")))
+                return made or self._converted(cpp, node)
+            case "new_expression" | "delete_expression":
+                return UNDEFINED if ALLOCATING & self._open.declared else None
+            case _:
+                return self._converted(cpp, node)
+
+    def defaults(self, cpp: Cpp, call: CppCall) -> Iterator[tuple[Cpp, Node]]:
+        """What a call evaluates for parameters that it gives no arguments for."""
+        for function in self._calls.functions(cpp, call.node):
+            for index in range(len(call.arguments), len(function.parameters)):
+                if (default := self._calls.default(function, index)) is not None:
+                    yield default
+
+    def of_call(self, cpp: Cpp, call: CppCall) -> str | None:
+        """Why to make what a call takes and gives may."""
+        if not self._open.has_undefined:
+            return None
+        for function in self._calls.functions(cpp, call.node):
+            result = None if function.gives_place else self._statics.given(function)
+            if (why := self._parts.of_object(result)) is not None:
+                return why
+            for parameter, argument in zip(function.parameters, call.arguments, strict=False):
+                if (why := self._passed(cpp, function, parameter, argument)) is not None:
+                    return why
+        return None
+
+    def _passed(
+        self, cpp: Cpp, function: CppFunction, parameter: CppParameter, argument: Node
+    ) -> str | None:
+        """Why to make an object of a parameter may: a reference is to an object of its class."""
+        text = text_of(parameter.node).partition("=")[0]
+        type_ = self._statics.written(function.cpp, parameter.type)
+        if type_ is None or "*" in text:
+            return None
+        if "&" in text:
+            owner = self._statics.class_of(self._statics.of(cpp, argument))
+            of = self._statics.class_of(type_)
+            if owner is not None and of is not None and self._descends(owner, of):
+                return None
+        return self._parts.of_object(type_)
+
+    # --- literals and conversions ---------------------------------------------------------------
+
+    def _literal(self, node: Node) -> str | None:
+        suffix = text_of(named(node)[-1])
+        return UNDEFINED if f'operator""{suffix}' in self._open.declared else None
+
+    @cached_property
+    def _conversions(self) -> frozenset[str]:
+        """The conversion functions that a class has no body of."""
+        found = (n for n in self._open.undefined if n.startswith("operator "))
+        return frozenset(found) - ALLOCATING
+
+    def _converted(self, cpp: Cpp, node: Node) -> str | None:
+        if not self._conversions or _is_as_it_is(node):
+            return None
+        owner = self._statics.class_of(self._statics.of(cpp, node))
+        if owner is None or self._stays(cpp, node, owner):
+            return None
+        for name in self._conversions:
+            if any(f.name == name for c in self._texts.lineage(owner) for f in c.functions):
+                if (why := self._of_class(owner, name)) is not None:
+                    return why
+        return None
+
+    def _stays(self, cpp: Cpp, node: Node, owner: CppClass) -> bool:
+        """Whether what gets an object is of its class, so that nothing converts it."""
+        above = node.parent
+        while above is not None and above.type == "parenthesized_expression":
+            node, above = above, above.parent
+        match above:
+            case Node(type="init_declarator", parent=Node() as declaration):
+                type_ = declaration.child_by_field_name("type")
+                is_auto = type_ is not None and type_.type == "placeholder_type_specifier"
+                return is_auto or self._is_of(cpp, type_, owner)
+            case Node(type="assignment_expression"):
+                left = self._statics.class_of(self._statics.of(cpp, part(above, "left")))
+                return left is not None and self._descends(owner, left)
+            case Node(type="argument_list", parent=Node(type="call_expression") as call):
+                place = named(above).index(node)
+                taken = [
+                    (f.cpp, f.parameters[place].type)
+                    for f in self._calls.functions(cpp, call)
+                    if place < len(f.parameters)
+                ]
+                return bool(taken) and all(self._is_of(c, t, owner) for c, t in taken)
+            case Node(type="return_statement"):
+                function = self._texts.function_around(cpp, node)
+                return function is not None and self._is_of(function.cpp, function.result, owner)
+            case _:
+                return False
+
+    def _is_of(self, cpp: Cpp, type_: Node | None, owner: CppClass) -> bool:
+        of = self._statics.class_of(self._statics.written(cpp, type_))
+        return of is not None and self._descends(owner, of)
+
+    def _descends(self, owner: CppClass, of: CppClass) -> bool:
+        return any(class_ is of for class_ in self._texts.lineage(owner))
+
+
+def _is_as_it_is(node: Node) -> bool:
+    """Whether a place is for an object itself: `x.f()`, `&x`, `x = 3;`, `x;`."""
+    above = node.parent
+    while above is not None and above.type == "parenthesized_expression":
+        node, above = above, above.parent
+    if above is None or above.type in ("expression_statement", "lambda_capture_initializer"):
+        return True
+    if above.type == "pointer_expression":
+        return True  # `&x`, and `*x`, which is an operator's
+    return any(above.child_by_field_name(f) == node for f in _AS_IT_IS.get(above.type, ()))
