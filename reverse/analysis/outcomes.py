@@ -34,7 +34,7 @@ from rebsync.reverse.ir.walk import STATEMENTS, Node, parts, walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.source import NOWHERE, Span
 
-_RECURSES = "this may call itself, and may not end"
+RECURSES = "this may call itself, and may not end"
 
 
 class OutcomeAnalysis:
@@ -72,7 +72,7 @@ class OutcomeAnalysis:
         """Which functions of some may call themselves, as far as that depends on no others."""
         found = in_cycles({name: sorted(self._calls.get(name, ())) for name in names})
         places = {name: self.program.function(name).place for name in found}
-        return {n: frozenset({Problem(n, place, _RECURSES)}) for n, place in places.items()}
+        return {n: frozenset({Problem(n, place, RECURSES)}) for n, place in places.items()}
 
     def functions(self, value: e.Expression) -> frozenset[str]:
         """The functions that a variable of a module may stand for."""

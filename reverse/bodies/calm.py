@@ -33,29 +33,18 @@ class Sure:
 class Calm:
     """What one body finds out, and takes from what others have.
 
-    `_own` counts a function that calls itself as one that touches nothing until that is known:
-    what was found while it counted so is not for others, unless it turned out to be right.
+    A function that calls itself, perhaps by others, may not end: it counts as one that touches
+    something, as do those that call it.
     """
 
     shared: Sure = field(default_factory=Sure)
-    _own: dict[int, bool] = field(default_factory=dict)
     _sure: dict[int, bool] | None = None
-    _depth: int = 0
 
     def of(self, body: int, members: _Names, functions: _Names, looks: Callable[[], bool]) -> bool:
         """Whether a function touches nothing; `looks` finds out."""
-        if body in self._own:
-            return self._own[body]
         if self._sure is None:
             self._sure = self.shared.among(members, functions)
-        if body in self._sure:
-            return self._sure[body]
-        before = len(self._own)
-        self._own[body] = True  # as far as a call of itself goes
-        self._depth += 1
-        self._own[body] = calm = looks()
-        self._depth -= 1
-        if not self._depth:
-            found = list(self._own.items())[before:]
-            self._sure.update((b, known) for b, known in found if calm or not known)
-        return calm
+        if body not in self._sure:
+            self._sure[body] = False  # as far as a call of itself goes
+            self._sure[body] = looks()
+        return self._sure[body]

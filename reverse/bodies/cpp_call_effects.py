@@ -184,7 +184,7 @@ def _function(effects: EffectReader, call: CppCall, name: str) -> bool:
         case Called() | Inline() as known:
             _check_read(effects, call)  # of several by a name one may have no body
             meant = meant_by(known, call.name, len(call.arguments))
-    if not meant or not all(_is_calm(effects, f) for f in meant):
+    if not meant or not all(is_calm(effects, f) for f in meant):
         raise effects.touches(call.node, f'"{name}" may change what the model has')
     return not any(known_functions.may_change(p) for f in meant for p in f.parameters)
 
@@ -216,7 +216,7 @@ def _is_calm_macro(effects: EffectReader, name: str) -> bool:
     return bool(bodies)
 
 
-def _is_calm(effects: EffectReader, function: CppFunction) -> bool:
+def is_calm(effects: EffectReader, function: CppFunction) -> bool:
     """Whether a body touches nothing but what it declares, or gets."""
     if function.body is None:
         return False

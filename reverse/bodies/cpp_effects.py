@@ -24,6 +24,7 @@ from rebsync.reverse.bodies.cpp_effect_reader import EffectReader
 from rebsync.reverse.bodies.cpp_endings import ENDLESS, ends
 from rebsync.reverse.bodies.cpp_implicit_calls import IMPLICIT
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOPS, PLAIN, REPEATED
+from rebsync.reverse.bodies.cpp_misparsed import check_misparsed
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, is_number
 from rebsync.reverse.bodies.cpp_unread_calls import OPERATORS
@@ -187,6 +188,8 @@ class Effects(EffectReader):
             refers = target.type == "reference_declarator"
             if refers and value is None:
                 raise self.touches(node, "this looks like a declaration, but it is none")
+            if target.type == "function_declarator":
+                check_misparsed(self, target)
             if target.type == "function_declarator" and not takes:
                 self._made_from_names(target)
             if refers and value is not None and "const" not in cpp_roots.specifiers_of(node):

@@ -10,7 +10,8 @@ from tree_sitter import Node
 
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
-from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
+from rebsync.reverse.analysis.outcomes import RECURSES, OutcomeAnalysis
+from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.bodies.cpp_unread_calls import UnreadCalls
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.cpp.functions import lambda_names
@@ -199,6 +200,20 @@ class CppForm:
         function = self._program.function(name)
         found = self._outcomes.raised_by(function, cpp.span(statement))
         return min((p.why for p in found), default=None)
+
+    def recurses(self, function: CppFunction) -> bool:
+        """Whether a function may call itself, perhaps by others."""
+        symbol = self._functions.get(function.node.id)
+        name = symbol.name if symbol is not None else ""
+        return any(p.why == RECURSES and p.function == name for p in self._problems(function))
+
+    def throws(self, function: CppFunction) -> bool:
+        """Whether a call of a function may end with an exception."""
+        return any(p.raises for p in self._problems(function))
+
+    def _problems(self, function: CppFunction) -> frozenset[Problem]:
+        symbol = self._functions.get(function.node.id)
+        return self._outcomes.of(symbol.name) if symbol is not None else frozenset()
 
     def _around(self, node: Node) -> str | None:
         """The name of the function or lambda that a node stands in; None if it is in none."""

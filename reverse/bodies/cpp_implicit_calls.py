@@ -114,6 +114,11 @@ class ImplicitCalls:
         suffix = text_of(named(node)[-1])
         return UNDEFINED if f'operator""{suffix}' in self._open.declared else None
 
+    @property
+    def may_convert(self) -> bool:
+        """Whether some object may be converted, or made, by what was not read."""
+        return bool(self._conversions) or self._open.has_undefined
+
     @cached_property
     def _conversions(self) -> frozenset[str]:
         """The conversion functions that a class has no body of."""
@@ -126,11 +131,9 @@ class ImplicitCalls:
         owner = self._statics.class_of(self._statics.of(cpp, node))
         if owner is None or self._stays(cpp, node, owner):
             return None
-        for name in self._conversions:
-            if any(f.name == name for c in self._texts.lineage(owner) for f in c.functions):
-                if (why := self._of_class(owner, name)) is not None:
-                    return why
-        return None
+        own = {f.name for c in self._texts.lineage(owner) for f in c.functions}
+        found = (self._of_class(owner, name) for name in sorted(self._conversions & own))
+        return next((why for why in found if why is not None), None)
 
     def _stays(self, cpp: Cpp, node: Node, owner: CppClass) -> bool:
         """Whether what gets an object is of its class, so that nothing converts it."""

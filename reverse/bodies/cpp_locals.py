@@ -23,6 +23,7 @@ from rebsync.reverse.bodies.cpp_conversions import converted_to, type_in
 from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, number_of, only_value, taken_apart
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import zero_of
+from rebsync.reverse.bodies.cpp_misparsed import check_misparsed
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_references import is_made, stays
 from rebsync.reverse.bodies.cpp_roots import specifiers_of
@@ -377,6 +378,7 @@ def _reference(
 def _called_or_made(reader: CppStatementReader, declared: DeclaratorParts) -> Iterator[m.Statement]:
     """`int k(other);`, which the grammar takes for a function: an object made from names."""
     declarator = declared.node
+    check_misparsed(Effects(reader.cpp, reader.scope), declarator)
     arguments = [text_of(c) for c in named(part(declarator, "parameters"))]
     kept = reader.scope.carried(declared.type)
     meanings = [reader.scope.meaning(a) for a in arguments]

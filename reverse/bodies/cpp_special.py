@@ -21,6 +21,7 @@ from rebsync.reverse.bodies import (
     cpp_timers,
 )
 from rebsync.reverse.bodies.building import bare, is_calm, negated
+from rebsync.reverse.bodies.cpp_call_effects import check_operator
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to, place_of
 from rebsync.reverse.bodies.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.cpp_failing import failing
@@ -60,6 +61,7 @@ def read(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None
     """The statements that stand for an expression; None for one that stands for itself."""
     match node.type:
         case "comma_expression" if reader.scope.open:
+            check_operator(Effects(reader.cpp, reader.scope), node)
             return _each(reader, node)
         case "conditional_expression" if reader.scope.open:
             return _either(reader, node)

@@ -44,6 +44,7 @@ from rebsync.reverse.bodies.unknown_names import UnknownNames
 from rebsync.reverse.bodies.wide_locals import broken_locals
 from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import Cpp, markers_in, named, part, text_of
 from rebsync.statements import UNREADABLE
 
@@ -293,6 +294,11 @@ class CppStatements(CppStatementReader):
         if isinstance(function, Exchange):
             cpp_sequencing.check_place(self, node)
             return cpp_exchange.exchanged(self, node, function)
+        call = call_of(node) if node.type == "call_expression" else None
+        form = self.scope.form
+        why = form.unread_calls.implicit.of_call(self.cpp, call) if form and call else None
+        if why is not None:
+            raise self.unread(node, f'what "{text_of(node)}" runs is not known: {why}')
         return cpp_inline.inlined(self, node, function, arguments)
 
     def inside(self, cpp: Cpp, scope: Scope, own: set[str] | frozenset[str]) -> CppStatements:

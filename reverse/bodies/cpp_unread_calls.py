@@ -60,6 +60,8 @@ OPERATORS = {
 # Methods of containers that compare no elements.
 _COUNTING = frozenset({"size", "empty", "begin", "end", "cbegin", "cend", "front", "back", "data"})
 _CALL = "operator()"
+_TYPE_NAMES = frozenset({"type_identifier", "namespace_identifier"})
+_NAMING = frozenset({"qualified_identifier", "template_type"})
 _SIGNS = {"subscript_expression": "[]", "field_expression": "->", "comma_expression": ","}
 # By which operators others are rewritten ([over.match.oper]).
 _REWRITTEN = {"!=": "==", **dict.fromkeys(("<", ">", "<=", ">="), "<=>")}
@@ -211,11 +213,14 @@ class UnreadCalls:
     def _is_plain(self, name: str) -> bool:
         """Whether a name is none that the tables of libraries have."""
         known = (libraries.node_methods(), libraries.looking(), libraries.keeping_arguments())
-        is_type = name in self._code.all_classes or any(
-            place.type in ("type_identifier", "namespace_identifier")
+        return not self.is_type(name) and not any(name in names for names in known)
+
+    def is_type(self, name: str) -> bool:
+        """Whether a name is used as that of a type, where no call could stand."""
+        return name in self._code.all_classes or any(
+            place.type in _TYPE_NAMES and not _is_called(place)
             for _, place in self._texts.everywhere(name)
         )
-        return not is_type and not any(name in names for names in known)
 
     def _of_scope(self, cpp: Cpp, scope: str, name: str, call: CppCall) -> str | None:
         if is_library(f"{scope}::{name}"):
@@ -353,6 +358,15 @@ class UnreadCalls:
     def _declares(self, owner: CppClass, name: str) -> bool:
         of_class = (f.name for c in self._texts.lineage(owner) for f in c.functions)
         return any(each in (name, f"(*{name})") for each in of_class)
+
+
+def _is_called(place: Node) -> bool:
+    """Whether a name may be called, though the grammar takes it for a type: `T x(name());`."""
+    above = place.parent
+    while above is not None and above.type in _NAMING:
+        above = above.parent
+    around = above.child_by_field_name("declarator") if above is not None else None
+    return around is not None and around.type == "abstract_function_declarator"
 
 
 def _operators(node: Node) -> frozenset[str]:

@@ -11,6 +11,7 @@ from typing import TypeAlias
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.outcomes import RECURSES
 from rebsync.reverse.bodies.calm import Calm
 from rebsync.reverse.bodies.cpp_call_effects import check_object
 from rebsync.reverse.bodies.cpp_effects import Effects
@@ -129,6 +130,8 @@ def _touched(bodies: Bodies, owner: CppClass, function: CppFunction) -> Touches 
     free = {n: f for n, f in whole.functions.items() if _is_free(f)}
     scope = replace(whole, members=members, functions=free, calm=Calm())
     effects = Effects(function.cpp, scope, returning=True)
+    if scope.form is not None and scope.form.recurses(function):
+        return effects.touches(function.node, RECURSES)
     try:
         if function.initialisers is not None:
             effects.check(function.initialisers)
