@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
 
@@ -37,7 +38,7 @@ from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.syntax.macros import hides
 
 RENAMED = "the object itself gets another name here"
@@ -113,16 +114,34 @@ def check_implicit(effects: EffectReader, node: Node) -> None:
     why = form.unread_calls.implicit.of(effects.cpp, node) if form is not None else None
     if why is not None:
         raise effects.touches(node, f'what "{text_of(node)}" runs is not known: {why}')
+    if node.type == "user_defined_literal":
+        _check_free(effects, node)
+
+
+def _check_free(effects: EffectReader, node: Node) -> None:
+    """Raises `Touches` where a function outside of classes may that an operator runs."""
+    form = effects.scope.form
+    functions = form.unread_calls.implicit.free_functions(effects.cpp, node) if form else []
+    for function in functions:
+        if not is_calm(effects, function):
+            why = f'"{function.name}" may change what the model has'
+            raise effects.touches(node, why)
 
 
 def _check_defaults(effects: EffectReader, call: CppCall) -> None:
     """Raises `Touches` where what a call evaluates for missing arguments may touch the model."""
     form = effects.scope.form
-    for cpp, value in form.unread_calls.implicit.defaults(effects.cpp, call) if form else ():
+    if form is not None:
+        _check_values(effects, call.node, form.unread_calls.implicit.defaults(effects.cpp, call))
+
+
+def _check_values(effects: EffectReader, node: Node, values: Iterable[tuple[Cpp, Node]]) -> None:
+    """Raises `Touches` where values that stand elsewhere may touch what the model has."""
+    for cpp, value in values:
         try:
             effects.anew(cpp, effects.scope, ()).check(value)
         except Touches as touches:
-            raise effects.touches(call.node, touches.why) from None
+            raise effects.touches(node, touches.why) from None
 
 
 def check_operator(effects: EffectReader, node: Node) -> None:
@@ -131,6 +150,7 @@ def check_operator(effects: EffectReader, node: Node) -> None:
     why = form.unread_calls.of_operator(effects.cpp, node) if form is not None else None
     if why is not None:
         raise effects.touches(node, f'what "{text_of(node)}" does is not known: {why}')
+    _check_free(effects, node)
 
 
 def check_object(
@@ -149,6 +169,7 @@ def check_object(
     why = (calls.of_copied if is_found_out else calls.of_type)(effects.cpp, told)
     if why is not None:
         raise effects.touches(node, f'what "{text_of(told)}" does is not known: {why}')
+    _check_values(effects, node, calls.made_with(effects.cpp, told, is_found_out))
 
 
 def check_handed(effects: EffectReader, argument: Node) -> None:

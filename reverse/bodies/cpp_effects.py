@@ -22,12 +22,11 @@ from rebsync.reverse.bodies.cpp_call_effects import (
 )
 from rebsync.reverse.bodies.cpp_effect_reader import EffectReader
 from rebsync.reverse.bodies.cpp_endings import ENDLESS, ends
-from rebsync.reverse.bodies.cpp_implicit_calls import IMPLICIT
+from rebsync.reverse.bodies.cpp_implicit_calls import IMPLICIT, OPERATORS
 from rebsync.reverse.bodies.cpp_kinds import LEAVES, LOOPS, PLAIN, REPEATED
 from rebsync.reverse.bodies.cpp_misparsed import check_misparsed
 from rebsync.reverse.bodies.cpp_misread import first_of, is_misread
 from rebsync.reverse.bodies.cpp_roots import declared_in, is_modelled, is_number
-from rebsync.reverse.bodies.cpp_unread_calls import OPERATORS
 from rebsync.reverse.bodies.scope import (
     Ignored,
     Itself,

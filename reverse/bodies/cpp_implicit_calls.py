@@ -9,6 +9,7 @@ gives by value ([class.temporary]), default arguments ([dcl.fct.default]), liter
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import cached_property
 
 from tree_sitter import Node
@@ -21,8 +22,24 @@ from rebsync.reverse.syntax.cpp_index import CppClass
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts
 from rebsync.reverse.values.cpp_flow_calls import Calls
-from rebsync.reverse.values.cpp_static_types import StaticTypes
+from rebsync.reverse.values.cpp_static_types import StaticType, StaticTypes
 
+# What may be a call of an operator, with the operands whose class says which.
+OPERATORS = {
+    "binary_expression": ("left", "right"),
+    "assignment_expression": ("left",),
+    "update_expression": ("argument",),
+    "unary_expression": ("argument",),
+    "pointer_expression": ("argument",),
+    "subscript_expression": ("argument",),
+    "field_expression": ("argument",),
+    "comma_expression": ("left", "right"),
+}
+_SIGNS = {"subscript_expression": "[]", "field_expression": "->", "comma_expression": ","}
+# By which operators others are rewritten ([over.match.oper]).
+_REWRITTEN = {"!=": "==", **dict.fromkeys(("<", ">", "<=", ">="), "<=>")}
+COMPARING = frozenset(f"operator{sign}" for sign in ("==", "<=>", *_REWRITTEN))
+_NAMED = frozenset({"identifier", "field_expression"})
 OfClass = Callable[[CppClass, str], "str | None"]
 # What may be an object that is converted, by what it stands for.
 _OBJECTS = frozenset(
@@ -35,7 +52,6 @@ _AS_IT_IS = {
     "field_expression": ("argument",),
     "call_expression": ("function",),
     "assignment_expression": ("left",),
-    "subscript_expression": ("argument",),
     "init_declarator": ("declarator",),
     "for_range_loop": ("right", "declarator"),
     "update_expression": ("argument",),
@@ -79,6 +95,54 @@ class ImplicitCalls:
             for index in range(len(call.arguments), len(function.parameters)):
                 if (default := self._calls.default(function, index)) is not None:
                     yield default
+
+        yield from self.made_with(self._statics.of(cpp, call.node) if self._makes(call) else None)
+
+    def _makes(self, call: CppCall) -> bool:
+        """Whether a call makes an object by the name of its class."""
+        name = call.name.partition("<")[0].rpartition("::")[2]
+        return name in self._texts.code.all_classes or name.startswith("make_")
+
+    def made_with(self, type_: StaticType | None) -> Iterator[tuple[Cpp, Node]]:
+        """What is evaluated to make an object of a type: of members, and for parameters."""
+        owner = self._statics.class_of(replace(type_, pointers=0) if type_ else None)
+        for class_ in self._parts.within(owner) if owner is not None else ():
+            for each in (*class_.fields, *class_.others):
+                if each.value is not None:
+                    yield each.cpp, each.value
+            for function in class_.functions if owner is not None else ():
+                for parameter in function.parameters if function.name == class_.name else ():
+                    default = parameter.node.child_by_field_name("default_value")
+                    if default is not None:
+                        yield function.cpp, default
+
+    def free_functions(self, cpp: Cpp, node: Node) -> list[CppFunction]:
+        """The functions outside of classes that an operator or a literal may run, with bodies."""
+        if node.type == "user_defined_literal":
+            return self._open.bodies.get(f'operator""{text_of(named(node)[-1])}', [])
+        fields = OPERATORS.get(node.type, ())
+        names = operators(node) if fields else ()
+        found = [f for name in names for f in self._open.bodies.get(name, ())]
+        operands = [part(node, each) for each in fields]
+        return [f for f in found if not f.owner and self._may_take(f, cpp, operands)]
+
+    def _may_take(self, function: CppFunction, cpp: Cpp, operands: list[Node]) -> bool:
+        """Whether a function may take some operands, as far as classes of the files tell."""
+        if len(function.parameters) != len(operands):
+            return False
+        for parameter, operand in zip(function.parameters, operands, strict=True):
+            taken = self._statics.written(function.cpp, parameter.type)
+            of = self._statics.class_of(taken)
+            if of is None and taken is not None:
+                continue  # a stream, or a number
+            given = self._statics.of(cpp, operand)
+            owner = self._statics.class_of(given)
+            if given is None and operand.type not in _NAMED:
+                return False
+            is_another = owner is None or (of is not None and not self._descends(owner, of))
+            if given is not None and of is not None and is_another:
+                return False
+        return True
 
     def of_call(self, cpp: Cpp, call: CppCall) -> str | None:
         """Why to make what a call takes and gives may."""
@@ -156,11 +220,18 @@ class ImplicitCalls:
                     if place < len(f.parameters)
                 ]
                 return bool(taken) and all(self._is_of(c, t, owner) for c, t in taken)
+            case Node(type="pointer_expression" | "subscript_expression" as kind):
+                name = "operator*" if kind == "pointer_expression" else "operator[]"
+                is_inside = part(above, "argument") == node
+                return is_inside and self._has(owner, name)
             case Node(type="return_statement"):
                 function = self._texts.function_around(cpp, node)
                 return function is not None and self._is_of(function.cpp, function.result, owner)
             case _:
                 return False
+
+    def _has(self, owner: CppClass, name: str) -> bool:
+        return any(f.name == name for c in self._texts.lineage(owner) for f in c.functions)
 
     def _is_of(self, cpp: Cpp, type_: Node | None, owner: CppClass) -> bool:
         of = self._statics.class_of(self._statics.written(cpp, type_))
@@ -170,6 +241,13 @@ class ImplicitCalls:
         return any(class_ is of for class_ in self._texts.lineage(owner))
 
 
+def operators(node: Node) -> frozenset[str]:
+    """The names of the operators that an expression may be a call of."""
+    sign = text_of(node.child_by_field_name("operator") or node.children[0])
+    sign = _SIGNS.get(node.type, sign)
+    return frozenset(f"operator{each}" for each in (sign, _REWRITTEN.get(sign)) if each)
+
+
 def _is_as_it_is(node: Node) -> bool:
     """Whether a place is for an object itself: `x.f()`, `&x`, `x = 3;`, `x;`."""
     above = node.parent
@@ -177,6 +255,6 @@ def _is_as_it_is(node: Node) -> bool:
         node, above = above, above.parent
     if above is None or above.type in ("expression_statement", "lambda_capture_initializer"):
         return True
-    if above.type == "pointer_expression":
-        return True  # `&x`, and `*x`, which is an operator's
+    if above.type == "pointer_expression" and above.children[0].type == "&":
+        return True
     return any(above.child_by_field_name(f) == node for f in _AS_IT_IS.get(above.type, ()))

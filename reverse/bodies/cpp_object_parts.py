@@ -55,8 +55,11 @@ class ObjectParts:
         types = [*types]
         if self.open.compares_unread and any(t and _KEYED.search(t.last) for t in types):
             return UNDEFINED
-        held = (t for each in types if each is not None for t in self._arguments(each))
-        for type_ in held:
+        return self.of_operands(t for each in types if each for t in self._arguments(each))
+
+    def of_operands(self, types: Iterable[StaticType | None]) -> str | None:
+        """Why a library may that gets objects of some types: by an operator of their classes."""
+        for type_ in types if self.open.operators else ():
             owner = self.statics.class_of(type_)
             lineage = self.texts.lineage(owner) if owner is not None else []
             own = {f.name for c in lineage for f in c.functions}

@@ -22,6 +22,7 @@ _SCOPES = ("namespace_definition", "class_specifier", "struct_specifier")
 ALLOCATING = frozenset({"operator new", "operator new[]", "operator delete", "operator delete[]"})
 # Classes of the standard library by which containers keep their elements apart.
 _COMPARING = ("hash", "less", "greater", "less_equal", "greater_equal", "equal_to")
+_FUNCTION = ("function_definition",)
 _ARGUMENTS = re.compile(r"<[^<>]*>")
 _WITHOUT_BODY = frozenset({"default_method_clause", "delete_method_clause"})
 
@@ -88,13 +89,15 @@ class Undefined:
     def _is_defined(self, function: CppFunction) -> bool:
         """Whether one of these has a body: overloads by the number of what they take."""
         count, path = _taken(function), _scopes_of(function)
-        bodies = self._bodies.get(function.name, ())
+        bodies = self.bodies.get(function.name, ())
         return any(_taken(f) == count and _scopes_of(f) == path for f in bodies)
 
     @cached_property
-    def _bodies(self) -> dict[str, list[CppFunction]]:
-        """The functions with a body, by their names."""
+    def bodies(self) -> dict[str, list[CppFunction]]:
+        """The functions with a body, by their names; friends that classes define too."""
         found: dict[str, list[CppFunction]] = {}
+        for function in _friends(self.code):
+            found.setdefault(function.name, []).append(function)
         for (_, name), functions in self.code.definitions.items():
             found.setdefault(name, []).extend(functions)
         return found
@@ -155,6 +158,14 @@ class Undefined:
         """Whether a specialisation of what compares or hashes elements lacks a body."""
         classes = (c for name in _COMPARING for c in self.code.all_classes.get(name, ()))
         return any(self.lacks_body(c, "operator()") for c in classes)
+
+
+def _friends(code: Code) -> Iterator[CppFunction]:
+    """The functions that classes declare as friends, and define."""
+    for cpp in code.files:
+        for each in inside(cpp.root, "friend_declaration") if b"friend" in cpp.words else ():
+            found = (function_of(cpp, n, "") for n in named(each) if n.type in _FUNCTION)
+            yield from (f for f in found if f is not None)
 
 
 def _declared_inside(cpp: Cpp) -> Iterator[Node]:

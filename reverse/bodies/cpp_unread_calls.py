@@ -8,9 +8,16 @@ of it. What a library has, and got nothing of the node, can reach nothing of it.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_implicit_calls import ImplicitCalls
+from rebsync.reverse.bodies.cpp_implicit_calls import (
+    COMPARING,
+    OPERATORS,
+    ImplicitCalls,
+    operators,
+)
 from rebsync.reverse.bodies.cpp_object_parts import UNDEFINED as _UNDEFINED
 from rebsync.reverse.bodies.cpp_object_parts import ObjectParts
 from rebsync.reverse.bodies.cpp_provenance import Provenance, ProvenanceAnalysis
@@ -46,26 +53,11 @@ _MAKING = frozenset(
     {"emplace", "emplace_back", "emplace_front", "push_back", "push_front", "push", "insert"}
     | {"resize", "assign", "clear", "erase", "pop_back", "pop_front", "pop"}
 )
-# What may be a call of an operator, with the operands whose class says which.
-OPERATORS = {
-    "binary_expression": ("left", "right"),
-    "assignment_expression": ("left",),
-    "update_expression": ("argument",),
-    "unary_expression": ("argument",),
-    "pointer_expression": ("argument",),
-    "subscript_expression": ("argument",),
-    "field_expression": ("argument",),
-    "comma_expression": ("left", "right"),
-}
 # Methods of containers that compare no elements.
 _COUNTING = frozenset({"size", "empty", "begin", "end", "cbegin", "cend", "front", "back", "data"})
 _CALL = "operator()"
 _TYPE_NAMES = frozenset({"type_identifier", "namespace_identifier"})
 _NAMING = frozenset({"qualified_identifier", "template_type"})
-_SIGNS = {"subscript_expression": "[]", "field_expression": "->", "comma_expression": ","}
-# By which operators others are rewritten ([over.match.oper]).
-_REWRITTEN = {"!=": "==", **dict.fromkeys(("<", ">", "<=", ">="), "<=>")}
-COMPARING = frozenset(f"operator{sign}" for sign in ("==", "<=>", *_REWRITTEN))
 
 
 class UnreadCalls:
@@ -106,7 +98,7 @@ class UnreadCalls:
         operands = [self._statics.of(cpp, part(node, each)) for each in OPERATORS[node.type]]
         if (why := self._parts.of_elements(operands)) is not None:
             return why
-        names = _operators(node) & self._open.operators
+        names = operators(node) & self._open.operators
         owners = [o for each in operands if (o := self._statics.class_of(each)) is not None]
         if not names or not owners:
             return None
@@ -129,6 +121,12 @@ class UnreadCalls:
     def of_type(self, cpp: Cpp, type_: Node | None) -> str | None:
         """Why to make or end an object of a type may."""
         return self._parts.of_object(self._statics.written(cpp, type_))
+
+    def made_with(self, cpp: Cpp, told: Node, is_value: bool) -> Iterator[tuple[Cpp, Node]]:
+        """What is evaluated to make an object of a type, or of that of a value."""
+        type_ = self._statics.of(cpp, told) if is_value else self._statics.written(cpp, told)
+        if type_ is not None and not type_.pointers:
+            yield from self.implicit.made_with(type_)
 
     def of_copied(self, cpp: Cpp, value: Node) -> str | None:
         """Why to make an object of a value may, where `auto` stands for its type."""
@@ -241,7 +239,8 @@ class UnreadCalls:
                 return _HELD
             if (why := self.of_handed(cpp, argument)) is not None:
                 return why
-        return self._parts.of_elements([self._statics.of(cpp, a) for a in call.arguments])
+        types = [self._statics.of(cpp, a) for a in call.arguments]
+        return self._parts.of_elements(types) or self._parts.of_operands(types)
 
     def _is_held(self, cpp: Cpp, argument: Node) -> bool:
         """Whether an argument holds a function, which `std::invoke` and algorithms call."""
@@ -367,13 +366,6 @@ def _is_called(place: Node) -> bool:
         above = above.parent
     around = above.child_by_field_name("declarator") if above is not None else None
     return around is not None and around.type == "abstract_function_declarator"
-
-
-def _operators(node: Node) -> frozenset[str]:
-    """The names of the operators that an expression may be a call of."""
-    sign = text_of(node.child_by_field_name("operator") or node.children[0])
-    sign = _SIGNS.get(node.type, sign)
-    return frozenset(f"operator{each}" for each in (sign, _REWRITTEN.get(sign)) if each)
 
 
 def _is_virtual(functions: list[CppFunction]) -> bool:

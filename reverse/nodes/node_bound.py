@@ -70,6 +70,19 @@ def note_bound(bodies: Bodies) -> None:
                     bodies.findings.unreadable(member.cpp.source, touches, bodies.unit.name)
 
 
+def note_statics(bodies: Bodies) -> None:
+    """Lists objects outside of classes that are made, before `main` runs, by what was not read."""
+    for variable in (v for each in bodies.code.variables.values() for v in each):
+        is_near = variable.cpp.source.path in bodies.unit.files
+        is_made = not any(text_of(c) == "extern" for c in variable.node.named_children)
+        if is_near and is_made and not _refers(variable):
+            try:
+                effects = Effects(variable.cpp, bodies.scope(variable.cpp, None))
+                check_object(effects, variable.node, variable.type)
+            except Touches as touches:
+                bodies.findings.unreadable(variable.cpp.source, touches, bodies.unit.name)
+
+
 @dataclass(slots=True)
 class Helpers:
     """The functions of classes that are none of the `units`, which are the same for all of these.

@@ -17,7 +17,7 @@ from rebsync.reverse.findings import Findings
 from rebsync.reverse.graph import Fact, Graph, PublisherFact, SubscriptionFact
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_bodies import Bodies, Common
-from rebsync.reverse.nodes.node_bound import Helpers, note_bound, note_helpers
+from rebsync.reverse.nodes.node_bound import Helpers, note_bound, note_helpers, note_statics
 from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_entries import note_entry
@@ -250,6 +250,7 @@ class _ClassReader:
         state.note(broken | node.overflowing.counted, findings, unit.name)
         note_life_cycle(unit, findings)
         note_bound(node.bodies)
+        note_statics(node.bodies)
         note_hidden(node.bodies)
         note_entry(node.bodies, alike[0].start if alike else None)
         note_locks(node.bodies, self.system.generated)
