@@ -39,6 +39,11 @@ class Calm:
 
     shared: Sure = field(default_factory=Sure)
     _sure: dict[int, bool] | None = None
+    _running: set[int] = field(default_factory=set)
+
+    def is_running(self, body: int) -> bool:
+        """Whether it is being found out of a function."""
+        return body in self._running
 
     def of(self, body: int, members: _Names, functions: _Names, looks: Callable[[], bool]) -> bool:
         """Whether a function touches nothing; `looks` finds out."""
@@ -46,5 +51,7 @@ class Calm:
             self._sure = self.shared.among(members, functions)
         if body not in self._sure:
             self._sure[body] = False  # as far as a call of itself goes
+            self._running.add(body)
             self._sure[body] = looks()
+            self._running.discard(body)
         return self._sure[body]

@@ -241,6 +241,9 @@ def is_calm(effects: EffectReader, function: CppFunction) -> bool:
     """Whether a body touches nothing but what it declares, or gets."""
     if function.body is None:
         return False
+    form = effects.scope.form
+    if form is not None and effects.scope.calm.is_running(function.body.id):
+        return not form.recurses(function)  # but one of several by a name
     scope, looks = effects.scope, partial(_looks, effects, function, function.body)
     return scope.calm.of(function.body.id, scope.members, scope.functions, looks)
 
