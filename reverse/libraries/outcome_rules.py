@@ -130,6 +130,7 @@ RULES = (
     OutcomeRule("get visit", raises="std::bad_variant_access"),
     OutcomeRule("any_cast", raises="std::bad_any_cast"),
     OutcomeRule("dynamic_cast", raises="std::bad_cast"),
+    OutcomeRule(".value", raises="std::bad_optional_access"),
     OutcomeRule("shared_ptr::from_weak", raises="std::bad_weak_ptr"),
     OutcomeRule(python="builtins.max", empty="builtins.ValueError", tells=Tells.MOST),
     OutcomeRule(python="builtins.min", empty="builtins.ValueError"),
