@@ -132,17 +132,20 @@ class ImplicitCalls:
             return False
         for parameter, operand in zip(function.parameters, operands, strict=True):
             taken = self._statics.written(function.cpp, parameter.type)
-            of = self._statics.class_of(taken)
-            if of is None and taken is not None:
-                continue  # a stream, or a number
             given = self._statics.of(cpp, operand)
-            owner = self._statics.class_of(given)
+            if taken is not None and taken.last.endswith("stream"):
+                continue
             if given is None and operand.type not in _NAMED:
                 return False
-            is_another = owner is None or (of is not None and not self._descends(owner, of))
-            if given is not None and of is not None and is_another:
+            if given is not None and taken is not None and not self._fits(given, taken):
                 return False
         return True
+
+    def _fits(self, given: StaticType, taken: StaticType) -> bool:
+        owner, of = self._statics.class_of(given), self._statics.class_of(taken)
+        if of is None:
+            return given.last == taken.last
+        return owner is not None and self._descends(owner, of)
 
     def of_call(self, cpp: Cpp, call: CppCall) -> str | None:
         """Why to make what a call takes and gives may."""
