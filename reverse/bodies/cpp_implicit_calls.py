@@ -58,7 +58,7 @@ _AS_IT_IS = {
 }
 
 
-class ImplicitCalls:
+class UnwrittenCalls:
     """Why what stands at some place may run what was not read though no call of it stands there."""
 
     def __init__(

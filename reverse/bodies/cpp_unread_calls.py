@@ -15,7 +15,7 @@ from tree_sitter import Node
 from rebsync.reverse.bodies.cpp_implicit_calls import (
     COMPARING,
     OPERATORS,
-    ImplicitCalls,
+    UnwrittenCalls,
     operators,
 )
 from rebsync.reverse.bodies.cpp_object_parts import UNDEFINED as _UNDEFINED
@@ -72,7 +72,7 @@ class UnreadCalls:
         self._provenance = ProvenanceAnalysis(self._texts, self._calls, self._statics)
         self._open = Undefined(code, self._texts)
         self._parts = ObjectParts(self._texts, self._statics, self._open)
-        self.implicit = ImplicitCalls(
+        self.implicit = UnwrittenCalls(
             self._texts, self._statics, self._calls, self._parts, self._of_converted
         )
         self._found: dict[int, str | None] = {}
