@@ -20,7 +20,6 @@ from rebsync.forward.py_operators import (
     Text,
     atom,
     float_literal,
-    implied,
 )
 from rebsync.forward.py_places import assigned, stepped
 from rebsync.forward.py_ranges import fits, is_distance, value_range
@@ -133,7 +132,7 @@ class PyExpressions(PyExpressionWriter):
                 return atom(call(self, expression))
             case m.Paren(inner):
                 found = self.raw(inner)
-                return Text(f"({found.text})", ATOM, implied(inner, found))
+                return atom(f"({found.text})")
             case _:
                 return self._compound(expression)
 

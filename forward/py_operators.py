@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import struct
 
-from rebsync import model as m
 from rebsync.records import dataclass
 
 TERNARY, NOT, COMPARISON, UNARY, ATOM = 1, 4, 5, 12, 15
@@ -19,43 +18,23 @@ BINARY = {
     **dict.fromkeys(("+", "-"), 10),
     **dict.fromkeys(("*", "/", "%"), 11),
 }
-# Where an operand needs parentheses in Python only: comparisons and `not` below other operators.
-_LOOSE = frozenset({"<", "<=", ">", ">=", "==", "!="})
 
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """An expression in Python and how tightly its operator binds.
-
-    `doubled` is the level from which parentheses of the model are doubled, since a single pair
-    would be there without them too.
-    """
+    """An expression in Python and how tightly its operator binds."""
 
     text: str
     level: int
-    doubled: int | None = None
 
     def at(self, least: int) -> str:
         """The text where an operator that binds at a level takes it."""
-        if self.doubled is not None and self.doubled < least:
-            return f"({self.text})"
         return self.text if self.level >= least else f"({self.text})"
 
 
 def atom(text: str) -> Text:
     """An expression that no operator can tear apart."""
     return Text(text, ATOM)
-
-
-def implied(inner: m.Expression, found: Text) -> int | None:
-    """The level of an expression that Python's operators tear apart, but not the model's."""
-    match inner:
-        case m.Unary("!"):
-            return found.level
-        case m.Binary(operator) if operator in _LOOSE:
-            return found.level
-        case _:
-            return None
 
 
 def float_literal(literal: str) -> str:

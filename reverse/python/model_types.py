@@ -119,13 +119,14 @@ def annotations_above(py: Py, node: Node) -> tuple[m.Annotation, ...]:
     return tuple(a for x in markers_above(py, node) if (a := annotation(x, span)) is not None)
 
 
-def markers_beside(py: Py, node: Node) -> list[str]:
-    """The marker at the end of the line on which something ends."""
+def markers_at(py: Py, node: Node) -> list[str]:
+    """The markers above something, and that at the end of the line on which it ends."""
     span = py.span(node)
     position = py.source.position(span.end)
     rest = py.source.line(position.line)[position.column - 1 :]
     match = _MARKER.search(rest)
-    return [match[1]] if match is not None else []
+    beside = [match[1]] if match is not None else []
+    return [*markers_above(py, node), *beside]
 
 
 def literal_type(node: Node) -> m.Type | None:
