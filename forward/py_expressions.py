@@ -23,7 +23,7 @@ from rebsync.forward.py_operators import (
 )
 from rebsync.forward.py_places import assigned, stepped
 from rebsync.forward.py_ranges import fits, is_distance, value_range
-from rebsync.forward.py_types import py_format
+from rebsync.forward.py_types import py_format, py_string
 from rebsync.intervals import Interval
 from rebsync.names import graph_name
 from rebsync.records import dataclass
@@ -113,7 +113,7 @@ class PyExpressions(PyExpressionWriter):
             case m.BoolLiteral():
                 return atom("True" if expression.value else "False")
             case m.StringLiteral():
-                return atom(expression.text)
+                return atom(py_string(expression.text))
             case m.NullLiteral():
                 return atom("NULL")
             case m.Name():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 
+from rebsync.literals import plain_float
 from rebsync.records import dataclass
 
 TERNARY, NOT, COMPARISON, UNARY, ATOM = 1, 4, 5, 12, 15
@@ -43,6 +44,7 @@ def float_literal(literal: str) -> str:
     if digits[-1] in "dDfF":
         digits, suffix = digits[:-1], digits[-1].lower()
         digits += "" if set(digits) & set(".eE") else ".0"
+    digits = plain_float(digits)
     if suffix:
         return f"float{64 if suffix == 'd' else 32}({digits})"
     value = float(digits)

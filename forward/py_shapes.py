@@ -21,6 +21,7 @@ from rebsync.forward.py_documents import (
     MayExpand,
 )
 from rebsync.forward.py_syntax import (
+    LEVELS,
     Atom,
     Attribute,
     Call,
@@ -166,7 +167,7 @@ def shape(tree: Tree, of: int | None) -> Document:
             return FirstFit(plain, (plain, (words, "(", inside, Line(), ")")))
         case Prefix(words, operand) if words.endswith(" := "):
             name = words.removesuffix(" := ")
-            return _grouped((name, _break(of), ":= ", shape(operand, of)), of)
+            return _grouped((name, _break(of)), of), ":= ", shape(operand, of)
         case Prefix(words, operand):
             return words, shape(operand, of)
         case Operation():
@@ -211,10 +212,18 @@ def _break(of: int | None) -> Document:
 
 def _operation(tree: Operation, of: int | None) -> Document:
     """Operators that bind alike, each at the start of a line."""
-    left = tree.left
-    is_same = isinstance(left, Operation) and left.level == tree.level
-    first = _operation(left, of) if isinstance(left, Operation) and is_same else shape(left, of)
-    return first, _break(of), f"{tree.operator} ", shape(tree.right, of)
+    first, last = (
+        _operation(side, of)
+        if isinstance(side, Operation) and _class(side) == _class(tree)
+        else shape(side, of)
+        for side in (tree.left, tree.right)
+    )
+    return first, _break(of), f"{tree.operator} ", last
+
+
+def _class(tree: Operation) -> int:
+    """Operators of one class are broken together; `and` and `or` are of one."""
+    return max(tree.level, LEVELS["and"])
 
 
 def _conditional(tree: Conditional, of: int | None) -> Document:
@@ -277,8 +286,8 @@ def _seen(tree: Tree) -> Iterator[Tree]:
 def _looseness(tree: Tree) -> tuple[int, ...]:
     """How loosely something binds: comparisons alike, other operators by their level."""
     match tree:
-        case Operation(level=level):
-            return (_LOOSEST - level,)
+        case Operation():
+            return (_LOOSEST - _class(tree),)
         case Conditional():
             return (_LOOSEST, _LOOSEST)  # `if` and `else`
         case _:

@@ -140,12 +140,14 @@ def _python_list(names: list[str] | tuple[str, ...], indent: int) -> str:
     """A list of names, on lines of its own where one is too long."""
     texts = [f'"{name}"' for name in names]
     typed = any(is_yaml_word(name) for name in names)
-    before, after = ("ParameterValue([", "], value_type=list[str])") if typed else ("[", "]")
-    line = f"{before}{', '.join(texts)}{after}"
+    before, after = ("ParameterValue(", ", value_type=list[str])") if typed else ("", "")
+    line = f"{before}[{', '.join(texts)}]{after}"
     if indent + len(line) <= _LINE_LENGTH - 40:
         return line
-    inner = "".join(f"\n{' ' * (indent + 4)}{text}," for text in texts)
-    return f"{before}{inner}\n{' ' * indent}{after}"
+    edge = "\n" + " " * (indent + 4 * typed)
+    inner = f"[{''.join(f'{edge}    {text},' for text in texts)}{edge}]"
+    last = "\n" + " " * indent
+    return f"{before}{edge}{inner},{edge}value_type=list[str],{last})" if typed else inner
 
 
 # --- parameters ---------------------------------------------------------------------------------

@@ -179,15 +179,14 @@ def _node(c: PyClass) -> str:
 
 def _stand_in(package: Package, node: NodeClass) -> str:
     sensors = played_sensors(node, py_choices)
-    types = sorted({s.type for s in sensors})
-    messages = interfaces(package.name)
+    types = {s.type for s in sensors}
+    found = imports(types, {f"{interfaces(package.name)}.msg": types})
     return formatted(
         fill(
             f"{_FOLDER}/stand_in.py.j2",
             package=package.name,
-            messages=messages,
+            imports=found,
             node=node,
             sensors=sensors,
-            types=types,
         )
     )
