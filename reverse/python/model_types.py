@@ -25,6 +25,7 @@ _PLAIN = {
     "bool": "boolean",
     "None": "void",
 }
+_CHARACTERS = re.compile(r"\\.|[^\\]", re.DOTALL)
 _MARKER = re.compile(r"#\s*rebsync:\s*(.*?)\s*$")
 _QUOTES = "\"'"
 _UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(")
@@ -188,10 +189,11 @@ def called_late(node: Node) -> Node | None:
 
 
 def in_double_quotes(text: str) -> str:
-    """A string as the model writes it."""
-    plain = text[1:-1]
-    is_single = text.startswith("'") and not text.startswith("'''")
-    return f'"{plain}"' if is_single and not set(plain) & {'"', "\\"} else text
+    """A string as the model writes it: `'say "no"'` as `"say \\"no\\""`."""
+    if not text.startswith("'") or text.startswith("'''"):
+        return text
+    written = {"\\'": "'", '"': '\\"'}
+    return '"' + "".join(written.get(p, p) for p in _CHARACTERS.findall(text[1:-1])) + '"'
 
 
 def only_breaks_lines(node: Node) -> bool:
