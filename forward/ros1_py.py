@@ -137,7 +137,7 @@ def _node(c: PyClass) -> str:
             c=c,
             package=c.package.name,
             arguments=arguments,
-            formats=sorted(words_of(arguments) & set(VALUES)),
+            formats=imports(words_of(arguments), {f"{c.package.name}.values": VALUES}),
         )
     )
 
