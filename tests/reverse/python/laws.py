@@ -93,9 +93,10 @@ def _rule(node: object) -> object:
             return inner
         case m.Assign(value=value):
             return replace(node, value=_bare(value))
-        case m.Declarator(initial=m.Paren() as value) | m.Return(value=m.Paren() as value):
-            bare = {"initial" if isinstance(node, m.Declarator) else "value": _bare(value)}
-            return replace(node, **bare)
+        case m.Declarator(initial=m.Paren() as value):
+            return replace(node, initial=_bare(value))
+        case m.Return(m.Paren() as value):
+            return replace(node, value=_bare(value))
         case m.For(updates=updates, condition=condition):
             bare = condition.inner if isinstance(condition, m.Paren) else condition
             return replace(node, updates=tuple(_step(_bare(u)) for u in updates), condition=bare)
