@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 
 from rebsync import model as m
 from rebsync.config import TARGETS, Config
-from rebsync.forward import py_layout
 from rebsync.forward.generate import generate
 from rebsync.grammars.parser import parse_model
 from rebsync.source import Source
@@ -26,7 +25,6 @@ from tests.strategies import models
 pytestmark = pytest.mark.skipif(find_spec("ruff") is None, reason="ruff is not installed")
 
 _CASES = sorted((Path(__file__).parent / "cases").glob("*.rebeca"))
-_NARROW = (45, 60, 75)  # columns, of which a drawn statement fills many
 
 
 def assert_formatted(files: Mapping[str, str], folder: Path, *options: str) -> None:
@@ -75,22 +73,3 @@ def test_drawn_models(
     folder = tmp_path_factory.mktemp("drawn")
     assert_formatted(python_files(model, target), folder)
     assert_linted(folder)
-
-
-@given(models(), st.sampled_from(_NARROW))
-def test_narrow_classes(
-    tmp_path_factory: pytest.TempPathFactory, model: m.Model, columns: int
-) -> None:
-    """Bodies in narrow lines, where nearly each statement is broken."""
-    names = tuple(f"/{c.name.lower()}.py" for c in model.classes)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(py_layout, "LINE_LENGTH", columns)
-        files = python_files(model)
-    bodies = {p: _body(t) for p, t in files.items() if p.endswith(names)}
-    folder = tmp_path_factory.mktemp("narrow")
-    assert_formatted(bodies, folder, "--isolated", f"--line-length={columns}")
-
-
-def _body(text: str) -> str:
-    """A module without what it imports, which is in lines of the usual length."""
-    return text[text.index("# rebsync: ") :]
