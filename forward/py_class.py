@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from rebsync.forward.lineage import ancestors, base_of
-from rebsync.forward.py_layout import call_lines, indented
+from rebsync.forward.py_layout import indented
 from rebsync.forward.py_names import PyNames
 from rebsync.forward.py_statements import PyStatements
 from rebsync.forward.py_types import py_type, unset_value
@@ -106,15 +106,17 @@ class PyClass:
         head += [f"# rebsync: {m}" for m in markers]
         returned = py_type(result) if result is not None else "None"
         passed = ["self", *parameters_of(self.names, parameters)]
-        definition = call_lines(f"def {name}(", passed, f") -> {returned}:")
+        definition = f"def {name}({', '.join(passed)}) -> {returned}:"
         if body is None:
-            return [*head, "@abstractmethod", *definition, *indented(["raise NotImplementedError"])]
+            return [*head, "@abstractmethod", definition, *indented(["raise NotImplementedError"])]
         lines = self.statements.body(body, parameters, result)
         if returned != "None" and not self.statements.returns(body):
             lines = [line for line in lines if line != "pass"]
             assert result is not None
             lines.append(f"return {unset_value(result)}")
-        return [*head, *definition, *indented(lines)]
+        if lines == ["..."]:
+            return [*head, f"{definition} ..."]
+        return [*head, definition, *indented(lines)]
 
 
 def parameters_of(names: PyNames, parameters: tuple[Parameter, ...]) -> list[str]:

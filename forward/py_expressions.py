@@ -20,11 +20,10 @@ from rebsync.forward.py_operators import (
     Text,
     atom,
     float_literal,
-    implied,
 )
 from rebsync.forward.py_places import assigned, stepped
 from rebsync.forward.py_ranges import fits, is_distance, value_range
-from rebsync.forward.py_types import py_format
+from rebsync.forward.py_types import py_format, py_string
 from rebsync.intervals import Interval
 from rebsync.names import graph_name
 from rebsync.records import dataclass
@@ -114,7 +113,7 @@ class PyExpressions(PyExpressionWriter):
             case m.BoolLiteral():
                 return atom("True" if expression.value else "False")
             case m.StringLiteral():
-                return atom(expression.text)
+                return atom(py_string(expression.text))
             case m.NullLiteral():
                 return atom("NULL")
             case m.Name():
@@ -133,7 +132,7 @@ class PyExpressions(PyExpressionWriter):
                 return atom(call(self, expression))
             case m.Paren(inner):
                 found = self.raw(inner)
-                return Text(f"({found.text})", ATOM, implied(inner, found))
+                return atom(f"({found.text})")
             case _:
                 return self._compound(expression)
 

@@ -16,13 +16,15 @@ def words_of(lines: Iterable[str]) -> set[str]:
     return set(_WORD.findall(_NOT_CODE.sub("", "\n".join(lines))))
 
 
-def imports(used: set[str], modules: Mapping[str, Iterable[str]]) -> list[str]:
+def imports(
+    used: Iterable[str], modules: Mapping[str, Iterable[str]], indent: str = ""
+) -> list[str]:
     """The statements that import what is used of the modules, in the order of these."""
     lines: list[str] = []
     for module, names in modules.items():
-        found = sorted(set(names) & used, key=_order)
+        found = sorted(set(names).intersection(used), key=_order)
         if found:
-            lines += _import(module, found)
+            lines += _import(f"{indent}from {module} import", found, indent)
     return lines
 
 
@@ -33,8 +35,8 @@ def _order(name: str) -> tuple[int, list[tuple[int, str]]]:
     return kind, [(int(p), "") if p.isdigit() else (-1, p.lower()) for p in parts]
 
 
-def _import(module: str, names: list[str]) -> list[str]:
-    whole = f"from {module} import {', '.join(names)}"
+def _import(head: str, names: list[str], indent: str) -> list[str]:
+    whole = f"{head} {', '.join(names)}"
     if len(whole) <= LINE_LENGTH:
         return [whole]
-    return [f"from {module} import (", *(f"{INDENT}{n}," for n in names), ")"]
+    return [f"{head} (", *(f"{indent}{INDENT}{n}," for n in names), f"{indent})"]

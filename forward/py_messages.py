@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from rebsync.forward.class_names import publisher_place
 from rebsync.forward.py_class import PyClass, parameters_of
-from rebsync.forward.py_layout import call_lines, indented
+from rebsync.forward.py_layout import indented
 from rebsync.forward.py_names import server_constant
 from rebsync.forward.py_types import from_message, py_type
 from rebsync.model import Parameter, Type
@@ -77,7 +77,7 @@ def _shim(c: PyClass, server: Subscription) -> list[str]:
         f"lambda: {handler}({', '.join(values)})" if values else handler,
     ]
     head = f"def {c.names.shims[server.key]}(self, msg: {message.name}) -> None:"
-    return [head, *indented(call_lines("self._mailbox.receive(", arguments))]
+    return [head, *indented([f"self._mailbox.receive({', '.join(arguments)})"])]
 
 
 # --- out ----------------------------------------------------------------------------------------
@@ -127,7 +127,7 @@ def _self_send(c: PyClass, send: SelfSend) -> list[str]:
         f"text({passed})" if names else '""',
         f"lambda: {handler}({passed})" if names else handler,
     ]
-    lines = call_lines("self._mailbox.post(", arguments)
+    lines = [f"self._mailbox.post({', '.join(arguments)})"]
     marker = f"send {c.node.name}.self.{send.server}"
     return _helper(c, c.names.self_sends[send.key], [], send.parameters, lines, marker)
 
@@ -141,8 +141,8 @@ def _helper(
     marker: str,
 ) -> list[str]:
     passed = ["self", *to, *parameters_of(c.names, parameters), "when: When = AT_ONCE"]
-    head = call_lines(f"def {name}(", passed, ") -> None:")
-    return [f"# rebsync: {marker}", *head, *indented(lines)]
+    head = f"def {name}({', '.join(passed)}) -> None:"
+    return [f"# rebsync: {marker}", head, *indented(lines)]
 
 
 def to_message(field: Field, value: str) -> str:

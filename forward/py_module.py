@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_imports import imports, words_of
-from rebsync.forward.py_layout import indented
+from rebsync.forward.py_layout import INDENT, indented, laid_out
 from rebsync.forward.py_messages import sends, server_constants, shims
 from rebsync.forward.py_types import py_type, py_value
 from rebsync.forward.py_wiring import PyWords, class_lines, publish_state
@@ -28,8 +28,8 @@ def class_module(
     c: PyClass, words: PyWords, model_name: str, ros: Mapping[str, Iterable[str]]
 ) -> str:
     """`src/<package>/<class>.py`; `ros` are the names of the client library that it may use."""
-    body = _class(c, words)
-    constants = server_constants(c)
+    body = list(laid_out(_class(c, words)))
+    constants = list(laid_out(server_constants(c)))
     code = [*constants, *body]
     used = words_of(code)
     text = [f'"""The {_kind(c)} {c.node.name} of {model_name}{_role(c)}."""']
@@ -60,8 +60,8 @@ def _imports(
     ]
     lines = [line for g in groups if g for line in (*g, "")]
     if others:
-        found = [f"from {package}.{file} import {name}" for name, file in others.items()]
-        lines += ["if TYPE_CHECKING:", *indented(found), ""]
+        files = {f"{package}.{file}": (name,) for name, file in others.items()}
+        lines += ["if TYPE_CHECKING:", *imports(others, files, INDENT), ""]
     return lines
 
 
@@ -149,12 +149,12 @@ def sensors_module(c: PyClass, words: PyWords) -> str:
         for index, (draw, name) in enumerate(named):
             type_ = sensor.type.rpartition("/")[2]
             head = f"def {name}(msg: {type_}) -> {py_type(draw.type)}:"
-            functions += [*([""] * 2 if functions else []), head]
-            functions.append(f"    return {_read(sensor, draw, index)}")
+            functions += [*([""] * 2 if functions else []), *laid_out([head])]
+            functions += laid_out([f"    return {_read(sensor, draw, index)}"])
     own = {s.type for s in c.node.sensors if s.stands_in}
-    typing = imports(words_of(functions), {f"{c.package.name}.values": VALUES})
-    messages = _messages_of_others(c, words_of(functions))
-    messages += imports(own, {words.messages(c.package.name): own})
+    used = words_of(functions)
+    modules = {words.messages(c.package.name): own, f"{c.package.name}.values": VALUES}
+    groups = [_messages_of_others(c, used), imports(used, dict(sorted(modules.items())))]
     text = [
         f'"""What the sensors of {c.node.name} have seen, as the model\'s values.',
         "",
@@ -163,12 +163,12 @@ def sensors_module(c: PyClass, words: PyWords) -> str:
         "",
         "from __future__ import annotations",
         "",
-        *messages,
-        *typing,
-        "",
+        *(line for g in groups if g for line in (*g, "")),
         "",
         f"# rebsync: user {c.node.name}.sensors",
         *functions,
+        "",
+        "",
         "# rebsync: end",
     ]
     return "\n".join(text) + "\n"

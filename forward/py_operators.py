@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 
-from rebsync import model as m
+from rebsync.literals import plain_float
 from rebsync.records import dataclass
 
 TERNARY, NOT, COMPARISON, UNARY, ATOM = 1, 4, 5, 12, 15
@@ -19,26 +19,17 @@ BINARY = {
     **dict.fromkeys(("+", "-"), 10),
     **dict.fromkeys(("*", "/", "%"), 11),
 }
-# Where an operand needs parentheses in Python only: comparisons and `not` below other operators.
-_LOOSE = frozenset({"<", "<=", ">", ">=", "==", "!="})
 
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """An expression in Python and how tightly its operator binds.
-
-    `doubled` is the level from which parentheses of the model are doubled, since a single pair
-    would be there without them too.
-    """
+    """An expression in Python and how tightly its operator binds."""
 
     text: str
     level: int
-    doubled: int | None = None
 
     def at(self, least: int) -> str:
         """The text where an operator that binds at a level takes it."""
-        if self.doubled is not None and self.doubled < least:
-            return f"({self.text})"
         return self.text if self.level >= least else f"({self.text})"
 
 
@@ -47,23 +38,13 @@ def atom(text: str) -> Text:
     return Text(text, ATOM)
 
 
-def implied(inner: m.Expression, found: Text) -> int | None:
-    """The level of an expression that Python's operators tear apart, but not the model's."""
-    match inner:
-        case m.Unary("!"):
-            return found.level
-        case m.Binary(operator) if operator in _LOOSE:
-            return found.level
-        case _:
-            return None
-
-
 def float_literal(literal: str) -> str:
     """A literal of the model: float unless it says double."""
     digits, suffix = literal.replace("_", ""), ""
     if digits[-1] in "dDfF":
         digits, suffix = digits[:-1], digits[-1].lower()
         digits += "" if set(digits) & set(".eE") else ".0"
+    digits = plain_float(digits)
     if suffix:
         return f"float{64 if suffix == 'd' else 32}({digits})"
     value = float(digits)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
+
 from rebsync.forward.cpp_types import is_text
+from rebsync.literals import plain_float
 from rebsync.model import Type
 from rebsync.names import carry
 from rebsync.package import Draw, Value
@@ -31,6 +34,10 @@ _ZEROS = {
     **dict.fromkeys(("float", "double"), "0.0"),
     "boolean": "False",
 }
+
+
+_PARTS = re.compile(r"\\.|[^\\]")
+_QUOTES = ("\\'", '\\"')
 
 
 def class_type(name: str) -> str:
@@ -86,11 +93,20 @@ def py_value(value: Value) -> str:
         case bool():
             return "True" if value else "False"
         case str():
-            return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+            return py_string('"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"')
         case tuple():
             return f"Array([{', '.join(py_value(v) for v in value)}])"
+        case float():
+            return plain_float(repr(value))
         case _:
             return repr(value)
+
+
+def py_string(literal: str) -> str:
+    """A text in double quotes with the quotes that need fewer escapes, as a formatter has it."""
+    parts = [p[1] if p in _QUOTES else p for p in _PARTS.findall(literal[1:-1])]
+    quote = "'" if parts.count('"') > parts.count("'") else '"'
+    return quote + "".join(f"\\{p}" if p == quote else p for p in parts) + quote
 
 
 def py_choices(draw: Draw) -> str:

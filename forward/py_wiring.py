@@ -7,7 +7,7 @@ from typing import Protocol
 from rebsync.forward.class_names import publisher_place
 from rebsync.forward.lineage import base_of
 from rebsync.forward.py_class import PyClass, annotation_markers
-from rebsync.forward.py_layout import call_lines, indented
+from rebsync.forward.py_layout import indented
 from rebsync.forward.py_messages import own_subscriptions, to_message
 from rebsync.forward.py_types import first_value, py_type
 from rebsync.model import Type
@@ -71,7 +71,7 @@ def class_lines(c: PyClass, words: PyWords) -> list[list[str]]:
         passed = ["self", f"queue_length: int = {c.node.queue_length}"]
         passed.append("best_priority: int = NO_PRIORITY")
         lines = _wired(c, words, "queue_length", "best_priority")
-        found.append([*call_lines("def _wire(", passed, ") -> None:"), *indented(lines)])
+        found.append([f"def _wire({', '.join(passed)}) -> None:", *indented(lines)])
     return found
 
 
@@ -96,14 +96,11 @@ def _constructor(c: PyClass, words: PyWords, wired: list[str]) -> list[str]:
     lines.append("self._mailbox.on_served(self._publish_state)")
     if chosen.body is not None:
         for target, read in zip(typed, reads, strict=True):
-            lines += call_lines(f"{target} = {read[0]}(", read[1]) if read is not None else []
+            lines += [f"{target} = {read[0]}({', '.join(read[1])})"] if read is not None else []
         construct = f"self.{c.construct(chosen)}"
         body = f"lambda: {construct}({', '.join(names)})" if names else construct
-        lines += call_lines("self._mailbox.construct(", [body])
-    return [
-        *call_lines("def __init__(", ["self", *passed], ") -> None:"),
-        *indented(lines),
-    ]
+        lines.append(f"self._mailbox.construct({body})")
+    return [f"def __init__({', '.join(['self', *passed])}) -> None:", *indented(lines)]
 
 
 def constructor_of(c: PyClass) -> ConstructorOf:
@@ -170,11 +167,10 @@ def _publishers(c: PyClass, words: PyWords) -> list[str]:
         member = c.names.publishers[publisher_place(publisher)]
         topic, message = words.private(publisher.topic), publisher.message.name
         if publisher.known is not None:
-            made = call_lines(f"self.{member} = self._mailbox.advertise(", [f'"{topic}"', message])
+            made = f'advertise("{topic}", {message})'
         else:
-            arguments = [f'"{publisher.topic}"', f'"{publisher.key}"', message]
-            made = call_lines(f"self.{member} = self._mailbox.advertise_all(", arguments)
-        lines += made
+            made = f'advertise_all("{publisher.topic}", "{publisher.key}", {message})'
+        lines.append(f"self.{member} = self._mailbox.{made}")
     return lines
 
 
@@ -184,8 +180,8 @@ def _subscriptions(c: PyClass, words: PyWords) -> list[str]:
         member, shim = c.names.subscribers[server.key], c.names.shims[server.key]
         function = "subscribe_on_bridge" if server.on_bridge else "subscribe"
         topic = server.topic if server.on_bridge else words.private(server.topic)
-        arguments = [f'"{topic}"', server.message.name, f"self.{shim}"]
-        lines += call_lines(f"self.{member} = self._mailbox.{function}(", arguments)
+        made = f'{function}("{topic}", {server.message.name}, self.{shim})'
+        lines.append(f"self.{member} = self._mailbox.{made}")
     return lines
 
 
@@ -201,8 +197,8 @@ def _offers(c: PyClass, words: PyWords) -> list[str]:
         arguments = [f'"{topic}"', f'"{offer.server}"', *types, shim]
         if offer.feedback is not None:
             arguments += [f'"{offer.feedback_server}"', offer.feedback.name]
-        head = f"self.{c.names.offers[server.key]} = self._mailbox.{function}("
-        lines += call_lines(head, arguments)
+        made = f"{function}({', '.join(arguments)})"
+        lines.append(f"self.{c.names.offers[server.key]} = self._mailbox.{made}")
     return lines
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from rebsync.forward.message_files import action_names, message_files, message_names, service_names
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_classes import classes
-from rebsync.forward.py_imports import words_of
-from rebsync.forward.py_layout import call_lines
+from rebsync.forward.py_imports import imports, words_of
+from rebsync.forward.py_layout import formatted
 from rebsync.forward.py_module import VALUES, class_module, sensors_module
 from rebsync.forward.py_types import from_message, plain_type, py_choices, py_format, py_value
 from rebsync.forward.py_wiring import constructor_of
@@ -131,12 +131,14 @@ def _node(c: PyClass) -> str:
     constructor = constructor_of(c)
     pairs = zip(constructor.keys, constructor.parameters, strict=True)
     arguments = [_argument(key, parameter.type) for key, parameter in pairs]
-    return fill(
-        f"{_FOLDER}/node.j2",
-        c=c,
-        package=c.package.name,
-        construction=call_lines(f"rebec = {c.type_name}(", arguments),
-        formats=sorted(words_of(arguments) & set(VALUES)),
+    return formatted(
+        fill(
+            f"{_FOLDER}/node.j2",
+            c=c,
+            package=c.package.name,
+            arguments=arguments,
+            formats=imports(words_of(arguments), {f"{c.package.name}.values": VALUES}),
+        )
     )
 
 
@@ -153,7 +155,6 @@ def _argument(key: str, type_: Type) -> str:
 
 def _stand_in(package: Package, node: NodeClass) -> str:
     sensors = played_sensors(node, py_choices)
-    types = sorted({s.type for s in sensors})
-    return fill(
-        f"{_FOLDER}/stand_in.j2", package=package.name, node=node, sensors=sensors, types=types
-    )
+    types = {s.type for s in sensors}
+    found = imports(types, {f"{package.name}.msg": types})
+    return formatted(fill(f"{_FOLDER}/stand_in.j2", imports=found, node=node, sensors=sensors))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from rebsync.forward.cpp_class import CppClass
 from rebsync.forward.headers import unchecked
 from rebsync.forward.message_files import action_names, message_names, service_names
+from rebsync.forward.py_layout import formatted
 from rebsync.forward.ros2_constructors import component
 from rebsync.forward.runtime_part import message_packages, odometry_topic
 from rebsync.forward.templating import fill
@@ -74,13 +75,15 @@ def launch_file(package: Package) -> str:
     nodes += [_stand_in(package, s) for s in package.stand_ins]
     system = _system(package)
     values = [value for _, value in system] + [v for n in nodes for _, v in n.parameters]
-    return fill(
-        "ros2_cpp/package.launch.py.j2",
-        package=package,
-        nodes=nodes,
-        system=system,
-        lifecycle=package.settings.lifecycle,
-        typed=any("ParameterValue(" in value for value in values),
+    return formatted(
+        fill(
+            "ros2_cpp/package.launch.py.j2",
+            package=package,
+            nodes=nodes,
+            system=system,
+            lifecycle=package.settings.lifecycle,
+            typed=any("ParameterValue(" in value for value in values),
+        )
     )
 
 
@@ -137,12 +140,14 @@ def _python_list(names: list[str] | tuple[str, ...], indent: int) -> str:
     """A list of names, on lines of its own where one is too long."""
     texts = [f'"{name}"' for name in names]
     typed = any(is_yaml_word(name) for name in names)
-    before, after = ("ParameterValue([", "], value_type=list[str])") if typed else ("[", "]")
-    line = f"{before}{', '.join(texts)}{after}"
+    before, after = ("ParameterValue(", ", value_type=list[str])") if typed else ("", "")
+    line = f"{before}[{', '.join(texts)}]{after}"
     if indent + len(line) <= _LINE_LENGTH - 40:
         return line
-    inner = "".join(f"\n{' ' * (indent + 4)}{text}," for text in texts)
-    return f"{before}{inner}\n{' ' * indent}{after}"
+    edge = "\n" + " " * (indent + 4 * typed)
+    inner = f"[{''.join(f'{edge}    {text},' for text in texts)}{edge}]"
+    last = "\n" + " " * indent
+    return f"{before}{edge}{inner},{edge}value_type=list[str],{last})" if typed else inner
 
 
 # --- parameters ---------------------------------------------------------------------------------

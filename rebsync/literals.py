@@ -39,3 +39,11 @@ def initial_of(value: Value) -> m.Initializer:
     if isinstance(value, tuple):
         return m.ArrayInitializer(tuple(initial_of(v) for v in value))
     return literal_of(value)
+
+
+def plain_float(digits: str) -> str:
+    """A number with digits on both sides of its point and no `+` in its exponent."""
+    before, exponent, power = digits.replace("E", "e").partition("e")
+    whole, point, rest = before.partition(".")
+    rest = f".{rest or '0'}" if point else ""
+    return f"{whole or '0'}{rest}{exponent}{power.removeprefix('+')}"

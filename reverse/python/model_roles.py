@@ -31,7 +31,7 @@ from rebsync.reverse.python.model_types import (
     is_unset,
     literal_type,
     markers_above,
-    markers_beside,
+    markers_at,
     passed_on,
     string_value,
     type_made,
@@ -283,7 +283,7 @@ def _connected(roles: PyRoles, member: str, method: str, arguments: list[Node]) 
 def _variable(
     roles: PyRoles, function: Scope, attribute: str, statement: Node, value: Node, type_: m.Type
 ) -> None:
-    markers = markers_beside(function.py, statement)
+    markers = markers_at(function.py, statement)
     name = variable_name(attribute, markers)
     read = parameter_read(value, roles.declared)
     roles.stored[attribute] += not is_unset(value)

@@ -25,6 +25,7 @@ _PLAIN = {
     "bool": "boolean",
     "None": "void",
 }
+_CHARACTERS = re.compile(r"\\.|[^\\]", re.DOTALL)
 _MARKER = re.compile(r"#\s*rebsync:\s*(.*?)\s*$")
 _QUOTES = "\"'"
 _UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(")
@@ -119,13 +120,14 @@ def annotations_above(py: Py, node: Node) -> tuple[m.Annotation, ...]:
     return tuple(a for x in markers_above(py, node) if (a := annotation(x, span)) is not None)
 
 
-def markers_beside(py: Py, node: Node) -> list[str]:
-    """The marker at the end of the line on which something ends."""
+def markers_at(py: Py, node: Node) -> list[str]:
+    """The markers above something, and that at the end of the line on which it ends."""
     span = py.span(node)
     position = py.source.position(span.end)
     rest = py.source.line(position.line)[position.column - 1 :]
     match = _MARKER.search(rest)
-    return [match[1]] if match is not None else []
+    beside = [match[1]] if match is not None else []
+    return [*markers_above(py, node), *beside]
 
 
 def literal_type(node: Node) -> m.Type | None:
@@ -187,10 +189,11 @@ def called_late(node: Node) -> Node | None:
 
 
 def in_double_quotes(text: str) -> str:
-    """A string as the model writes it."""
-    plain = text[1:-1]
-    is_single = text.startswith("'") and not text.startswith("'''")
-    return f'"{plain}"' if is_single and not set(plain) & {'"', "\\"} else text
+    """A string as the model writes it: `'say "no"'` as `"say \\"no\\""`."""
+    if not text.startswith("'") or text.startswith("'''"):
+        return text
+    written = {"\\'": "'", '"': '\\"'}
+    return '"' + "".join(written.get(p, p) for p in _CHARACTERS.findall(text[1:-1])) + '"'
 
 
 def only_breaks_lines(node: Node) -> bool:

@@ -20,7 +20,7 @@ from dataclasses import fields, replace
 from typing import TypeVar, cast
 
 from rebsync import model as m
-from rebsync.literals import initial_of, literal_of
+from rebsync.literals import initial_of, literal_of, plain_float
 from rebsync.static import Analysis, analyse
 from rebsync.static.constants import constant
 from rebsync.static.symbols import EnvSymbol
@@ -194,8 +194,9 @@ def _unwritten(node: object) -> object:
     match node:
         case m.Assign("+=" | "-=" as operator, target, m.IntLiteral(1)):
             return m.Unary(operator[0] * 2, target, node.span)
-        case m.FloatLiteral(text) if text[-1] in "fF":
-            return replace(node, text=text[:-1])
+        case m.FloatLiteral(text):
+            digits, suffix = text.rstrip("fFdD"), text[-1:].strip("0123456789.fF")
+            return replace(node, text=plain_float(digits) + suffix)
         case m.Switch(cases=(*others, m.Case(statements=(*kept, m.Break())) as last)):
             return replace(node, cases=(*others, replace(last, statements=tuple(kept))))
         case _:

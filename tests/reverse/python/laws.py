@@ -14,6 +14,8 @@ from rebsync.roundtrip.diff.normal_form import as_in_python, normal, rewrite
 from rebsync.static import analyse
 from tests.reverse.laws import assert_same, extracted
 
+_COMPARED = frozenset({"<", "<=", ">", ">=", "==", "!="})
+
 __all__ = ["assert_says", "extracted", "python_files", "python_normal", "without_chains"]
 
 
@@ -35,8 +37,9 @@ def python_normal(model: m.Model) -> m.Model:
     """A normal form without what Python does not show, nor what compares as one anyway.
 
     The latter is `self.x` against `x` where nothing hides it, `++x` against `x++` as statements,
-    `m()` against `self.m()`, and parentheses around a whole condition or around a conditional
-    expression in another.
+    `m()` against `self.m()`, and parentheses that a formatter of Python takes away (around a whole
+    condition or value, doubled ones) or that are there in any case (around comparisons and `!`
+    below other operators, assignments that are values, conditional expressions in another).
     """
     return rewrite(as_in_python(model), _rule)
 
@@ -84,6 +87,16 @@ def _rule(node: object) -> object:
             return replace(node, target=None)
         case m.ExpressionStatement(expression):
             return replace(node, expression=_step(_bare(expression)))
+        case m.Paren(m.Paren() | m.Assign() | m.Unary("!") as inner):
+            return inner
+        case m.Paren(m.Binary(operator) as inner) if operator in _COMPARED:
+            return inner
+        case m.Assign(value=value):
+            return replace(node, value=_bare(value))
+        case m.Declarator(initial=m.Paren() as value):
+            return replace(node, initial=_bare(value))
+        case m.Return(m.Paren() as value):
+            return replace(node, value=_bare(value))
         case m.For(updates=updates, condition=condition):
             bare = condition.inner if isinstance(condition, m.Paren) else condition
             return replace(node, updates=tuple(_step(_bare(u)) for u in updates), condition=bare)

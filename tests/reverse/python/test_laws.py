@@ -120,3 +120,11 @@ def test_layout_does_not_matter(length: int, tmp_path: Path) -> None:
         )
         laid_out = {p: (folder / p).read_text(encoding="utf-8") for p in files}
         assert_says(laid_out, model)
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize("text", [r"say \"no\"", r"it's", r"\"it's\"", r"a \\ b", r"\" \\\" '"])
+def test_texts_with_quotes_come_back(text: str, target: str) -> None:
+    body = f'reactiveclass R(2) {{ R() {{ assertion(true, "{text}"); }} }} main {{ R r():(); }}'
+    model = parse_model(Source("model", body)).model
+    assert_says(python_files(model, target), model)

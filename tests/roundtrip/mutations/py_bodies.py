@@ -116,15 +116,20 @@ KINDS = (
     Kind("loop starts later", within(r"\brange\((\d+)\)", r"range(1, \1)")),
     Kind("loop in greater steps", within(r"\brange\((\d+)\)", r"range(0, \1, 2)")),
     Kind("loop ends earlier", within(r"\brange\(\d+\)", "range(1)")),
-    Kind("another result", within(r"return ([^\n]+)$", _other_result, "method")),
+    Kind("another result", within(r"return ([^\n]+[^\n(])$", _other_result, "method")),
     Kind(
         "another rebec as result",
         within(r"return (self\._\w+)$", other_rebec(r"return (self\._\w+)$"), "method"),
     ),
-    Kind("assertion removed", within(r"^( *)self\._mailbox\.assertion\([^\n]*\n", r"\1pass\n")),
+    Kind(
+        "assertion removed",
+        within(
+            r"^( *)self\._mailbox\.assertion\((?:\n(?:\1 +[^\n]*\n)*\1\)|[^\n]+)\n", r"\1pass\n"
+        ),
+    ),
     Kind(
         "assertion of Python",
-        within(r"^( *)self\._mailbox\.assertion\((.*),[^,]*\)$", r"\1assert \2"),
+        within(r"^( *)self\._mailbox\.assertion\(\s*(.*),\s*[^,\n]*,?\s*\)$", r"\1assert \2"),
     ),
     Kind("delay one longer", within(r"_mailbox\.delay\((.*)\)$", r"_mailbox.delay((\1) + 1)")),
     Kind("delay removed", within(r"^( *)self\._mailbox\.delay\([^\n]*\n", r"\1pass\n")),

@@ -138,9 +138,13 @@ KINDS = (
         "arguments of construct swapped",
         within(r"(\bconstruct\()(\w+), (\w+)", r"\1\3, \2", _S),
     ),
-    Kind("construct left out", within(r"^ *self\._mailbox\.construct\([^\n]*\n", "", _S)),
     Kind(
-        "construct called at once", within(r"self\._mailbox\.construct\(lambda: (.*)\)$", r"\1", _S)
+        "construct left out",
+        within(r"^( *)self\._mailbox\.construct\((?:\n(?:\1 +[^\n]*\n)*\1\)|[^\n]+)\n", "", _S),
+    ),
+    Kind(
+        "construct called at once",
+        within(r"self\._mailbox\.construct\(\s*lambda: (.*\))\s*\)$", r"\1", _S),
     ),
     Kind(
         "send while set up",

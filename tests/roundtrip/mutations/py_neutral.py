@@ -240,10 +240,10 @@ KINDS = (
     Kind("single quotes", _rewritten(_other_quotes)),
     Kind("statement in parentheses", within(r" = ([^\n]+)$", r" = (\1)", *BODIES)),
     Kind("condition in parentheses", within(r"\b((?:el)?if) (.*):$", r"\1 (\2):")),
-    Kind("result in parentheses", within(r"return ([^\n]+)$", r"return (\1)")),
+    Kind("result in parentheses", within(r"return ([^\n]+[^\n(])$", r"return (\1)")),
     Kind("comparison in parentheses", within(r"(?<=if )(\S+ (?:==|<|>) \S+)(?=:$)", r"(\1)")),
     Kind("continued line", within(r" = (?=[^\n]+$)", " = \\\\\n            ", *BODIES)),
-    Kind("semicolon", within(r"^( *)(self\.[^\n]*[)\w])$", r"\1\2;")),
+    Kind("semicolon", within(r"^( *)(self\.[^\n]*[)\w])$(?!\n\1[ )])", r"\1\2;")),
     Kind(
         "two statements on a line",
         within(r"^( *)(self\._[^\n]*)\n\1(self\.send_\w+\(.*\))$", r"\1\2; \3"),

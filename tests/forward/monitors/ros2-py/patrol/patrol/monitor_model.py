@@ -52,8 +52,7 @@ MODEL = Model(
         ("SETVAR", 0, 0, ()),
         ("RET", 0, 0, ()),
     ),
-    texts=(
-    ),
+    texts=(),
     bodies=(
         Body(0, 0, 0),  # Station.call
         Body(11, 1, 1),  # Station.arrived
