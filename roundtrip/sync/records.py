@@ -138,10 +138,11 @@ def _odd(
             (known if odd.is_known else left).append(odd.finding)
         else:
             accepted.add(odd.finding.diagnostics[0].message)
-    if accepted:  # which keeps no lost message from being told
+    if accepted:  # which keeps nothing from being told that is not accepted itself
         by_then = replace(record, accepted=frozenset(accepted))
-        again = odd_facts(package, by_then, now, Comparison(()))
-        left += [o.finding for o in again if o.is_lost and o.finding not in left]
+        again = (o.finding for o in odd_facts(package, by_then, now, Comparison(())))
+        others = (f for f in again if f.diagnostics[0].message not in accepted)
+        left += [f for f in others if f not in left and f not in known]
     return sorted(accepted), known, left
 
 
