@@ -64,7 +64,8 @@ _SETTINGS = {
 class Odd:
     """Facts of one key that are not as they were; one of the two may be missing.
 
-    Without any, nodes are joined otherwise all the same. `is_known` says that messages are known to get elsewhere than the model sends them.
+    Without any, nodes are joined otherwise all the same. `is_known` says that messages are known
+    to get elsewhere than the model sends them.
     """
 
     before: tuple[Fact, ...]
