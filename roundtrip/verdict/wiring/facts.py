@@ -64,13 +64,14 @@ _SETTINGS = {
 class Odd:
     """Facts of one key that are not as they were; one of the two may be missing.
 
-    Without any, nodes are joined otherwise all the same. `is_known` says that messages are known
-    to get elsewhere than the model sends them.
+    Without any, nodes are joined otherwise all the same: `is_lost` says that messages get lost.
+    `is_known` says that messages are known to get elsewhere than the model sends them.
     """
 
     before: tuple[Fact, ...]
     now: tuple[Fact, ...]
     finding: Findings
+    is_lost: bool = False
     is_known: bool = False
 
 
@@ -194,8 +195,8 @@ def _unseen(package: ManagedPackage, excuses: Excuses) -> Iterator[Odd]:
     """What is joined otherwise, though no fact that was there before is another."""
     if excuses.groups or excuses.before is None or excuses.now is None:
         return
-    before, now = excuses.before, excuses.now
-    if (what := before.loses(now) or before.gains(now)) is not None:
+    lost = excuses.before.loses(excuses.now)
+    if (what := lost or excuses.before.gains(excuses.now)) is not None:
         message = f"nodes are joined otherwise: {what}"
         hint = "look at the names of topics in the code and in the launch file"
         new = (f for key, facts in excuses.today.items() if key not in excuses.base for f in facts)
@@ -203,7 +204,7 @@ def _unseen(package: ManagedPackage, excuses: Excuses) -> Iterator[Odd]:
         source = remap.source if remap is not None else Source(package.root, "")
         span = remap.span if remap is not None else NOWHERE
         diagnostic = Diagnostic("RS956", span, message, hint)
-        yield Odd((), (), Findings(source, (diagnostic,)))
+        yield Odd((), (), Findings(source, (diagnostic,)), lost is not None)
 
 
 def _inside(package: ManagedPackage, fact: Fact) -> str:
