@@ -11,7 +11,7 @@ from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.build.field_order import Messages, are_named, in_order
 from rebsync.reverse.generated.ros1_roles import Roles, Taken, call_in
 from rebsync.reverse.syntax.cpp_index import Code
-from rebsync.reverse.syntax.cpp_tree import text_of
+from rebsync.reverse.syntax.cpp_tree import inside, part, text_of
 
 
 def as_handed_on(
@@ -35,10 +35,24 @@ def _orders(code: Code, roles: Mapping[str, Roles]) -> Iterator[tuple[str, Seque
 
 def handed_on(taken: Taken) -> list[str] | None:
     """The fields that a shim hands on to a handler in their order, each once; None for others."""
-    called = call_in(taken.call.arguments[-1])
-    passed = [_field(a, taken.message.name) for a in called[1]] if called is not None else [None]
+    given = arguments_of(taken)
+    passed = [_field(a, taken.message.name) for a in given] if given is not None else [None]
     found = [name for name in passed if name is not None]
     return found if len(set(found)) == len(passed) else None
+
+
+def arguments_of(taken: Taken) -> list[Node] | None:
+    """What a shim hands on; what its lambda has captured under another name, as it was there."""
+    serve = taken.call.arguments[-1]
+    called = call_in(serve)
+    if called is None:
+        return None
+    captured = {
+        text_of(part(each, "left")): part(each, "right")
+        for each in inside(serve, "lambda_capture_initializer")
+        if not text_of(each).startswith("&")
+    }
+    return [captured.get(text_of(a), a) for a in called[1]]
 
 
 def _field(argument: Node, message: str) -> str | None:

@@ -13,7 +13,7 @@ from typing import TypeAlias
 from tree_sitter import Node
 
 from rebsync.model import Type
-from rebsync.reverse.generated.ros1_handed import handed_on
+from rebsync.reverse.generated.ros1_handed import arguments_of, handed_on
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_posts import tells_arguments
@@ -94,9 +94,9 @@ def _tells_of_message(
 
 def _is_shown(taken: Taken) -> bool:
     """Whether the mailbox gets the text of what the handler gets, which is made by nothing else."""
-    told, called = taken.call.arguments[3], call_in(taken.call.arguments[-1])
-    if taken.handler is not None and called is not None:
-        return tells_arguments(told, called[1])
+    told, given = taken.call.arguments[3], arguments_of(taken)
+    if taken.handler is not None and given is not None:
+        return tells_arguments(told, given)
     calls = {call.name.partition("<")[0] for call in calls_in(told)}
     return calls <= {"text", "unflatten"} and not inside(told, *_CHANGES)
 

@@ -333,7 +333,7 @@ class ModelBodies:
             name: text_of(b.value) if b.value is not None else ""
             for name, bindings in owner.module.names.items()
             for b in bindings
-            if b.how == "import" and b.node.type == "import_statement"
+            if len(bindings) == 1 and b.how == "import" and _is_at_the_top(b.node)
         }
         line = self.line(owner)
         posting = (f for c in line for f in self.roles(c).functions.values())
@@ -382,3 +382,9 @@ def _plain(node: Node) -> str:
     if node.type == "typed_parameter":
         return text_of(named(node)[0])
     return text_of(node.child_by_field_name("name") or node)
+
+
+def _is_at_the_top(node: Node) -> bool:
+    """Whether a module is imported whatever happens, and not only for who checks types."""
+    around = node.parent
+    return node.type == "import_statement" and around is not None and around.type == "module"

@@ -65,7 +65,7 @@ def of_python(
             raise reader.unread(node, NO_LENGTH.format(called))
         case "len", [given] if given.type in ("list", "tuple"):
             return m.IntLiteral(len(named(given)))
-        case _, [key, default] if called.endswith("}.get"):
+        case _, [key, default] if called.endswith(".get"):
             return _looked_up(reader, node, key, default)
         case _:
             return None
@@ -86,6 +86,7 @@ def _looked_up(
 ) -> m.Expression | None:
     """`{1: a, 2: b}.get(key, default)`, of numbers written out and what does nothing."""
     table = field(field(node, "function"), "object")
+    table = reader.kept_tables.get(text_of(table), table)
     pairs = [(field(p, "key"), field(p, "value")) for p in named(table) if p.type == "pair"]
     values = [value for _, value in pairs] + [default]
     is_known = table.type == "dictionary" and len(pairs) == len(named(table)) <= _MOST

@@ -24,9 +24,9 @@ class ModelExpressionReader(ABC):
 
     `types` are those of the locals, by their names in the model; `bound` names that stand for an
     expression while a comprehension is read; `closures` what functions of the body give, which do
-    nothing; `kept_sends` what sends, by the names of locals that stand for it; `moments` the
-    times of sends, by those that hold them; `own` is what the object is called; `cuts` are the
-    integers that are cut to the width that they have in the model.
+    nothing; `kept_sends` what sends, by the names of locals that stand for it, and `kept_tables`
+    what is looked up; `moments` the times of sends, by those that hold them; `own` is what the
+    object is called; `cuts` are the integers that are cut to the width that they have in the model.
     """
 
     py: Py
@@ -37,6 +37,7 @@ class ModelExpressionReader(ABC):
     bound: dict[str, m.Expression] = with_default(default_factory=dict)
     closures: dict[str, Closure] = with_default(default_factory=dict)
     kept_sends: dict[str, str] = with_default(default_factory=dict)
+    kept_tables: dict[str, Node] = with_default(default_factory=dict)
     moments: dict[str, dict[str, m.Name]] = with_default(default_factory=dict)
     own: str = "self"
     cuts: Cuts = with_default(default_factory=Cuts)

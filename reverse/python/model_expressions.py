@@ -249,9 +249,16 @@ class Expressions(ModelExpressionReader):
 
     # --- calls ----------------------------------------------------------------------------------
 
+    def _of_values(self, called: str) -> str:
+        """What is called; a function of the run-time part by its name where `v` is its module."""
+        module, _, name = called.rpartition(".")
+        package = self.py.source.path.rpartition("/")[0].rpartition("/")[2]
+        is_values = self.names.imported.get(module) == f"{package}.values as {module}"
+        return name if is_values and module not in self.locals else called
+
     def _call(self, node: Node) -> m.Expression:
         called, arguments = call_parts(node) or ("", [])
-        called = self.kept_sends.get(called, called)
+        called = self._of_values(self.kept_sends.get(called, called))
         if called in self.closures:
             return closures.value_of_call(self, node, called, arguments)
         if called in formats.FORMATS and len(arguments) == 1:

@@ -19,6 +19,7 @@ from rebsync.reverse.python.model_closures import arguments_of
 from rebsync.reverse.python.model_names import Closure
 from rebsync.reverse.python.model_types import call_parts, type_of
 from rebsync.reverse.python.py_tree import calls_in, field, named, nodes_in, text_of
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.static.types import INT
 
 if TYPE_CHECKING:
@@ -70,6 +71,35 @@ def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> bool:
     return True
 
 
+def kept_table(reader: ModelStatementReader, left: Node, value: Node) -> bool:
+    """Whether `table = {1: a, 2: b}` was taken for what the next statement looks up, and only it.
+
+    Nothing of what the table holds changes until then.
+    """
+    if value.type != "dictionary" or left.type != "identifier":
+        return False
+    name, asked = text_of(left), _value_behind(value)
+    called, _ = call_parts(asked) or ("", [])
+    if called != f"{name}.get" or len(_mentions(value, name)) != 2:
+        return False
+    reader.expressions.kept_tables[name] = value
+    return True
+
+
+def _value_behind(value: Node) -> Node | None:
+    """What the statement behind that of a value stores or returns."""
+    statement = climb(value, lambda node: node.type == "expression_statement")
+    following = statement.next_named_sibling if statement is not None else None
+    while following is not None and following.type == "comment":
+        following = following.next_named_sibling
+    inner = named(following)[:1] if following is not None else []
+    if following is None or not inner:
+        return None
+    if inner[0].type == "assignment":
+        return inner[0].child_by_field_name("right")
+    return inner[0] if following.type == "return_statement" else None
+
+
 def kept_moment(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
     """The times of `soon = When(after=a)`: known where it is made, and counted from each send."""
     called, _ = call_parts(value) or ("", [])
@@ -112,16 +142,20 @@ def _is_bound_once(node: Node, name: str, passed: bool = False) -> bool:
 
     What has it called, or `passed` on, does not.
     """
-    around = node.parent
-    while around is not None and around.type != "function_definition":
-        around = around.parent
     found = 0
-    for each in nodes_in(around) if around is not None else ():
-        if each.type == "identifier" and text_of(each) == name and each.parent is not None:
-            above = each.parent
-            called = above.type == "call" and field(above, "function") == each
-            found += not (above.type == "argument_list" if passed else called)
+    for each in _mentions(node, name):
+        above = each.parent
+        called = above is not None and above.type == "call" and field(above, "function") == each
+        is_passed = above is not None and above.type == "argument_list"
+        found += not (is_passed if passed else called)
     return found == 1
+
+
+def _mentions(node: Node, name: str) -> list[Node]:
+    """Where the method around says a name."""
+    around = climb(node, lambda above: above.type == "function_definition")
+    every = nodes_in(around) if around is not None else ()
+    return [each for each in every if each.type == "identifier" and text_of(each) == name]
 
 
 def inline_call(

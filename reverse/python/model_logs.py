@@ -73,7 +73,21 @@ class Looks:
             return len(named(field(call, "arguments"))) in (1, 2)
         if name in ON_CLOCKS:
             return holder.type == "call" and not named(field(call, "arguments"))
-        return name == "format" and holder.type in ("string", "concatenated_string")
+        is_text = holder.type in ("string", "concatenated_string")
+        return is_text and (name == "format" or (name == "join" and self._joins_texts(call)))
+
+    def _joins_texts(self, call: Node) -> bool:
+        """Whether what is joined is a text for each of some elements: anything else is an error."""
+        given = field(call, "arguments")
+        if given.type != "generator_expression":
+            (given, *rest) = named(given) or [given]
+            if rest or given.type != "list_comprehension":
+                return False
+        body = field(given, "body")
+        if body.type == "string":
+            return True
+        makes_text = body.type == "call" and text_of(field(body, "function")) in ("str", "repr")
+        return makes_text and self._is_look(body)
 
     def logs(self, call: Node) -> bool:
         """Whether a call only logs what is there already."""

@@ -196,6 +196,8 @@ class Statements(ModelStatementReader):
             return []
         if inner_functions.kept_send(self, left, value):
             return []
+        if inner_functions.kept_table(self, left, value):
+            return []
         if (times := inner_functions.kept_moment(self, left, value)) is not None:
             return times
         if value.type == "assignment":

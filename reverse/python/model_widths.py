@@ -26,6 +26,8 @@ from rebsync.source import NOWHERE, Span
 _SUMS = frozenset({"+", "-", "*", "&", "|", "^"})
 _SIGNS = frozenset({"+", "-", "~"})
 _DISTANCES = Interval(0, 31)
+# Numbers that are no index of an array of less than 2^30 elements, or are the same cut to 32 bits.
+_INDICES = Interval(-(3 << 30), (1 << 32) - 1)
 _TESTS = frozenset({"<", "<=", ">", ">=", "==", "!=", "&&", "||"})
 _EXACT = Interval(-(1 << 24), 1 << 24)  # the integers that 32 bits with a point hold
 _OTHER = "not the number of the model"
@@ -223,7 +225,7 @@ class _Widths:
                 if operator not in _TESTS and self._real_type(expression) == "float":
                     self._round(expression)
             case m.Index(array, index):
-                self.used(index, INT32)
+                self.used(index, _INDICES)
                 if array_of(expression) is None or isinstance(array, m.Index):
                     self.used(array, None)
             case m.Cast(type_, operand):
@@ -335,6 +337,8 @@ def _uncut(wanted: Interval) -> str:
         return f"{_OTHER}: shifted by any distance"
     if wanted == _EXACT:
         return _UNROUNDED
+    if wanted == _INDICES:
+        wanted = INT32
     return f"{_OTHER}: not cut to {(wanted.high + 1).bit_length()} bits"
 
 

@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from rebsync.reverse.build.cmake_targets import EXECUTABLE, LIBRARY, TARGETLESS
 from rebsync.reverse.build.cmake_text import Argument, Command, CommandBlock, Item, read_cmake
+from rebsync.reverse.scaffold.build_lists import ConstantLists
 from rebsync.reverse.scaffold.fact import Fact
 from rebsync.reverse.scaffold.texts import squeezed
 from rebsync.source import Source, Span
@@ -58,14 +59,16 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
     commands = list(_commands(read_cmake(source).items))
     names = dict(filter(None, (_named(command) for command, _ in commands)))
     own = {argument.text for command, _ in commands for argument in command.arguments}
+    lists = ConstantLists(commands, _sets_what_it_names)
     for command, condition in commands:
+        lists.passed(command, condition)
         words = [argument.text for argument in command.arguments]
         found = (
             *_compiled(command, words),
             *_steps(command, words),
             *_included(command, words, own),
         )
-        for fact in (*found, *_made(command, words, names)):
+        for fact in (*found, *_made(lists.written_out(command), names)):
             kind, owner, name, value, span = fact
             yield Fact(kind, owner, name, f"{value}{condition}", source, span)
 
@@ -95,6 +98,14 @@ def _condition(head: Command) -> str:
     words = " ".join(argument.text for argument in head.arguments)
     is_true = head.name == "if" and words.upper() in ("TRUE", "ON", "YES", "1")
     return "" if is_true else f" only under {head.name}({squeezed(words)})"
+
+
+def _sets_what_it_names(name: str) -> bool:
+    """Whether a command leaves all variables of the file as they are that it does not name."""
+    if name in ("add_subdirectory", "include"):
+        return False
+    is_block = name in ("if", "elseif", "else", "foreach", "while")
+    return is_block or name in _COMMANDS or _OTHERS.fullmatch(name) is not None
 
 
 def _named(command: Command) -> tuple[str, str] | None:
@@ -180,9 +191,9 @@ def _asks(words: Sequence[str]) -> bool:
     return run[:2] in (["git", "describe"], ["git", "rev-parse"], ["git", "log"])
 
 
-def _made(command: Command, words: Sequence[str], names: dict[str, str]) -> Iterator[_Told]:
+def _made(command: Command, names: dict[str, str]) -> Iterator[_Told]:
     """What is built, and what is installed."""
-    span = command.span
+    span, words = command.span, [argument.text for argument in command.arguments]
     match command.name:
         case "add_executable" if words:
             target = names.get(words[0], words[0])

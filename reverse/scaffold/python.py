@@ -13,6 +13,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
+from typing import TypeGuard
 
 from rebsync.names import uncarry
 from rebsync.records import dataclass
@@ -80,13 +81,8 @@ class _Class:
 
     @classmethod
     def of(cls, source: Source, tree: ast.Module, node: ast.ClassDef) -> _Class:
-        servers = {
-            target.id: value
-            for statement in tree.body
-            if isinstance(statement, ast.Assign)
-            for target, value in [(statement.targets[0], statement.value)]
-            if isinstance(target, ast.Name) and isinstance(value, ast.Call) and _is_server(value)
-        }
+        assigned = filter(None, map(_assigned, tree.body))
+        servers = {name: value for name, value in assigned if _is_server(value)}
         named = cls(source, uncarry(node.name, NO_PYTHON_CLASSES), node, servers, {})
         handlers = {
             handler: named.server(call.args[0])
@@ -311,7 +307,16 @@ def _in_order(lines: Iterable[str]) -> Iterator[str]:
         yield from sorted(found) if is_filling else found
 
 
-def _is_server(value: ast.Call) -> bool:
+def _assigned(statement: ast.stmt) -> tuple[str, ast.expr] | None:
+    """The name that a statement gives a value, with a type or without, and the value."""
+    match statement:
+        case ast.Assign([ast.Name(name), *_], value) | ast.AnnAssign(ast.Name(name), _, value):
+            return None if value is None else (name, value)
+        case _:
+            return None
+
+
+def _is_server(value: ast.expr) -> TypeGuard[ast.Call]:
     match value:
         case ast.Call(ast.Name("Server"), [ast.Constant(str()), *_]):
             return True

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 
 from rebsync.reserved import RUNTIME_HEADERS
-from rebsync.reverse.libraries.python import log_words
+from rebsync.reverse.libraries.python import log_words, own_name_methods, own_names
 from rebsync.reverse.python.log_words import HARMLESS
 from rebsync.source import Source, Span
 
@@ -62,9 +62,17 @@ def is_log(call: ast.Call) -> bool:
         return False
     inside = [n for a in (*call.args, *call.keywords) for n in ast.walk(a)]
     calls = (n for n in inside if isinstance(n, ast.Call))
-    return not any(isinstance(n, ast.NamedExpr | ast.Await | ast.Yield) for n in inside) and all(
-        ast.unparse(c.func).rpartition(".")[2] in HARMLESS for c in calls
-    )
+    is_plain = not any(isinstance(n, ast.NamedExpr | ast.Await | ast.Yield) for n in inside)
+    return is_plain and all(map(_looks, calls))
+
+
+def _looks(call: ast.Call) -> bool:
+    """Whether a call only looks at its arguments, or gives a node's name."""
+    called = ast.unparse(call.func)
+    name = called.rpartition(".")[2]
+    if call.args or call.keywords:
+        return name in HARMLESS
+    return name in HARMLESS or called in own_names() or name in own_name_methods()
 
 
 class _Plain(ast.NodeTransformer):

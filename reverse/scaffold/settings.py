@@ -55,7 +55,8 @@ def facts_of_message(source: Source, package: str) -> Iterator[Fact]:
 
 def facts_of_parameters(source: Source) -> Iterator[Fact]:
     """What in the parameters has a bearing on what nodes do, but for the values of constants."""
-    for unknown in read_parameters(source).unknowns:
+    read = read_parameters(source)
+    for unknown in read.unknowns:
         if unknown.what == YAML:
             yield Fact(UNKNOWN, "", unknown.what, unknown.why, source, unknown.span)
     section = ""
@@ -64,13 +65,29 @@ def facts_of_parameters(source: Source) -> Iterator[Fact]:
             "parameters", "", m[1].strip("\"'"), "given for it alone", source, Span(*m.span(1))
         )
     for m in _ENTRY.finditer(source.text):
-        if m[3] and (not m[1] or section == "env"):
+        if m[3].startswith("{"):
+            section = m[2]
+            for each in (e for e in read.entries if m.start(3) < e.span.start < m.end(3)):
+                _, above, name = f"/{each.name}".rsplit("/", 2)
+                value = source.text[each.span.start : each.span.end]
+                if above == section:
+                    yield from _parameter(section, name, value, source, each.span)
+            continue
+        if m[3] and not m[1]:
             yield Fact(CONSTANT, "", m[2], _type_of(m[3]), source, Span(*m.span(2)))
         if not m[1] or not m[3]:
             section = m[2]
-        elif has_bearing(name := f"{section}/{m[2]}"):
-            value = _METRES if name == "drive/cell_size" and _is_length(m[3]) else m[3]
-            yield Fact("parameter", "", name, value, source, Span(*m.span(2)))
+        else:
+            yield from _parameter(section, m[2], m[3], source, Span(*m.span(2)))
+
+
+def _parameter(section: str, name: str, value: str, source: Source, at: Span) -> Iterator[Fact]:
+    """An entry of a section: the type of a constant, or a value of the run-time part."""
+    if section == "env":
+        yield Fact(CONSTANT, "", name, _type_of(value), source, at)
+    elif has_bearing(whole := f"{section}/{name}"):
+        is_metres = whole == "drive/cell_size" and _is_length(value)
+        yield Fact("parameter", "", whole, _METRES if is_metres else value, source, at)
 
 
 def _is_length(value: str) -> bool:

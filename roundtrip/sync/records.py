@@ -134,14 +134,19 @@ def _odd(
     accepted, known = set[str](), list[Findings]()
     left = [*edited(package, record, now), *missing_files(package, record, now)]
     for odd in odd_facts(package, record, now, Comparison(())):
-        if _subject(odd.finding) in told or _is_needed(odd, package, now):
+        is_accepted = odd.finding.diagnostics[0].message in record.accepted
+        if _subject(odd.finding) in told or (not is_accepted and _is_needed(odd, package, now)):
             (known if odd.is_known else left).append(odd.finding)
         else:
             accepted.add(odd.finding.diagnostics[0].message)
     if accepted:  # which keeps no lost message from being told
         by_then = replace(record, accepted=frozenset(accepted))
-        again = odd_facts(package, by_then, now, Comparison(()))
-        left += [o.finding for o in again if o.is_lost and o.finding not in left]
+        for odd in odd_facts(package, by_then, now, Comparison(())):
+            is_seen = odd.finding in (*left, *known)
+            if odd.is_lost or _subject(odd.finding) in told:
+                left += [] if is_seen else [odd.finding]
+            elif not is_seen:  # what is joined by what the model no longer sends
+                accepted.add(odd.finding.diagnostics[0].message)
     return sorted(accepted), known, left
 
 

@@ -166,3 +166,22 @@ def test_files_that_nobody_has_edited_are_in_no_conflict(here: Path) -> None:
     assert "| `/twin/waitForCharge` | `R1WaitForCharge` | twin |" in told
     assert "node_robot1 -- " in told
     assert '-- "waitForCharge" -->' not in told
+
+
+def test_a_check_says_what_the_sync_before_it_said(
+    here: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where nothing is cached: what is sent to the picker has left a publisher behind."""
+    model, root = _made("warehouse", here)
+    publish = "mailbox_.publish({}_serve_pub_, msg, when);"
+    code = [["src/dispatcher.cpp", publish.format("packer"), publish.format("picker")]]
+    _edit({"example": "warehouse", "code": code}, root)
+    assert main(["sync", str(here)]) == 0
+    assert "picker.serve(carrier, 7 - cell)" in model.read_text(encoding="utf-8")
+    assert main(["check", str(here)]) == 0
+    monkeypatch.setenv("REBSYNC_CACHE", str(tmp_path / "another"))
+    assert main(["check", str(here)]) == 0
+    text = model.read_text(encoding="utf-8")
+    model.write_text(text.replace("loaded = !loaded;", "loaded = true;"), encoding="utf-8")
+    assert main(["sync", str(here)]) == 0
+    assert main(["check", str(here)]) == 0

@@ -102,7 +102,8 @@ BODIES = [
     (["self._mailbox.delay(2 * k)"], ["2 * k"]),
     (["self._list[0] = self._list[1] + 1"], ["self._list[1] + 1"]),
     (["self._list[0] += 1"], ["self._list[0] += 1"]),
-    (["self._n = self._list[k + 1]"], ["k + 1"]),
+    (["self._n = self._list[k + 1]"], []),  # cut or not, it is no index where it has no 32 bits
+    (["self._n = self._list[k * 2]"], ["k * 2"]),
     (["self._n = sum(self._list)"], ["sum(self._list)"]),
     (["self._n = int32(sum(self._list))"], []),
     (["self._n = abs(k)"], ["abs(k)"]),

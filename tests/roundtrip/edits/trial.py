@@ -34,11 +34,13 @@ FILES = (
     *("helpers_python.toml", "helpers_cpp.toml", "builds.toml", "spelt_python.toml"),
     *("gate_cpp.toml", "gate_python.toml", "gate2_cpp.toml", "gate2_python.toml"),
     *("gate3_cpp.toml", "gate3_python.toml", "reviewed.toml"),
+    *("gate4_cpp.toml", "gate4_python.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
 # A later change of the model of each example, in code that few of the edits touch.
 LATER = {
+    "hello": ("delay(2)", "delay(3)"),
     "experiment1": ("delay(e12)", "delay(e12 + 1)"),
     "running_example": ("delay(e11)", "delay(e11 + 1)"),
     "experiment2": (
