@@ -12,6 +12,8 @@ from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
+from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.analysis.size_changes import GROWING
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, Program
@@ -48,6 +50,43 @@ class PyForm:
     @cached_property
     def _origins(self) -> Origins:
         return Origins.of_program(self.program, LibraryOutcomes(Language.PYTHON))
+
+    @cached_property
+    def _outcomes(self) -> OutcomeAnalysis:
+        table = LibraryOutcomes(Language.PYTHON)
+        return OutcomeAnalysis(self.program, table, lambda name: False)
+
+    def raised(self, py: Py, place: Span) -> Iterator[tuple[Problem, Source, Node]]:
+        """The exceptions that leave a function from a place in it, each with where it is raised.
+
+        That is a file, and the function of it.
+        """
+        around = [
+            f for f in map(self.program.function, self._functions(py)) if _is_in(place, f.place)
+        ]
+        if not around:
+            return
+        function = min(around, key=lambda f: f.place.end - f.place.start)
+        leaving = [p for p in self._outcomes.of(function.name) if p.raises]
+        if not leaving:
+            return
+        called = self._outcomes.raised_by(function, place)
+        for problem in sorted(leaving, key=str):
+            is_own = problem.function == function.name and _is_in(problem.place, place)
+            if (is_own or problem in called) and problem.function in self._scope_of:
+                scope = self._scope_of[problem.function]
+                yield problem, scope.py.source, scope.node
+
+    @cached_property
+    def _scope_of(self) -> dict[str, Scope]:
+        """The functions of the files, by their names in the form."""
+        scopes = (*self._code.scopes.values(), *self._code.modules.values())
+        by_place = {(id(s.py), s.py.span(s.node)): s for s in scopes}
+        found = (
+            (n, by_place.get((id(py), self.program.function(n).place)))
+            for n, py in self._file_of.items()
+        )
+        return {name: scope for name, scope in found if scope is not None}
 
     @cached_property
     def _loops(self) -> ProgramLoops:

@@ -34,6 +34,7 @@ from rebsync.reverse.python.body_effects import (
 from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_locks import is_lock, locks_of, waits_for_itself
 from rebsync.reverse.python.body_match import Way
+from rebsync.reverse.python.body_raising import raised
 from rebsync.reverse.python.body_scope import (
     Pending,
 )
@@ -47,6 +48,7 @@ _NOTHING = frozenset(
 )
 # What runs behind a `try` even if something in it leaves the function or a loop; or does not.
 _BEHIND = frozenset({"finally_clause", "else_clause"})
+_CATCH = "look before whether it may"
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
 
 
@@ -81,7 +83,10 @@ class PyStatements(BodyStatementReader):
         """The one expression of a lambda, as a statement."""
         self.reading.findings.statements[self.within] += 1
         try:
-            return list(self.expression(node))
+            found = list(self.expression(node))
+            if (why := raised(self, node)) is None:
+                return found
+            raise Unread(self.frame.span(node), why, _CATCH)
         except Unread as unread:
             self.reading.findings.unreadable(self.frame.py.source, unread, self.within)
         return [self._lacking(node)]
@@ -98,7 +103,13 @@ class PyStatements(BodyStatementReader):
         findings = self.reading.findings
         findings.statements[self.within] += 1
         try:
-            return list(self.statement(node))
+            found = list(self.statement(node))
+            self.reading.listed.add(node.id)
+            if (why := raised(self, node)) is None:
+                return found
+            unread = Unread(self.frame.span(node), why, _CATCH)
+            findings.unreadable(self.frame.py.source, unread, self.within)
+            return [self._lacking(node), *found]
         except Pending as pending:
             findings.unreadable(self.frame.py.source, pending, self.within)
         except Unread as unread:
