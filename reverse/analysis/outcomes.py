@@ -106,7 +106,7 @@ class OutcomeAnalysis:
         notes = self._notes(function)
         walk_ = OutcomeWalk(notes, self.iterators)
         walk_.defaults(self._defaults.get(function.name, ()))
-        walk_.body(function.body, NO_FACTS)
+        walk_.body(function.body, walk_.first if running else NO_FACTS)
         self.locks.check(function, notes)
         for node in self.iterators.gone_through(function):
             notes.problem(node, ENDLESS)

@@ -44,6 +44,7 @@ class CallOutcome:
     returns: bool = False
     tells: Tells = Tells.NOTHING
     keeps: bool = False
+    may_be_none: bool = False
     when: Raises = Raises.ANY
 
 
@@ -140,6 +141,7 @@ def _named(language: Language) -> Mapping[str, CallOutcome]:
                 rule.returns,
                 rule.tells,
                 rule.keeps,
+                rule.may_be_none,
                 rule.when,
             )
     return found
