@@ -115,6 +115,9 @@ class ElementCounts:
                 called = frozenset[Origin]({FunctionOrigin(name)})
             case s.ValueCallee(value):
                 called = self.origins.of(value, "")
+            case s.MethodCallee(name=name):
+                methods = self.origins.methods_of_any(name)
+                called = frozenset(map(FunctionOrigin, methods))
             case _:
                 return
         for origin in called:

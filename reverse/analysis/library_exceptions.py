@@ -5,13 +5,16 @@ from __future__ import annotations
 from rebsync.reverse.analysis.facts import Facts, HasKey, names_of
 from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
-from rebsync.reverse.analysis.origins import PlainOrigin
+from rebsync.reverse.analysis.origins import ANYTHING, LibraryOrigin, Origin, PlainOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.stores import CallResult, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
 from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
+from rebsync.reverse.libraries.routines import Language
 from rebsync.unions import assert_never
 
 
@@ -20,6 +23,7 @@ class LibraryExceptions:
 
     def __init__(self, notes: ProblemNotes, expressions: OutcomeExpressions) -> None:
         self.expressions = expressions
+        self.table = notes.table
         self.origins = notes.origins
         self.function = notes.function.name
 
@@ -28,6 +32,8 @@ class LibraryExceptions:
     ) -> frozenset[str]:
         """The exceptions that a call of a library may raise, by what it gets."""
         plain = [a.value for a in node.arguments if a.name is None]
+        if receiver is not None and self._is_foreign(receiver):
+            return frozenset()
         raised = outcome.raises if self._may_raise(node, outcome.when, facts) else frozenset()
         of = receiver
         if of is None and node.arguments:
@@ -42,6 +48,32 @@ class LibraryExceptions:
         if is_many or (of is not None and self.expressions.size(of, facts)):
             return raised
         return raised | outcome.empty
+
+    def _is_foreign(self, value: e.Expression) -> bool:
+        """Whether a value is of a library that no table knows, or a part of what it made."""
+        if self.table.language is not Language.PYTHON:
+            return False
+        held = self.origins.of(value, self.function)
+        if held != ANYTHING:
+            return all(map(self._is_object_of_others, held))
+        key = key_of(value, self.function)
+        stored = [v for _, v in self.origins.graph.stores.of(key)] if key is not None else []
+        match value:
+            case e.Attribute(of) if not stored:
+                return self._is_foreign(of)
+            case e.Temporary():
+                calls = [v.call.callee for v in stored if isinstance(v, CallResult)]
+                methods = [c for c in calls if isinstance(c, s.MethodCallee)]
+                return len(methods) == len(stored) > 0 and all(
+                    self._is_foreign(c.receiver) for c in methods
+                )
+            case _:
+                return False
+
+    def _is_object_of_others(self, origin: Origin) -> bool:
+        if not isinstance(origin, LibraryOrigin) or not origin.of_object:
+            return False
+        return origin.name not in PLAIN_CLASSES and not self.table.is_standard(origin.name)
 
     def _may_raise(self, node: s.Call, when: Raises, facts: Facts) -> bool:
         """Whether a call gets arguments for which its rule says that it raises."""

@@ -179,6 +179,8 @@ class OutcomeCalls:
     def _asks_a_node(self, node: s.Call) -> bool:
         """Whether a method is one that asks a node for something, as to call back."""
         match node.callee:
+            case s.LibraryCallee(name, None) if self.notes.table.language is Language.PYTHON:
+                return bool(self.notes.table.function(name).acts)
             case s.MethodCallee(name=name) | s.LibraryCallee(name=name, receiver=e.Attribute()):
                 return bool(self.notes.table.method(None, name.rpartition("::")[2]).acts)
             case _:

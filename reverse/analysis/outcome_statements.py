@@ -134,7 +134,8 @@ class OutcomeWalk:
                 self.value(value, facts)
                 of = self.notes.counts.size(value, self.name)
                 least = len(targets) - (node.rest is not None)
-                if max(size_of(facts, value), of) < least:
+                is_given = self._sizes.is_given(value)
+                if max(size_of(facts, value), of) < least and not is_given:
                     self.notes.fails(node, "has another number of elements")
                 self._expressions.none.check(value, node, facts)
                 for target in targets:
@@ -203,7 +204,11 @@ class OutcomeWalk:
             case _ if self._is_of_model(target):
                 self.notes.problem(target, "this is stored in what is the model's")
             case e.Attribute(holder) | e.Dereference(holder):
-                self.value(target, facts)
+                is_attribute = isinstance(target, e.Attribute)
+                self.value(holder if is_attribute else target, facts)
+                if is_attribute:
+                    asked = "asks None for an attribute"
+                    self._expressions.none.check(holder, target, facts, asked)
                 held = self.origins.of(holder, self.name)
                 if any(isinstance(o, LibraryOrigin) and not o.of_object for o in held):
                     self.notes.problem(target, "this is stored in another module")

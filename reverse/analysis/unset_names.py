@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from rebsync.reverse.analysis.facts import Facts, HasKey, IsBound
 from rebsync.reverse.analysis.none_values import falls_through
-from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.analysis.origins import ClassOrigin, Origins
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
@@ -74,7 +74,7 @@ def _may_lack(origins: Origins, owner: str, name: str) -> bool:
     }
     stored = [function for function, _ in graph.stores.of(Member(name))]
     bodies = {c.body for c in known}
-    if name in declared or not bodies.isdisjoint(stored):
+    if name in declared or not bodies.isdisjoint(stored) or origins.sets_by_text:
         return False
     own = any(program.function(f).owner in line for f in stored)
     if not own:  # the attributes of libraries' classes are trusted, and what is set from outside
@@ -123,7 +123,7 @@ def _set_at(
             ways = [inside((*h.prelude, *h.body)) for h in handlers if falls_through(h.body)]
             return inside((*body, *otherwise)).intersection(*ways) | inside(final)
         case s.Call(target, callee):
-            called = origins.graph.callee(callee, function).functions if _is_own(callee) else ()
+            called = _called(origins, function, callee)
             sets = [_set_by(origins, origins.graph.program.function(f), active) for f in called]
             own = sets[0].intersection(*sets[1:]) if sets else frozenset[str]()
             return own | _attributes(function, [target])
@@ -133,8 +133,23 @@ def _set_at(
             return _attributes(function, [getattr(node, "target", None)])
 
 
-def _is_own(callee: s.Callee) -> bool:
-    return isinstance(callee, s.MethodCallee | s.FunctionCallee | s.ValueCallee)
+def _called(origins: Origins, function: Function, callee: s.Callee) -> frozenset[str]:
+    """The methods that a call may run of the object of a function."""
+    graph, line = origins.graph, list[str]()
+    match callee:
+        case s.MethodCallee(_, _, _, str() as after):
+            line = graph.bases(after)
+        case s.MethodCallee(e.Local(of)) if of == function.receiver and function.owner:
+            line = [function.owner, *graph.bases(function.owner)]
+        case s.MethodCallee(receiver):
+            held = origins.of(receiver, function.name)
+            classes = [o.name for o in held if isinstance(o, ClassOrigin) and not o.of_object]
+            line = classes if len(classes) == len(held) == 1 else []
+        case _:
+            return frozenset()
+    known = (graph.program.classes[c] for c in line if c in graph.program.classes)
+    found = (f for class_ in known for name, f in class_.methods if name == callee.name)
+    return frozenset(list(found)[:1])
 
 
 def _attributes(function: Function, targets: Iterable[object]) -> frozenset[str]:

@@ -56,26 +56,46 @@ class PyForm:
         table = LibraryOutcomes(Language.PYTHON)
         return OutcomeAnalysis(self.program, table, lambda name: False)
 
-    def raised(self, py: Py, place: Span) -> Iterator[tuple[Problem, Source, Node]]:
-        """The exceptions that leave a function from a place in it, each with where it is raised.
-
-        That is a file, and the function of it.
-        """
-        around = [
-            f for f in map(self.program.function, self._functions(py)) if _is_in(place, f.place)
-        ]
+    def raised(self, py: Py, place: Span) -> Iterator[tuple[Problem, Scope]]:
+        """The exceptions that leave a function from a place in it, each with where it is raised."""
+        around = [f for f in self._bodies(py) if _is_in(place, f.place)]
         if not around:
             return
         function = min(around, key=lambda f: f.place.end - f.place.start)
-        leaving = [p for p in self._outcomes.of(function.name) if p.raises]
-        if not leaving:
-            return
-        called = self._outcomes.raised_by(function, place)
-        for problem in sorted(leaving, key=str):
-            is_own = problem.function == function.name and _is_in(problem.place, place)
-            if (is_own or problem in called) and problem.function in self._scope_of:
-                scope = self._scope_of[problem.function]
-                yield problem, scope.py.source, scope.node
+        elsewhere = []
+        for problem, scope in self._leaving(function.name):
+            if problem.function != function.name:
+                elsewhere.append((problem, scope))
+            elif _is_in(problem.place, place):
+                yield problem, scope
+        if elsewhere:
+            called = self._outcomes.raised_by(function, place)
+            yield from ((problem, scope) for problem, scope in elsewhere if problem in called)
+
+    def _leaving(self, name: str) -> list[tuple[Problem, Scope]]:
+        """The exceptions that leave a function, where each is raised."""
+        if name not in self._left:
+            found = (p for p in self._outcomes.of(name) if p.raises)
+            placed = (
+                (p, self._scope_of[p.function]) for p in found if p.function in self._scope_of
+            )
+            order = sorted(placed, key=lambda each: (each[0].place.start, each[0].why))
+            self._left[name] = order
+        return self._left[name]
+
+    @cached_property
+    def _left(self) -> dict[str, list[tuple[Problem, Scope]]]:
+        return {}
+
+    def _bodies(self, py: Py) -> list[Function]:
+        """The functions of a module, lowered once."""
+        if id(py) not in self._lowered:
+            self._lowered[id(py)] = [self.program.function(n) for n in self._functions(py)]
+        return self._lowered[id(py)]
+
+    @cached_property
+    def _lowered(self) -> dict[int, list[Function]]:
+        return {}
 
     @cached_property
     def _scope_of(self) -> dict[str, Scope]:

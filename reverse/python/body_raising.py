@@ -37,9 +37,9 @@ def _raised(reader: BodyStatementReader, place: Span) -> Iterator[str]:
     reading, form = reader.reading, reader.reading.form
     assert form is not None
     here = reader.frame.scope
-    for problem, source, function in form.raised(reader.frame.py, place):
-        is_listed = function.id in reading.bodies and function.id != here.node.id
-        is_exact = (source.path, problem.place) in reading.exact
+    for problem, scope in form.raised(reader.frame.py, place):
+        is_listed = scope.node.id in reading.bodies and scope.node.id != here.node.id
+        is_exact = (scope.py.source.path, problem.place) in reading.exact
         if not is_listed and not is_exact and problem.raises != _ASSERTION:
             yield problem.why
 
