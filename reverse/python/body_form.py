@@ -72,6 +72,16 @@ class PyForm:
             called = self._outcomes.raised_by(function, place)
             yield from ((problem, scope) for problem, scope in elsewhere if problem in called)
 
+    def raising(self, py: Py, place: Span) -> Iterator[tuple[Problem, Scope]]:
+        """The exceptions of statements at a place, handled around it or not."""
+        around = [f for f in self._bodies(py) if _is_in(place, f.place)]
+        if around:
+            function = min(around, key=lambda f: f.place.end - f.place.start)
+            found = (p for p in self._outcomes.of_statements(function, place) if p.raises)
+            yield from (
+                (p, self._scope_of[p.function]) for p in found if p.function in self._scope_of
+            )
+
     def _leaving(self, name: str) -> list[tuple[Problem, Scope]]:
         """The exceptions that leave a function, where each is raised."""
         if name not in self._left:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
+from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import named, nodes_in
 from rebsync.source import Span
 
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 _ASSERTION = "builtins.AssertionError"  # the model has assertions
-_CLAUSES = frozenset({"elif_clause", "case_clause"})
-_BLOCKS = frozenset({"block", "else_clause", "finally_clause", "except_clause"})
 
 
 def raised(reader: BodyStatementReader, node: Node) -> str | None:
@@ -33,29 +32,38 @@ def raised(reader: BodyStatementReader, node: Node) -> str | None:
     return None
 
 
+def is_raised_in(reader: BodyStatementReader, block: Node) -> bool:
+    """Whether something in a block may raise an exception, whether or not that is handled."""
+    form = reader.reading.form
+    if form is None:
+        return True
+    problems = form.raising(reader.frame.py, reader.frame.span(block))
+    exact = reader.reading.exact
+    return any((s.py.source.path, p.place) not in exact for p, s in problems)
+
+
 def _raised(reader: BodyStatementReader, place: Span) -> Iterator[str]:
     reading, form = reader.reading, reader.reading.form
     assert form is not None
     here = reader.frame.scope
     for problem, scope in form.raised(reader.frame.py, place):
-        is_listed = scope.node.id in reading.bodies and scope.node.id != here.node.id
+        is_listed = scope.node.id != here.node.id and _is_read(reader, scope)
         is_exact = (scope.py.source.path, problem.place) in reading.exact
         if not is_listed and not is_exact and problem.raises != _ASSERTION:
             yield problem.why
 
 
+def _is_read(reader: BodyStatementReader, function: Scope) -> bool:
+    """Whether the statements of a function were read, so that what they raise is listed there."""
+    body = function.node.child_by_field_name("body")
+    listed = reader.reading.listed
+    return body is not None and any(n.id in listed for n in (body, *named(body)))
+
+
 def _own(reader: BodyStatementReader, node: Node) -> Iterator[Node]:
     """The parts of a statement that no statement in it has, as far as these were read."""
-    inner = [n for n in nodes_in(node) if n.id in reader.reading.listed and n.id != node.id]
-    if not inner:
+    if not any(n.id in reader.reading.listed and n.id != node.id for n in nodes_in(node)):
         yield node
-        return
-    yield from _heads(node)
-
-
-def _heads(node: Node) -> Iterator[Node]:
-    for child in named(node):
-        if child.type in _CLAUSES:
-            yield from _heads(child)
-        elif child.type not in _BLOCKS:
-            yield child
+    elif node.type != "block":
+        for child in named(node):
+            yield from _own(reader, child)
