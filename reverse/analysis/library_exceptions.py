@@ -14,7 +14,6 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
 from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
-from rebsync.reverse.libraries.routines import Language
 from rebsync.unions import assert_never
 
 
@@ -51,7 +50,7 @@ class LibraryExceptions:
 
     def _is_foreign(self, value: e.Expression) -> bool:
         """Whether a value is of a library that no table knows, or a part of what it made."""
-        if self.table.language is not Language.PYTHON:
+        if not self.table.trusts_others:
             return False
         held = self.origins.of(value, self.function)
         if held != ANYTHING:

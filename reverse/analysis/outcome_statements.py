@@ -247,6 +247,8 @@ class OutcomeWalk:
             case s.If(test, then, otherwise):
                 self.value(test, facts)
                 first = self.body(then, tested(facts, test, True))
+                if test == e.Literal(True):
+                    return first
                 return _joined(first, self.body(otherwise, tested(facts, test, False)))
             case s.Loop():
                 return self._loop(node, facts)
@@ -324,11 +326,16 @@ class OutcomeWalk:
             if isinstance(fact, IsBelow) and fact.value == node.iterable:
                 known.add(IsBelow(node.target, fact.bound))
         known.add(HasKey(node.iterable, node.target))
+        known |= {HasKey(of, node.target) for of in self._sizes.with_elements(node.iterable)}
         self._breaks.append([])
         self.body(node.body, inside | known)
-        self._breaks.pop()
-        self.body(node.otherwise, inside)
-        return inside
+        ends = self._breaks.pop()
+        if self._sizes.has_some(node.iterable, facts):
+            inside |= {IsBound(node.target)}
+        after = self.body(node.otherwise, inside)
+        ends += [] if after is None else [after]
+        bound = filter(is_bound, ends[0].intersection(*ends) if ends else ())
+        return inside.union(bound)
 
     def _changed(self, facts: Facts, body: s.Body) -> Facts:
         """What is still known once a body may have run, some of it or all, any number of times."""

@@ -102,7 +102,7 @@ class PyExpressions(BodyExpressionReader):
                 raise unknown(self.frame, node, f'"{short(node)}"')
 
     def _is_exact(self, node: Node) -> None:
-        """Notes that the model has an operation: it is shown to raise nothing."""
+        """Notes that the model has a value or operation: it is shown to raise nothing."""
         self.reading.exact.add((self.frame.py.source.path, self._span(node)))
 
     def condition(self, node: Node) -> m.Expression:
@@ -163,6 +163,7 @@ class PyExpressions(BodyExpressionReader):
             if kind == STRING:
                 raise unknown(self.frame, node, f'"{short(node)}"')
             raise Unread(self._span(node), f'"{short(node)}" may have no value yet')
+        self._is_exact(node)
         mixed = self.reading.learnt.is_mixed(variable.key)
         return Value(m.Name(variable.name, self._span(node)), kind, mixed=mixed)
 

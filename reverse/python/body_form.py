@@ -53,7 +53,7 @@ class PyForm:
 
     @cached_property
     def _outcomes(self) -> OutcomeAnalysis:
-        table = LibraryOutcomes(Language.PYTHON)
+        table = LibraryOutcomes(Language.PYTHON, trusts_others=True)
         return OutcomeAnalysis(self.program, table, lambda name: False)
 
     def raised(self, py: Py, place: Span) -> Iterator[tuple[Problem, Scope]]:
