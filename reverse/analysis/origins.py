@@ -275,6 +275,13 @@ class Origins:
         return self.graph.implicit(asked - {ImplicitCall.CONSTRUCT, ImplicitCall.CALL})
 
     @cached_property
+    def read_attributes(self) -> frozenset[str]:
+        """The attributes that code reads other than to call them: methods that it hands over."""
+        every = self.graph.program.functions
+        nodes = (n for name in every for n in walk(self.graph.program.function(name)))
+        return frozenset(n.name for n in nodes if isinstance(n, e.Attribute))
+
+    @cached_property
     def sets_by_text(self) -> bool:
         """Whether code of Python sets attributes whose names it computes."""
         return any(

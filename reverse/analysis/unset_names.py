@@ -79,6 +79,9 @@ def _may_lack(origins: Origins, owner: str, name: str) -> bool:
     own = any(program.function(f).owner in line for f in stored)
     if not own:  # the attributes of libraries' classes are trusted, and what is set from outside
         return not stored and len(known) == len(line) and None not in _bases(known)
+    setters = {f.rpartition(".")[2] for f in stored if program.function(f).owner in line}
+    if not setters <= origins.read_attributes:
+        return False  # what the program itself calls, it calls before it needs what that sets
     makers = (f for c in known for n, f in c.methods if n == "__init__")
     first = next(makers, None)
     return first is None or name not in _set_by(origins, program.function(first), frozenset())
