@@ -19,6 +19,7 @@ from rebsync.reverse.ir.program import Class, Function, FunctionKind
 from rebsync.reverse.libraries.routines import Language
 
 _STARTED = IsBound(e.Literal(None))  # that a function is followed from its first statement on
+LACKS = "may have no such attribute yet"
 _HOOKS = ("__getattr__", "__getattribute__")
 _CALLED = frozenset({FunctionKind.FUNCTION, FunctionKind.GENERATOR, FunctionKind.COROUTINE})
 
@@ -48,7 +49,7 @@ class UnsetNames:
         elif value.object == e.Local(self._function.receiver or "") and self._may_lack(
             value, facts
         ):
-            self._notes.fails(value, "may have no such attribute yet")
+            self._notes.fails(value, LACKS)
 
     def _may_lack(self, value: e.Attribute, facts: Facts) -> bool:
         """Whether the own object of a function may lack an attribute when it is called."""
