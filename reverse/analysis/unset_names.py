@@ -19,6 +19,7 @@ from rebsync.reverse.ir.program import Class, Function, FunctionKind
 from rebsync.reverse.libraries.routines import Language
 
 _STARTED = IsBound(e.Literal(None))  # that a function is followed from its first statement on
+UNSET = "may have no value yet"
 LACKS = "may have no such attribute yet"
 _HOOKS = ("__getattr__", "__getattribute__")
 _CALLED = frozenset({FunctionKind.FUNCTION, FunctionKind.GENERATOR, FunctionKind.COROUTINE})
@@ -45,7 +46,7 @@ class UnsetNames:
             return
         if isinstance(value, e.Local):
             if value.name not in self._function.captured:
-                self._notes.fails(value, "may have no value yet")
+                self._notes.fails(value, UNSET)
         elif value.object == e.Local(self._function.receiver or "") and self._may_lack(
             value, facts
         ):

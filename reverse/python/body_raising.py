@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.analysis.unset_names import LACKS
+from rebsync.reverse.analysis.unset_names import LACKS, UNSET
 from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import named, nodes_in
 from rebsync.source import Span
@@ -49,8 +49,8 @@ def _raised(reader: BodyStatementReader, place: Span) -> Iterator[str]:
     here = reader.frame.scope
     for problem, scope in form.raised(reader.frame.py, place):
         is_listed = scope.node.id != here.node.id and _is_read(reader, scope)
-        # Of other functions nothing shows which object they run of: which may be a later one.
-        is_other = scope.node.id != here.node.id and problem.why.endswith(LACKS)
+        # What only may run here, as operators and generators do, is not asked for names.
+        is_other = scope.node.id != here.node.id and problem.why.endswith((LACKS, UNSET))
         is_exact = (scope.py.source.path, problem.place) in reading.exact
         if not is_listed and not is_exact and not is_other and problem.raises != _ASSERTION:
             yield problem.why
