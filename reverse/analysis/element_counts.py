@@ -22,6 +22,7 @@ from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcome_rules import Size, Tells
 
 _LIMIT = 8  # sizes from here on are one
+_SPLITTING = frozenset({"split", "rsplit"})  # by a text: there is always a first part
 _OF_OBJECT = frozenset({"builtins.getattr"})  # they give methods of their first argument
 
 
@@ -81,6 +82,8 @@ class ElementCounts:
                 copies = self.table.function(name).tells is Tells.SAME
                 size = self._size(arguments[0].value, function, assumed) if copies else 0
                 return min(size, self._bound_of(arguments, function))
+            case CallResult(s.Call(_, s.MethodCallee(_, name), (_, *_))) if name in _SPLITTING:
+                return 1
             case CallResult(call):
                 return min((self._size(v, f, assumed) for f, v in self._results(call)), default=0)
             case AnyValue() | ClassValue() | ObjectValue():
@@ -115,6 +118,9 @@ class ElementCounts:
                 called = frozenset[Origin]({FunctionOrigin(name)})
             case s.ValueCallee(value):
                 called = self.origins.of(value, "")
+            case s.MethodCallee(name=name):
+                methods = self.origins.methods_of_any(name)
+                called = frozenset(map(FunctionOrigin, methods))
             case _:
                 return
         for origin in called:

@@ -40,6 +40,20 @@ class Holds:
 
 
 @dataclass(frozen=True, slots=True)
+class IsThere:
+    """A value was other than None, and the function has stored nothing in it since then."""
+
+    value: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
+class IsBound:
+    """A local variable, or an attribute of the function's object, has got a value."""
+
+    value: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
 class IsSize:
     """A value was the number of elements of a container."""
 
@@ -79,7 +93,9 @@ class Implies:
     fact: HasSize | HasKey
 
 
-Fact: TypeAlias = HasSize | HasKey | Holds | IsSize | IsSame | IsBelow | IsPositive | Implies
+Fact: TypeAlias = (
+    HasSize | HasKey | Holds | IsThere | IsBound | IsSize | IsSame | IsBelow | IsPositive | Implies
+)
 Facts: TypeAlias = frozenset[Fact]
 NO_FACTS: Facts = frozenset()
 
@@ -106,12 +122,29 @@ def without(facts: Facts, target: e.Expression) -> Facts:
     base = target
     while isinstance(base, e.Index):
         base = base.object
-    return frozenset(f for f in facts if not _names(f, base, isinstance(target, e.Index)))
+    kept = isinstance(target, e.Index)
+    return frozenset(f for f in facts if isinstance(f, IsBound) or not _names(f, base, kept))
+
+
+def stored(facts: Facts, target: e.Expression) -> Facts:
+    """The facts that are left when something is stored in a target, which then has a value."""
+    return without(facts, target) | {IsBound(target)}
+
+
+def is_bound(fact: Fact) -> bool:
+    """Whether a fact says that a variable has a value."""
+    return isinstance(fact, IsBound)
 
 
 def without_shared(facts: Facts) -> Facts:
-    """The facts that are left when other code ran: those of variables of the function only."""
-    return frozenset(f for f in facts if not any(map(_is_shared, _expressions(f))))
+    """The facts that are left when other code ran: those of variables of the function only.
+
+    What was there and what has a value is asked together with what other code stores.
+    """
+    lasting = (IsThere, IsBound)
+    return frozenset(
+        f for f in facts if isinstance(f, lasting) or not any(map(_is_shared, _expressions(f)))
+    )
 
 
 def without_sizes(facts: Facts) -> Facts:
@@ -126,7 +159,7 @@ def _expressions(fact: Fact) -> tuple[e.Expression, ...]:
             return (container,)
         case HasKey(container, key):
             return container, key
-        case Holds(value) | IsBelow(value) | IsPositive(value):
+        case Holds(value) | IsThere(value) | IsBound(value) | IsBelow(value) | IsPositive(value):
             return (value,)
         case IsSize(value, container):
             return value, container
@@ -201,7 +234,7 @@ def _held(facts: Facts, value: e.Expression, is_true: bool) -> Facts:
     """A value that counts as true is not nothing, and a container is not empty."""
     found = set(facts)
     if is_true:
-        found |= {Holds(value), HasSize(value, 1)}
+        found |= {Holds(value), IsThere(value), HasSize(value, 1)}
         found |= {
             HasSize(f.container, 1) for f in facts if isinstance(f, IsSize) and f.value == value
         }
@@ -220,7 +253,7 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
         return facts
     number = right.value
     if number is None and operator in (Operator.NOT_SAME, Operator.UNEQUAL):
-        return facts | {Holds(left)}
+        return facts | {Holds(left), IsThere(left)}
     if not isinstance(number, int | float):
         return facts
     is_zero = number == 0

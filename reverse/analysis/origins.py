@@ -31,6 +31,7 @@ from rebsync.reverse.ir.program import Program
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 
+_SETTERS = frozenset({"builtins.setattr", "builtins.vars"})
 _LIMIT = 8  # sizes from here on are one
 
 
@@ -272,6 +273,23 @@ class Origins:
         classes = self.graph.program.classes.values()
         asked = {o for c in classes for o, _ in c.operators}
         return self.graph.implicit(asked - {ImplicitCall.CONSTRUCT, ImplicitCall.CALL})
+
+    @cached_property
+    def read_attributes(self) -> frozenset[str]:
+        """The attributes that code reads other than to call them: methods that it hands over."""
+        every = self.graph.program.functions
+        nodes = (n for name in every for n in walk(self.graph.program.function(name)))
+        return frozenset(n.name for n in nodes if isinstance(n, e.Attribute))
+
+    @cached_property
+    def sets_by_text(self) -> bool:
+        """Whether code of Python sets attributes whose names it computes."""
+        return any(
+            (isinstance(node, e.Attribute) and node.name == "__dict__")
+            or (isinstance(node, e.LibraryReference | s.LibraryCallee) and node.name in _SETTERS)
+            for name in self.graph.program.functions
+            for node in walk(self.graph.program.function(name))
+        )
 
     # --- calls -----------------------------------------------------------------------------------
 

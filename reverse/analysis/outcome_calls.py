@@ -6,12 +6,12 @@ import re
 
 from rebsync.reverse.analysis.facts import (
     Facts,
-    without,
+    IsThere,
+    stored,
     without_shared,
 )
 from rebsync.reverse.analysis.format_strings import has_pieces
-from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
-from rebsync.reverse.analysis.magnitudes import Magnitudes
+from rebsync.reverse.analysis.library_exceptions import LibraryExceptions
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
     ClassOrigin,
@@ -28,13 +28,31 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS, PLAIN_CLASSES, UNKNOWN_CLASS
-from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.reverse.libraries.routines import Language
-from rebsync.unions import assert_never
 
 _PARAMETERS = re.compile(r"<[^<>]*>")
 _WAITING_ALONE = frozenset({"get", "join"})
+# What takes numbers, or elements, and so no None.
+_OF_NUMBERS = frozenset(
+    f"builtins.{name}"
+    for name in [
+        "len",
+        "int",
+        "float",
+        "abs",
+        "sum",
+        "min",
+        "max",
+        "sorted",
+        "list",
+        "tuple",
+        "set",
+        "enumerate",
+        "zip",
+        "round",
+    ]
+)
 _UNKNOWN = "what is called is not known"
 
 
@@ -50,6 +68,7 @@ class OutcomeCalls:
         self.notes = notes
         self.expressions = expressions
         self._sizes = sizes
+        self._exceptions = LibraryExceptions(notes, expressions)
         self.origins = notes.origins
         self.function = notes.function.name
 
@@ -64,18 +83,25 @@ class OutcomeCalls:
                     self.expressions.check(receiver, facts)
                 else:
                     self._of_template(node, name)
+                if name in _OF_NUMBERS:
+                    for argument in node.arguments:
+                        self.expressions.none.check(argument.value, node, facts)
                 self._library(node, name, self.notes.table.function(name), receiver, facts)
             case s.ValueCallee(value):
                 self.expressions.check(value, facts)
+                self.expressions.none.check(value, node, facts)
                 for origin in self.origins.of(value, self.function):
                     self._value(node, value, origin, facts)
             case s.MethodCallee(receiver):
                 self.expressions.check(receiver, facts)
+                asked = "asks None for an attribute"
+                self.expressions.none.check(receiver, node, facts, asked)
                 self._method(node, node.callee, facts)
         after = self._sizes.kept(node, facts)
         if node.target is None:
             return after
-        return without(after, node.target) | self._sizes.told(node, facts)
+        after = stored(after, node.target) | self._sizes.told(node, facts)
+        return after if self.expressions.none.gives(node) else after | {IsThere(node.target)}
 
     def construct(self, node: s.Construct, facts: Facts) -> Facts:
         """Notes what making an object of a class of the program may do."""
@@ -86,7 +112,9 @@ class OutcomeCalls:
         else:
             self._makes(node, node.class_name)
         facts = without_shared(facts)
-        return facts if node.target is None else without(facts, node.target)
+        if node.target is None:
+            return facts
+        return stored(facts, node.target) | {IsThere(node.target)}
 
     def destroy(self, node: s.Destroy) -> None:
         """Notes what the end of an object may do."""
@@ -151,6 +179,8 @@ class OutcomeCalls:
     def _asks_a_node(self, node: s.Call) -> bool:
         """Whether a method is one that asks a node for something, as to call back."""
         match node.callee:
+            case s.LibraryCallee(name, None) if self.notes.table.language is Language.PYTHON:
+                return bool(self.notes.table.function(name).acts)
             case s.MethodCallee(name=name) | s.LibraryCallee(name=name, receiver=e.Attribute()):
                 return bool(self.notes.table.method(None, name.rpartition("::")[2]).acts)
             case _:
@@ -292,7 +322,7 @@ class OutcomeCalls:
             self.notes.problem(node, f'"{name}": {outcome.acts}')
         if any(map(self._is_own_iterator, node.arguments)):
             self.notes.problem(node, f'"{name}" may never come to the end')
-        for raised in self._raised(node, outcome, receiver, facts):
+        for raised in self._exceptions.of(node, outcome, receiver, facts):
             self.notes.problem(node, f'"{name}" may raise an exception', raised)
 
     def _is_own_iterator(self, argument: s.CallArgument) -> bool:
@@ -306,62 +336,6 @@ class OutcomeCalls:
             for name in ("operator++", "begin")
         )
 
-    def _raised(
-        self, node: s.Call, outcome: CallOutcome, receiver: e.Expression | None, facts: Facts
-    ) -> frozenset[str]:
-        """The exceptions that a call of a library may raise, by what it gets."""
-        plain = [a.value for a in node.arguments if a.name is None]
-        raised = outcome.raises if self._may_raise(node, outcome.when, facts) else frozenset()
-        of = receiver
-        if of is None and node.arguments:
-            of = node.arguments[0].value
-        is_field = isinstance(of, e.Attribute | e.Index)
-        # Of a variable of which nothing is known, a text is made a number.
-        is_number = of is not None and (is_field or self._is_number(of))
-        if raised and outcome.when is Raises.INFINITE and is_number:
-            raised |= {"builtins.OverflowError"}
-        has_default = any(a.name == "default" for a in node.arguments)
-        is_many = receiver is None and (len(plain) > 1 or has_default)
-        if is_many or (of is not None and self.expressions.size(of, facts)):
-            return raised
-        return raised | outcome.empty
-
-    def _may_raise(self, node: s.Call, when: Raises, facts: Facts) -> bool:
-        """Whether a call gets arguments for which its rule says that it raises."""
-        values = [a.value for a in node.arguments]
-        if any(a.stars for a in node.arguments):
-            return True
-        match when:
-            case Raises.ANY:
-                return True
-            case Raises.NO_DEFAULT:
-                return len(values) < 2
-            case Raises.NEGATIVE:
-                return not all(self.expressions.is_positive(v, facts) for v in values[:1])
-            case Raises.COUNT:
-                return self._is_count(node, facts)
-            case Raises.PART:
-                return takes_part(node) or self._is_count(node, facts)
-            case Raises.POSITION:
-                return bool(values) and is_position(self.expressions.bare(values[0]))
-            case Raises.ZERO_STEP:
-                return not all(self.expressions.is_nonzero(v, facts) for v in values[2:])
-            case Raises.TEXT:
-                return not all(map(self._is_number, values[:1]))
-            case Raises.INFINITE:
-                is_finite = Magnitudes(self.origins, self.function).is_finite
-                return not all(self._is_number(v) and is_finite(v) for v in values[:1])
-            case Raises.COMPUTED:
-                return not all(map(self.expressions.is_written, values))
-            case Raises.NO_START:
-                return len(values) < 3 and not any(
-                    self.expressions.size(v, facts) for v in values[1:]
-                )
-            case Raises.UNORDERED:
-                return not self._are_ordered(values, facts)
-            case _:
-                assert_never(when)
-
     def _has_pieces(self, node: s.Call, text: e.Expression) -> bool:
         """Whether a call that formats a text gets all arguments that the text names."""
         if self.notes.table.language is not Language.PYTHON:
@@ -371,22 +345,3 @@ class OutcomeCalls:
         names = {a.name for a in node.arguments if a.name is not None}
         stars = any(a.stars for a in node.arguments)
         return bool(texts) and not stars and all(has_pieces(t, by_place, names) for t in texts)
-
-    def _is_number(self, value: e.Expression) -> bool:
-        """Whether a value is a number by how it is computed."""
-        return self.origins.of(value, self.function) == {PlainOrigin()}
-
-    def _is_count(self, node: s.Call, facts: Facts) -> bool:
-        """Whether a call gets a number of elements that may be negative."""
-        count = count_given(node)
-        return count is not None and not self.expressions.is_positive(count, facts)
-
-    def _are_ordered(self, values: list[e.Expression], facts: Facts) -> bool:
-        """Whether of two numbers the second is not the smaller one."""
-        match values:
-            case [e.Literal(int() as low), e.Literal(int() as high)]:
-                return low <= high
-            case [e.Literal(int() as low), high]:
-                return low <= 0 and self.expressions.is_positive(high, facts)
-            case _:
-                return False

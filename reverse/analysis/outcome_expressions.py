@@ -12,10 +12,12 @@ from rebsync.reverse.analysis.facts import (
     size_of,
     tested,
 )
-from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin, Origin
+from rebsync.reverse.analysis.none_values import NoneValues
+from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.signs import Signs
 from rebsync.reverse.analysis.stores import AnyValue, CallResult, TemporaryVariable, key_of
+from rebsync.reverse.analysis.unset_names import UnsetNames
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -31,6 +33,12 @@ _DIVIDING = frozenset(
     }
 )
 _LEAST = frozenset({"INT32_MIN", "INT64_MIN", "INT_MIN", "LONG_MIN", "LLONG_MIN"})
+# Operators that None has too.
+_ASKING_NONE = frozenset(
+    {Operator.SAME, Operator.NOT_SAME, Operator.EQUAL, Operator.UNEQUAL}
+    | {Operator.IN, Operator.NOT_IN}
+)
+_INDEXING = ("__getitem__", "__class_getitem__")
 _MODULO = (Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER)
 
 
@@ -42,6 +50,8 @@ class OutcomeExpressions:
         self.function = notes.function.name
         self.origins = notes.origins
         self._signs = Signs(notes)
+        self.none = NoneValues(notes)
+        self._unset = UnsetNames(notes)
 
     def check(self, value: e.Expression, facts: Facts) -> None:
         """Notes what evaluating an expression may do."""
@@ -74,6 +84,19 @@ class OutcomeExpressions:
                 self.check(part, facts)  # type: ignore[arg-type]
 
     def _itself(self, value: e.Expression, facts: Facts) -> None:
+        match value:
+            case e.Attribute(of):
+                self.none.check(of, value, facts, "asks None for an attribute")
+                self._unset.check(value, facts)
+            case e.Local():
+                self._unset.check(value, facts)
+            case e.Index(of):
+                self.none.check(of, value, facts)
+            case e.Binary(operator, left, right) if operator not in _ASKING_NONE:
+                self.none.check(left, value, facts)
+                self.none.check(right, value, facts)
+            case _:
+                pass
         match value:
             case e.Binary(operator, left, right) if operator in _DIVIDING:
                 self._divides(value, left, right, facts)
@@ -257,7 +280,7 @@ class OutcomeExpressions:
         if any(HasKey(holder, index) in facts for holder in holders for index in indices):
             return
         kinds = self.origins.of(value.object, self.function)
-        if all(self._is_foreign(kind) for kind in kinds):
+        if all(self._is_foreign(kind) or self._answers(kind) for kind in kinds):
             return
         is_mapping = self._is_of(kinds, "dict") or _is_typed_mapping(value.object)
         if self._is_of(kinds, "dict", "defaultdict"):
@@ -277,6 +300,12 @@ class OutcomeExpressions:
         if not isinstance(kind, LibraryOrigin) or kind.name in PLAIN_CLASSES:
             return False
         return kind.of_object and not self.notes.table.is_standard(kind.name)
+
+    def _answers(self, kind: Origin) -> bool:
+        """Whether a value is an object of the program whose class says what an index gives."""
+        return isinstance(kind, ClassOrigin) and any(
+            self.origins.has_method(kind.name, name) for name in _INDEXING
+        )
 
     def is_positive(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a number cannot be negative, by how it is computed or what was tested."""

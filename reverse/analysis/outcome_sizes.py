@@ -18,13 +18,16 @@ from rebsync.reverse.analysis.facts import (
 from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.stores import AnyValue, CallResult, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
 from rebsync.reverse.libraries.outcome_rules import Size, Tells
 from rebsync.reverse.libraries.outcomes import CallOutcome
 
+_PARTS = frozenset({"split", "rsplit", "splitlines", "partition", "items", "keys", "values"})
 _ASKED = ("__len__", "size", "begin", "end")
 _ENDS = frozenset({"end", "cend", "rend", "crend"})
 
@@ -110,6 +113,49 @@ class OutcomeSizes:
             return frozenset({IsBelow(target, of.value)})
         sizes = (f for f in facts if isinstance(f, IsSize) and f.value == of)
         return frozenset(IsSize(target, f.container) for f in sizes)
+
+    def has_some(self, container: e.Expression, facts: Facts) -> bool:
+        """Whether what a loop goes through has an element."""
+        below = (f.bound for f in facts if isinstance(f, IsBelow) and f.value == container)
+        return self.expressions.size(container, facts) > 0 or any(b > 0 for b in below)
+
+    def with_elements(self, value: e.Expression) -> list[e.Expression]:
+        """The containers of which a value has the elements, or the keys."""
+        key = key_of(value, self.function) if isinstance(value, e.Temporary) else None
+        found = []
+        for _, stored in self.origins.graph.stores.of(key) if key is not None else ():
+            match stored:
+                case CallResult(s.Call(_, s.LibraryCallee(name), (first, *_))):
+                    if self.notes.table.function(name).tells is Tells.SAME:
+                        found.append(first.value)
+                case CallResult(s.Call(_, s.MethodCallee(receiver, "keys"))):
+                    found.append(receiver)
+                case _:
+                    return []
+        return found
+
+    def is_given(self, value: e.Expression) -> bool:
+        """Whether a value is what code gives that is not in the files: as many parts as it says."""
+        key = key_of(value, self.function)
+        stores = self.origins.graph.stores
+        stored = [v for _, v in stores.of(key)] if key is not None else [value]
+        return bool(stored) and all(self._is_given(each) for each in stored)
+
+    def _is_given(self, stored: object) -> bool:
+        match stored:
+            case CallResult(s.Call(_, s.LibraryCallee(name))):
+                return not self.notes.table.is_standard(name)
+            case CallResult(s.Call(_, s.MethodCallee(receiver, name))):
+                held = self.origins.of(receiver, self.function)
+                is_plain = any(
+                    isinstance(o, LibraryOrigin) and o.name in PLAIN_CLASSES for o in held
+                )
+                is_own = bool(self.origins.methods_of_any(name))
+                return not is_plain and not is_own and name not in _PARTS
+            case AnyValue():  # elements and parts of others, and what functions get
+                return True
+            case _:
+                return False
 
     # --- loops -----------------------------------------------------------------------------------
 

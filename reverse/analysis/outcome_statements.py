@@ -12,10 +12,14 @@ from rebsync.reverse.analysis.facts import (
     HasKey,
     Holds,
     IsBelow,
+    IsBound,
     IsSame,
     IsSize,
+    IsThere,
+    is_bound,
     size_of,
     sized,
+    stored,
     tested,
     without,
     without_shared,
@@ -27,6 +31,7 @@ from rebsync.reverse.analysis.outcome_calls import OutcomeCalls
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
 from rebsync.reverse.analysis.problems import TERMINATES, Called, Problem, ProblemNotes
+from rebsync.reverse.analysis.unset_names import UnsetNames
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import walk
@@ -51,6 +56,8 @@ class OutcomeWalk:
         self._calls = OutcomeCalls(notes, self._expressions, self._sizes)
         self._endings = LoopEndings(notes, self._sizes, iterators)
         self._handled: list[set[Problem | Called]] = []
+        self._breaks: list[list[Facts]] = []  # what is known where the loops around are left
+        self.first = UnsetNames(notes).first()
 
     def value(self, value: e.Expression | None, facts: Facts) -> None:
         """What evaluating an expression may do."""
@@ -86,7 +93,11 @@ class OutcomeWalk:
             case s.Raise():
                 self._raises(node, facts)
                 return None
-            case s.Break() | s.Continue():
+            case s.Break():
+                if self._breaks:
+                    self._breaks[-1].append(facts)
+                return None
+            case s.Continue():
                 return None
             case s.Call():
                 return self._calls.call(node, facts)
@@ -123,10 +134,12 @@ class OutcomeWalk:
                 self.value(value, facts)
                 of = self.notes.counts.size(value, self.name)
                 least = len(targets) - (node.rest is not None)
-                if max(size_of(facts, value), of) < least:
+                is_given = self._sizes.is_given(value)
+                if max(size_of(facts, value), of) < least and not is_given:
                     self.notes.fails(node, "has another number of elements")
+                self._expressions.none.check(value, node, facts)
                 for target in targets:
-                    facts = without(facts, target)
+                    facts = stored(facts, target) | {IsThere(target)}
                 return facts
             case s.Insert(container, value, key):
                 self.value(value, facts)
@@ -137,15 +150,16 @@ class OutcomeWalk:
                 left = size_of(facts, container) - 1
                 return without_sizes(facts) | sized(container, left)
             case s.Delete(target):
-                return without(facts, target)
+                return without(facts, target) - {IsBound(target)}
             case s.Import(target, module, _, True) if self.notes.is_model(module):
                 self.notes.problem(node, f'"{module}" is the model\'s')
                 return facts
             case s.Import(target) | s.DefineClass(target):
-                return facts if target is None else without(facts, target)
+                return facts if target is None else stored(facts, target) | {IsThere(target)}
             case s.Yield(target, value):
                 self.value(value, facts)
-                return without_sizes(without_shared(facts))
+                facts = without_sizes(without_shared(facts))
+                return facts if target is None else stored(facts, target)
             case s.Unsupported(reason):
                 self.notes.problem(node, f"this may do anything: {reason}")
                 return NO_FACTS
@@ -158,7 +172,9 @@ class OutcomeWalk:
         self.value(value, facts)
         self._stored(target, facts)
         before = facts
-        facts = without(facts, target)
+        facts = stored(facts, target)
+        if not self._expressions.none.may_be(value, before):
+            facts |= {IsThere(target)}
         if isinstance(target, e.Index):
             return facts | {HasKey(target.object, target.index)}
         if any(n == target for n in walk(value)):
@@ -188,7 +204,11 @@ class OutcomeWalk:
             case _ if self._is_of_model(target):
                 self.notes.problem(target, "this is stored in what is the model's")
             case e.Attribute(holder) | e.Dereference(holder):
-                self.value(target, facts)
+                is_attribute = isinstance(target, e.Attribute)
+                self.value(holder if is_attribute else target, facts)
+                if is_attribute:
+                    asked = "asks None for an attribute"
+                    self._expressions.none.check(holder, target, facts, asked)
                 held = self.origins.of(holder, self.name)
                 if any(isinstance(o, LibraryOrigin) and not o.of_object for o in held):
                     self.notes.problem(target, "this is stored in another module")
@@ -227,6 +247,8 @@ class OutcomeWalk:
             case s.If(test, then, otherwise):
                 self.value(test, facts)
                 first = self.body(then, tested(facts, test, True))
+                if test == e.Literal(True):
+                    return first
                 return _joined(first, self.body(otherwise, tested(facts, test, False)))
             case s.Loop():
                 return self._loop(node, facts)
@@ -242,9 +264,12 @@ class OutcomeWalk:
                 return self._try(node, facts)
             case s.With(context, target, body):
                 self._calls.entered(context, facts)
-                facts = facts if target is None else without(facts, target)
+                facts = facts if target is None else stored(facts, target)
                 after = self.body(body, facts)
-                return after if after is None else self._changed(facts, body)
+                if after is None:
+                    return None
+                bound = () if self._may_swallow(context) else filter(is_bound, after)
+                return self._changed(facts, body).union(bound)
             case s.Assert(test):
                 self.value(test, facts)
                 self.notes.fails(node, "does not hold")
@@ -258,6 +283,14 @@ class OutcomeWalk:
             case _:
                 assert_never(node)
 
+    def _may_swallow(self, context: e.Expression) -> bool:
+        """Whether leaving a context may end an exception, so that its block was left before."""
+        held = self.origins.of(context, self.name)
+        return any(
+            isinstance(o, ClassOrigin) or o == LibraryOrigin("contextlib.suppress", True)
+            for o in held
+        )
+
     def _loop(self, node: s.Loop, facts: Facts) -> Facts:
         inner = (*node.prelude, *node.body, *node.step)
         if not self._endings.ends(node):
@@ -266,31 +299,43 @@ class OutcomeWalk:
         before = self.body(node.prelude, inside) or inside
         self.value(node.test, before)
         entered = inside if node.body_first else tested(before, node.test, True)
+        self._breaks.append([])
         after = self.body(node.body, entered)
+        breaks = self._breaks.pop()
         self.body(node.step, self._changed(facts, inner) if after is None else after)
         left = tested(before, node.test, False)
         self.body(node.otherwise, left)
         has_break = any(isinstance(n, s.Break) for n in walk(node.body))
+        if has_break and node.test == e.Literal(True) and not node.otherwise:
+            return breaks[0].intersection(*breaks) if breaks else inside
         return inside if has_break or node.otherwise else left
 
     def _for_each(self, node: s.ForEach, facts: Facts) -> Facts:
         self.value(node.iterable, facts)
         if not self._endings.ends(node):
             self.notes.problem(node, ENDLESS)
+        self._expressions.none.check(node.iterable, node, facts)
         inside = without(self._changed(facts, node.body), node.target)
         size = self.notes.counts.elements(node.iterable, self.name)
         if self.notes.is_parameter(node.iterable):
             size = max(size, self.notes.elements.get(self.name, 0))
-        known = set(sized(node.target, size))
+        known = {*sized(node.target, size), IsBound(node.target), IsThere(node.target)}
         for fact in inside:
             if isinstance(fact, IsSize) and fact.value == node.iterable:
                 known.add(HasKey(fact.container, node.target))
             if isinstance(fact, IsBelow) and fact.value == node.iterable:
                 known.add(IsBelow(node.target, fact.bound))
         known.add(HasKey(node.iterable, node.target))
+        known |= {HasKey(of, node.target) for of in self._sizes.with_elements(node.iterable)}
+        self._breaks.append([])
         self.body(node.body, inside | known)
-        self.body(node.otherwise, inside)
-        return inside
+        ends = self._breaks.pop()
+        if self._sizes.has_some(node.iterable, facts):
+            inside |= {IsBound(node.target)}
+        after = self.body(node.otherwise, inside)
+        ends += [] if after is None else [after]
+        bound = filter(is_bound, ends[0].intersection(*ends) if ends else ())
+        return inside.union(bound)
 
     def _changed(self, facts: Facts, body: s.Body) -> Facts:
         """What is still known once a body may have run, some of it or all, any number of times."""
@@ -325,7 +370,8 @@ class OutcomeWalk:
         for handler in node.handlers:
             caught, raised = self._split(raised, handler)
             self._handled.append(caught)
-            ways.append(self.body((*handler.prelude, *handler.body), inside))
+            caught_as = inside if handler.target is None else stored(inside, handler.target)
+            ways.append(self.body((*handler.prelude, *handler.body), caught_as))
             self._handled.pop()
         self.notes.take(raised)
         if after is not None:

@@ -106,12 +106,13 @@ class OutcomeAnalysis:
         notes = self._notes(function)
         walk_ = OutcomeWalk(notes, self.iterators)
         walk_.defaults(self._defaults.get(function.name, ()))
-        walk_.body(function.body, NO_FACTS)
+        walk_.body(function.body, walk_.first if running else NO_FACTS)
         self.locks.check(function, notes)
         for node in self.iterators.gone_through(function):
             notes.problem(node, ENDLESS)
         found = implicit_calls(self.graph, function)
-        implicit = found.functions | (self.origins.operators if found.has_library else frozenset())
+        asks = found.has_library and (not self.table.trusts_others or self._hands_own(function))
+        implicit = found.functions | (self.origins.operators if asks else frozenset())
         self._run(function, implicit, notes)
         called = {c.function for c in notes.found if isinstance(c, Called)}
         self._calls.setdefault(function.name, set()).update(called)
@@ -124,6 +125,12 @@ class OutcomeAnalysis:
             return Equation(own, tuple((c.function, c.leaving) for c in calls))
         uses = ((c.function, lambda p, c=c: frozenset(map(_ending, c.leaving(p)))) for c in calls)
         return Equation(frozenset(map(_ending, own)), tuple(uses))
+
+    def _hands_own(self, function: Function) -> bool:
+        """Whether a call in a function gets an object of a class of the program."""
+        calls = (n for n in walk(function) if isinstance(n, s.Call))
+        values = (a.value for call in calls for a in call.arguments)
+        return any(self.origins.own_classes(value, function.name) for value in values)
 
     def _notes(self, function: Function) -> ProblemNotes:
         return ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)

@@ -18,6 +18,10 @@ FAILURES: Mapping[str, tuple[str, str]] = {
     "has a style that is none": ("", "builtins.ValueError"),
     "lacks the argument": ("", "builtins.IndexError"),
     "is empty": ("std::bad_optional_access", "builtins.AttributeError"),
+    "is None": ("", "builtins.TypeError"),
+    "asks None for an attribute": ("", "builtins.AttributeError"),
+    "may have no value yet": ("", "builtins.UnboundLocalError"),
+    "may have no such attribute yet": ("", "builtins.AttributeError"),
     "does not hold": ("", "builtins.AssertionError"),
 }
 # Each exception with the class that it extends.
@@ -46,6 +50,8 @@ EXCEPTIONS: Mapping[str, str] = {
     **dict.fromkeys(("builtins.RuntimeError", "builtins.StopIteration"), "builtins.Exception"),
     **dict.fromkeys(("builtins.AssertionError", "builtins.TypeError"), "builtins.Exception"),
     **dict.fromkeys(("builtins.AttributeError", "struct.error"), "builtins.Exception"),
+    "builtins.UnboundLocalError": "builtins.NameError",
+    "builtins.NameError": "builtins.Exception",
     "builtins.Exception": "builtins.BaseException",
     "builtins.SystemExit": "builtins.BaseException",
     "builtins.KeyboardInterrupt": "builtins.BaseException",

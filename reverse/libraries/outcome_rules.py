@@ -40,7 +40,8 @@ class Raises(Enum):
     NEGATIVE = "a first one that may be negative"
     COUNT = "a first one that is a number of elements, and may be negative"
     POSITION = "a first one that is a number, and no zero"
-    NO_DEFAULT = "no second one, which would be given instead"
+    NO_DEFAULT = "one that the object may lack, and no second one, which would be given instead"
+    ABSENT = "one that the object may lack"
     PART = "a text that is no literal, and a position in it that is no zero; or as COUNT"
     ZERO_STEP = "a third one that may be zero"
     INFINITE = "a first one that may be no number, or greater than all"
@@ -64,6 +65,7 @@ class OutcomeRule:
     returns: bool = False
     tells: Tells = Tells.NOTHING
     keeps: bool = False
+    may_be_none: bool = False
     when: Raises = Raises.ANY
 
 
@@ -267,10 +269,12 @@ RULES = (
     OutcomeRule(python="threading.Lock threading.RLock threading.local", gives="threading.Lock"),
     OutcomeRule(python="threading.current_thread threading.get_ident"),
     OutcomeRule(python="contextlib.suppress contextlib.nullcontext"),
-    OutcomeRule(python="re.compile re.match re.search re.sub re.findall re.fullmatch re.split"),
+    OutcomeRule(python="re.compile re.sub re.findall re.split"),
+    OutcomeRule(python="re.match re.search re.fullmatch shutil.which", may_be_none=True),
     OutcomeRule(python="string.Template string.ascii_letters string.digits"),
     OutcomeRule(python="json.dumps pathlib.Path os.path.exists os.path.join os.path.isfile"),
-    OutcomeRule(python="os.path.basename os.path.dirname os.path.isdir os.environ.get os.getenv"),
+    OutcomeRule(python="os.path.basename os.path.dirname os.path.isdir"),
+    OutcomeRule(python="os.environ.get os.getenv", may_be_none=True),
     OutcomeRule(python="os.path.abspath os.path.expanduser os.sep os.O_RDONLY os.O_RDWR"),
     OutcomeRule(python="os.O_NONBLOCK os.uname os.getcwd os.access"),
     OutcomeRule(python="os.environ", raises="builtins.KeyError"),
@@ -289,8 +293,9 @@ RULES = (
         python="dict.pop", raises="builtins.KeyError", size=Size.ANY, when=Raises.NO_DEFAULT
     ),
     OutcomeRule(python="set.pop", empty="builtins.KeyError", size=Size.LOSES),
-    OutcomeRule(python=".remove .index", raises="builtins.ValueError", size=Size.ANY),
-    OutcomeRule(python="set.remove", raises="builtins.KeyError", size=Size.ANY),
+    OutcomeRule(python=".remove", raises="builtins.ValueError", size=Size.ANY, when=Raises.ABSENT),
+    OutcomeRule(python=".index", raises="builtins.ValueError", when=Raises.ABSENT),
+    OutcomeRule(python="set.remove", raises="builtins.KeyError", size=Size.ANY, when=Raises.ABSENT),
     OutcomeRule(python=".discard .clear", size=Size.ANY),
     OutcomeRule(".pop_front .pop_back .pop", size=Size.LOSES),
     OutcomeRule(".clear .assign .reset", size=Size.ANY),

@@ -44,6 +44,7 @@ class CallOutcome:
     returns: bool = False
     tells: Tells = Tells.NOTHING
     keeps: bool = False
+    may_be_none: bool = False
     when: Raises = Raises.ANY
 
 
@@ -52,11 +53,13 @@ class LibraryOutcomes:
     """The table as a program of one language asks it.
 
     `opaque` are names of the program itself that no lowering sees through: macros, and modules of
-    which it is not known where they are.
+    which it is not known where they are. Where it `trusts_others`, methods of what a library made
+    that no table knows raise nothing by their names alone.
     """
 
     language: Language
     opaque: frozenset[str] = frozenset()
+    trusts_others: bool = False
 
     @property
     def _named(self) -> Mapping[str, CallOutcome]:
@@ -140,6 +143,7 @@ def _named(language: Language) -> Mapping[str, CallOutcome]:
                 rule.returns,
                 rule.tells,
                 rule.keeps,
+                rule.may_be_none,
                 rule.when,
             )
     return found

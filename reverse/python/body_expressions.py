@@ -95,9 +95,15 @@ class PyExpressions(BodyExpressionReader):
             case "subscript":
                 return body_tables.element(self, node)
             case "call":
-                return body_tables.get_call(self, node) or body_calls.called(self, node)
+                found = body_tables.get_call(self, node) or body_calls.called(self, node)
+                self._is_exact(node)
+                return found
             case _:
                 raise unknown(self.frame, node, f'"{short(node)}"')
+
+    def _is_exact(self, node: Node) -> None:
+        """Notes that the model has a value or operation: it is shown to raise nothing."""
+        self.reading.exact.add((self.frame.py.source.path, self._span(node)))
 
     def condition(self, node: Node) -> m.Expression:
         """A condition; one that nobody knows may be true or false, and is listed."""
@@ -157,6 +163,7 @@ class PyExpressions(BodyExpressionReader):
             if kind == STRING:
                 raise unknown(self.frame, node, f'"{short(node)}"')
             raise Unread(self._span(node), f'"{short(node)}" may have no value yet')
+        self._is_exact(node)
         mixed = self.reading.learnt.is_mixed(variable.key)
         return Value(m.Name(variable.name, self._span(node)), kind, mixed=mixed)
 
@@ -188,6 +195,11 @@ class PyExpressions(BodyExpressionReader):
 
     def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
         """An operation on two numbers."""
+        found = self._operation(operator, left, right, node)
+        self._is_exact(node)
+        return found
+
+    def _operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
         if STRING in (left.kind, right.kind):
             return body_texts.joined(self, operator, left, right, node)
         if left.kind == right.kind == TRUTH and operator in _BITS:

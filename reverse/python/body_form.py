@@ -12,6 +12,8 @@ from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
+from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.analysis.size_changes import GROWING
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, Program
@@ -48,6 +50,73 @@ class PyForm:
     @cached_property
     def _origins(self) -> Origins:
         return Origins.of_program(self.program, LibraryOutcomes(Language.PYTHON))
+
+    @cached_property
+    def _outcomes(self) -> OutcomeAnalysis:
+        table = LibraryOutcomes(Language.PYTHON, trusts_others=True)
+        return OutcomeAnalysis(self.program, table, lambda name: False)
+
+    def raised(self, py: Py, place: Span) -> Iterator[tuple[Problem, Scope]]:
+        """The exceptions that leave a function from a place in it, each with where it is raised."""
+        around = [f for f in self._bodies(py) if _is_in(place, f.place)]
+        if not around:
+            return
+        function = min(around, key=lambda f: f.place.end - f.place.start)
+        elsewhere = []
+        for problem, scope in self._leaving(function.name):
+            if problem.function != function.name:
+                elsewhere.append((problem, scope))
+            elif _is_in(problem.place, place):
+                yield problem, scope
+        if elsewhere:
+            called = self._outcomes.raised_by(function, place)
+            yield from ((problem, scope) for problem, scope in elsewhere if problem in called)
+
+    def raising(self, py: Py, place: Span) -> Iterator[tuple[Problem, Scope]]:
+        """The exceptions of statements at a place, handled around it or not."""
+        around = [f for f in self._bodies(py) if _is_in(place, f.place)]
+        if around:
+            function = min(around, key=lambda f: f.place.end - f.place.start)
+            found = (p for p in self._outcomes.of_statements(function, place) if p.raises)
+            yield from (
+                (p, self._scope_of[p.function]) for p in found if p.function in self._scope_of
+            )
+
+    def _leaving(self, name: str) -> list[tuple[Problem, Scope]]:
+        """The exceptions that leave a function, where each is raised."""
+        if name not in self._left:
+            found = (p for p in self._outcomes.of(name) if p.raises)
+            placed = (
+                (p, self._scope_of[p.function]) for p in found if p.function in self._scope_of
+            )
+            order = sorted(placed, key=lambda each: (each[0].place.start, each[0].why))
+            self._left[name] = order
+        return self._left[name]
+
+    @cached_property
+    def _left(self) -> dict[str, list[tuple[Problem, Scope]]]:
+        return {}
+
+    def _bodies(self, py: Py) -> list[Function]:
+        """The functions of a module, lowered once."""
+        if id(py) not in self._lowered:
+            self._lowered[id(py)] = [self.program.function(n) for n in self._functions(py)]
+        return self._lowered[id(py)]
+
+    @cached_property
+    def _lowered(self) -> dict[int, list[Function]]:
+        return {}
+
+    @cached_property
+    def _scope_of(self) -> dict[str, Scope]:
+        """The functions of the files, by their names in the form."""
+        scopes = (*self._code.scopes.values(), *self._code.modules.values())
+        by_place = {(id(s.py), s.py.span(s.node)): s for s in scopes}
+        found = (
+            (n, by_place.get((id(py), self.program.function(n).place)))
+            for n, py in self._file_of.items()
+        )
+        return {name: scope for name, scope in found if scope is not None}
 
     @cached_property
     def _loops(self) -> ProgramLoops:

@@ -125,6 +125,9 @@ def published(reader: BodyStatementReader, call: Node) -> Iterator[m.Statement] 
     number, fact = found if found is not None else (0, None)
     if not isinstance(fact, PublisherFact):
         raise Unread(reader.frame.span(call), "it is not known what this publishes to")
+    if by_key:  # by a key that the container has
+        place = reader.frame.py.source.path, reader.frame.span(holder)
+        reader.reading.exact.add(place)
     return _sends(reader, call, fact, reader.reading.targets.get(number, ()))
 
 

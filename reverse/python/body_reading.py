@@ -58,8 +58,9 @@ class Reading:
     `taken` are the names of the code, which locals that the model gets do not have; `periods` those
     of timers, in units, by the number of their fact; `nodes` are the classes of all units,
     `entries` the functions that installed programs start, with their modules, and
-    `bodies` the functions that were read, `timers` the calls, and `stored` the `n := value` that
-    stand before their statement, by the ids of their nodes.
+    `bodies` the functions that were read, `listed` the statements, `timers` the calls, and `stored`
+    the `n := value` that stand before their statement, by the ids of their nodes. `exact` are the
+    places of operations that the model has.
     """
 
     unit: PyUnit
@@ -85,6 +86,8 @@ class Reading:
     loop_names: dict[int, str] = with_default(default_factory=dict)
     timers: set[int] = with_default(default_factory=set)
     stored: set[int] = with_default(default_factory=set)
+    listed: set[int] = with_default(default_factory=set)
+    exact: set[tuple[str, Span]] = with_default(default_factory=set)
     places: dict[str, tuple[Source, Span]] = with_default(default_factory=dict)
     form: PyForm | None = None
     effects: NodeEffects | None = None

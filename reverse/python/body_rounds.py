@@ -42,6 +42,17 @@ def leaves_nothing(reader: BodyStatementReader, loop: Node) -> bool:
     return True
 
 
+def leaves_only_unknowns(reader: BodyStatementReader, nodes: list[Node]) -> bool:
+    """Whether statements do nothing that the model has; what they set is from then on unknown."""
+    targets: list[Node] = []
+    if not _are_plain(reader, nodes, targets):
+        return False
+    for target in targets:
+        check_target(reader, target)
+        forget(reader, target)
+    return True
+
+
 def _is_plain_loop(reader: BodyStatementReader, loop: Node, targets: list[Node]) -> bool:
     if loop.child_by_field_name("alternative") is not None:
         return False

@@ -11,8 +11,6 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.returns import always_leaves
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import (
     body_for,
     body_loops,
@@ -23,6 +21,7 @@ from rebsync.reverse.python import (
     body_stores,
     body_switches,
     body_targets,
+    body_trying,
     body_variables,
 )
 from rebsync.reverse.python.body_effects import (
@@ -34,6 +33,7 @@ from rebsync.reverse.python.body_effects import (
 from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_locks import is_lock, locks_of, waits_for_itself
 from rebsync.reverse.python.body_match import Way
+from rebsync.reverse.python.body_raising import raised
 from rebsync.reverse.python.body_scope import (
     Pending,
 )
@@ -45,9 +45,7 @@ _NOTHING = frozenset(
     {"comment", "pass_statement", "global_statement", "import_statement", "print_statement"}
     | {"import_from_statement", "future_import_statement", "nonlocal_statement"}
 )
-# What runs behind a `try` even if something in it leaves the function or a loop; or does not.
-_BEHIND = frozenset({"finally_clause", "else_clause"})
-_LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
+_CATCH = "look before whether it may"
 
 
 @dataclass(eq=False, slots=True)
@@ -80,8 +78,12 @@ class PyStatements(BodyStatementReader):
     def lambda_(self, node: Node) -> list[m.Statement]:
         """The one expression of a lambda, as a statement."""
         self.reading.findings.statements[self.within] += 1
+        self.reading.listed.add(node.id)
         try:
-            return list(self.expression(node))
+            found = list(self.expression(node))
+            if (why := raised(self, node)) is None:
+                return found
+            raise Unread(self.frame.span(node), why, _CATCH)
         except Unread as unread:
             self.reading.findings.unreadable(self.frame.py.source, unread, self.within)
         return [self._lacking(node)]
@@ -97,8 +99,14 @@ class PyStatements(BodyStatementReader):
             return []
         findings = self.reading.findings
         findings.statements[self.within] += 1
+        self.reading.listed.add(node.id)
         try:
-            return list(self.statement(node))
+            found = list(self.statement(node))
+            if (why := raised(self, node)) is None:
+                return found
+            unread = Unread(self.frame.span(node), why, _CATCH)
+            findings.unreadable(self.frame.py.source, unread, self.within)
+            return [self._lacking(node), *found]
         except Pending as pending:
             findings.unreadable(self.frame.py.source, pending, self.within)
         except Unread as unread:
@@ -114,7 +122,7 @@ class PyStatements(BodyStatementReader):
 
     def _lose(self, node: Node) -> None:
         """Of what a statement sets that is not read nothing is known."""
-        for inner in _inside(node):
+        for inner in body_trying.inside(node):
             if inner.type in ("assignment", "augmented_assignment", "for_statement"):
                 body_variables.forget(self, field(inner, "left"))
             elif inner.type == "named_expression":
@@ -145,7 +153,7 @@ class PyStatements(BodyStatementReader):
             case "continue_statement":
                 yield m.Continue((), span)
             case "try_statement":
-                yield from self._try(node)
+                yield from body_trying.try_(self, node)
             case "with_statement":
                 yield from self._with(node)
             case "assert_statement":
@@ -243,52 +251,6 @@ class PyStatements(BodyStatementReader):
             self.frame.depth -= 1
         return found[0] if len(found) == 1 else m.Block(found)
 
-    def _try(self, node: Node) -> Iterator[m.Statement]:
-        """What is read exactly raises nothing, so that nothing else of the statement runs."""
-        findings = self.reading.findings
-        count = len(findings.all)
-        body = field(node, "body")
-        found = self.statements(named(body))
-        clauses = {c.type for c in named(node)}
-        if not self.frame.is_start:
-            unsure = [n for n in _inside(body) if self._may_raise(n)]
-            if unsure or len(findings.all) > count:
-                why = "what may raise an exception here is not in the model"
-                raise Unread(self.frame.span(node), why)
-        if clauses & _BEHIND and any(n.type in _LEAVING for n in _inside(body)):
-            raise Unread(self.frame.span(node), "what runs behind a jump out of this is not read")
-        yield from found
-        for clause in named(node):
-            if clause.type == "finally_clause" and not self.frame.is_start:
-                yield from self.statements(named(named(clause)[-1]))
-            elif clause.type == "else_clause" and not self.frame.is_start:
-                yield from self.statements(named(field(clause, "body")))
-
-    def _may_raise(self, node: Node) -> bool:
-        """Whether what stands in a `try` may raise the exception that it waits for."""
-        match node.type:
-            case "call":
-                return not self._is_sure(node)
-            case "binary_operator" | "augmented_assignment":
-                return text_of(field(node, "operator")).startswith(("/", "%", "**", "<<", ">>"))
-            case "subscript" | "raise_statement" | "assert_statement" | "await" | "yield":
-                return True
-            case "delete_statement" | "for_statement" | "import_statement":
-                return True
-            case "import_from_statement" | "with_statement":
-                return True
-            case _:
-                return False
-
-    def _is_sure(self, call: Node) -> bool:
-        name = self.reading.external(field(call, "function"), self.frame)
-        made = self.reading.message_type(call, self.frame)
-        own = self.reading.function(field(call, "function"), self.frame)
-        holder, _, method = text_of(field(call, "function")).rpartition(".")
-        publishes = bool(holder) and method in libraries.publishing()
-        sleeps = libraries.kind_of(name) is Kind.SLEEP and libraries.is_of_client(name)
-        return is_log(call) or bool(made) or own is not None or publishes or sleeps
-
     def _with(self, node: Node) -> Iterator[m.Statement]:
         if not all(is_lock(self.reading, lock, self.frame) for lock in locks_of(node)):
             raise Unread(self.frame.span(node), "what entering and leaving this does is not known")
@@ -301,12 +263,3 @@ class PyStatements(BodyStatementReader):
                 body_targets.check_target(self, target)
                 body_variables.forget(self, target.named_children[0])
         yield from self.statements(named(field(node, "body")))
-
-
-def _inside(node: Node) -> Iterator[Node]:
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        yield current
-        if current.type not in ("function_definition", "class_definition", "lambda"):
-            waiting += current.named_children

@@ -26,7 +26,6 @@ _CHANGES = frozenset(
 _LOOKS = frozenset({"get", "keys", "values", "items"})
 _MOST = 32
 _KEYS = frozenset({STRING, WHOLE})
-_ENDS = "a key that the table does not have ends the callback in Python"
 
 
 def elements(reader: BodyExpressionReader, node: Node) -> Sequence[Value] | None:
@@ -50,8 +49,17 @@ def element(reader: BodyExpressionReader, node: Node) -> Value:
     if len(keys) != 1 or not pairs:
         raise unknown(reader.frame, node, f'"{text_of(node)}"')
     found = _selected(reader, node, keys[0], pairs[:-1], pairs[-1][1])
-    reader.note(node, _ENDS)
+    if _has_all(reader, pairs, keys[0]):
+        reader.reading.exact.add((reader.frame.py.source.path, reader.frame.span(node)))
     return found
+
+
+def _has_all(reader: BodyExpressionReader, pairs: Sequence[tuple[Value, Value]], key: Node) -> bool:
+    """Whether a table has all that a key may be."""
+    ways = reader.reading.values.ways(key, reader.frame.scope)
+    values = [reader.reading.constant((way,)) for way in ways]
+    known = [each.expression for each, _ in pairs]
+    return bool(values) and all(v is not None and v.expression in known for v in values)
 
 
 def get_call(reader: BodyExpressionReader, node: Node) -> Value | None:

@@ -21,7 +21,6 @@ _LOOSE = (
     "wide_literals_rclcpp",
     "wide_literals_roscpp",
     "texts_between",
-    "texts_rospy",
     "texts_changed_rclpy",
     "texts_changed_roscpp",
 )

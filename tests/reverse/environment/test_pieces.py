@@ -8,6 +8,7 @@ breaks the property, or may, and no run of the model does.
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -65,6 +66,33 @@ if __name__ == "__main__":
     gate = Gate()
     rospy.spin()
 """
+_RCLPY = """#!/usr/bin/env python3
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Int32
+{module}
+
+class Gate(Node):
+    def __init__(self):
+        super().__init__("gate")
+        self.level = 0
+        self.out = self.create_publisher(Int32, "out", 10)
+{start}
+        self.create_subscription(Int32, "go", self.on_go, 10)
+
+    def bump(self, *args):
+        self.level = 7
+
+{methods}
+    def on_go(self, msg):
+{body}
+        self.out.publish(Int32(data={value}))
+
+
+if __name__ == "__main__":
+    rclpy.init()
+    rclpy.spin(Gate())
+"""
 _CPP = """#include <ros/ros.h>
 #include <std_msgs/Int32.h>
 {module}
@@ -115,17 +143,28 @@ class Table:
     """A file of rows, with the question that is asked of all of them."""
 
     ask: str
-    is_cpp: bool
+    client: str
     pieces: tuple[Piece, ...]
 
+    @property
+    def is_cpp(self) -> bool:
+        """Whether its nodes are of C++."""
+        return self.client == "roscpp"
 
-def _table(path: Path) -> Table:
+
+def _tables(path: Path) -> Iterator[tuple[str, Table]]:
+    """A file of rows, once for each client library that its nodes are of."""
     found = tomllib.loads(path.read_text(encoding="utf-8"))
     pieces = tuple(Piece(**row) for row in found["piece"])
-    return Table(found["ask"], path.stem.startswith("cpp"), pieces)
+    first = "roscpp" if path.stem.startswith("cpp") else "rospy"
+    for client in found.get("clients", [first]):
+        name = path.stem if client == first else f"{path.stem}_{client}"
+        yield name, Table(found["ask"], client, pieces)
 
 
-_TABLES = {p.stem: _table(p) for p in sorted((Path(__file__).parent / "pieces").glob("*.toml"))}
+_FILES = sorted((Path(__file__).parent / "pieces").glob("*.toml"))
+_TABLES = {name: table for path in _FILES for name, table in _tables(path)}
+_NODES = {"roscpp": _CPP, "rospy": _PYTHON, "rclpy": _RCLPY}
 _ROWS = [
     pytest.param(table, piece, id=f"{name}-{piece.name}")
     for name, table in _TABLES.items()
@@ -135,13 +174,14 @@ _ROWS = [
 
 def _written(table: Table, piece: Piece, package: Path) -> None:
     """A package with the node of a row."""
-    (package / "package.xml").write_text(_MANIFEST, encoding="utf-8")
+    manifest = _MANIFEST.replace("rospy", table.client) if table.client == "rclpy" else _MANIFEST
+    (package / "package.xml").write_text(manifest, encoding="utf-8")
     path = package / ("src/gate.cpp" if table.is_cpp else "scripts/gate.py")
     path.parent.mkdir()
     if table.is_cpp:
         (package / "CMakeLists.txt").write_text(_BUILD, encoding="utf-8")
     depth = 4 if table.is_cpp else 8
-    text = piece.text or (_CPP if table.is_cpp else _PYTHON).format(
+    text = piece.text or _NODES[table.client].format(
         module=piece.module,
         start=_indented(piece.start, depth),
         methods=_indented(piece.methods, depth // 2 if not table.is_cpp else 2),

@@ -1,0 +1,140 @@
+"""Which exceptions calls of libraries raise, by what they get."""
+
+from __future__ import annotations
+
+from rebsync.reverse.analysis.facts import Facts, HasKey, names_of
+from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
+from rebsync.reverse.analysis.magnitudes import Magnitudes
+from rebsync.reverse.analysis.origins import ANYTHING, LibraryOrigin, Origin, PlainOrigin
+from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.stores import CallResult, key_of
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
+from rebsync.reverse.libraries.outcome_rules import Raises
+from rebsync.reverse.libraries.outcomes import CallOutcome
+from rebsync.unions import assert_never
+
+
+class LibraryExceptions:
+    """Calls of libraries in one function."""
+
+    def __init__(self, notes: ProblemNotes, expressions: OutcomeExpressions) -> None:
+        self.expressions = expressions
+        self.table = notes.table
+        self.origins = notes.origins
+        self.function = notes.function.name
+
+    def of(
+        self, node: s.Call, outcome: CallOutcome, receiver: e.Expression | None, facts: Facts
+    ) -> frozenset[str]:
+        """The exceptions that a call of a library may raise, by what it gets."""
+        plain = [a.value for a in node.arguments if a.name is None]
+        if receiver is not None and self._is_foreign(receiver):
+            return frozenset()
+        raised = outcome.raises if self._may_raise(node, outcome.when, facts) else frozenset()
+        of = receiver
+        if of is None and node.arguments:
+            of = node.arguments[0].value
+        is_field = isinstance(of, e.Attribute | e.Index)
+        # Of a variable of which nothing is known, a text is made a number.
+        is_number = of is not None and (is_field or self._is_number(of))
+        if raised and outcome.when is Raises.INFINITE and is_number:
+            raised |= {"builtins.OverflowError"}
+        has_default = any(a.name == "default" for a in node.arguments)
+        is_many = receiver is None and (len(plain) > 1 or has_default)
+        if is_many or (of is not None and self.expressions.size(of, facts)):
+            return raised
+        return raised | outcome.empty
+
+    def _is_foreign(self, value: e.Expression) -> bool:
+        """Whether a value is of a library that no table knows, or a part of what it made."""
+        if not self.table.trusts_others:
+            return False
+        held = self.origins.of(value, self.function)
+        if held != ANYTHING:
+            return all(map(self._is_object_of_others, held))
+        key = key_of(value, self.function)
+        stored = [v for _, v in self.origins.graph.stores.of(key)] if key is not None else []
+        match value:
+            case e.Attribute(of) if not stored:
+                return self._is_foreign(of)
+            case e.Temporary():
+                calls = [v.call.callee for v in stored if isinstance(v, CallResult)]
+                methods = [c for c in calls if isinstance(c, s.MethodCallee)]
+                return len(methods) == len(stored) > 0 and all(
+                    self._is_foreign(c.receiver) for c in methods
+                )
+            case _:
+                return False
+
+    def _is_object_of_others(self, origin: Origin) -> bool:
+        if not isinstance(origin, LibraryOrigin) or not origin.of_object:
+            return False
+        return origin.name not in PLAIN_CLASSES and not self.table.is_standard(origin.name)
+
+    def _may_raise(self, node: s.Call, when: Raises, facts: Facts) -> bool:
+        """Whether a call gets arguments for which its rule says that it raises."""
+        values = [a.value for a in node.arguments]
+        if any(a.stars for a in node.arguments):
+            return True
+        match when:
+            case Raises.ANY:
+                return True
+            case Raises.NO_DEFAULT:
+                return len(values) < 2 and not self._is_there(node, facts)
+            case Raises.ABSENT:
+                return len(values) > 1 or not self._is_there(node, facts)
+            case Raises.NEGATIVE:
+                return not all(self.expressions.is_positive(v, facts) for v in values[:1])
+            case Raises.COUNT:
+                return self._is_count(node, facts)
+            case Raises.PART:
+                return takes_part(node) or self._is_count(node, facts)
+            case Raises.POSITION:
+                return bool(values) and is_position(self.expressions.bare(values[0]))
+            case Raises.ZERO_STEP:
+                return not all(self.expressions.is_nonzero(v, facts) for v in values[2:])
+            case Raises.TEXT:
+                return not all(map(self._is_number, values[:1]))
+            case Raises.INFINITE:
+                is_finite = Magnitudes(self.origins, self.function).is_finite
+                return not all(self._is_number(v) and is_finite(v) for v in values[:1])
+            case Raises.COMPUTED:
+                return not all(map(self.expressions.is_written, values))
+            case Raises.NO_START:
+                return len(values) < 3 and not any(
+                    self.expressions.size(v, facts) for v in values[1:]
+                )
+            case Raises.UNORDERED:
+                return not self._are_ordered(values, facts)
+            case _:
+                assert_never(when)
+
+    def _is_there(self, node: s.Call, facts: Facts) -> bool:
+        """Whether the object of a method is known to have the first argument."""
+        match node.callee, node.arguments:
+            case s.MethodCallee(receiver), (s.CallArgument(value), *_):
+                return any(HasKey(of, value) in facts for of in names_of(facts, receiver))
+            case _:
+                return False
+
+    def _is_number(self, value: e.Expression) -> bool:
+        """Whether a value is a number by how it is computed."""
+        return self.origins.of(value, self.function) == {PlainOrigin()}
+
+    def _is_count(self, node: s.Call, facts: Facts) -> bool:
+        """Whether a call gets a number of elements that may be negative."""
+        count = count_given(node)
+        return count is not None and not self.expressions.is_positive(count, facts)
+
+    def _are_ordered(self, values: list[e.Expression], facts: Facts) -> bool:
+        """Whether of two numbers the second is not the smaller one."""
+        match values:
+            case [e.Literal(int() as low), e.Literal(int() as high)]:
+                return low <= high
+            case [e.Literal(int() as low), high]:
+                return low <= 0 and self.expressions.is_positive(high, facts)
+            case _:
+                return False

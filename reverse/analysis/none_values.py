@@ -1,0 +1,157 @@
+"""Which values of Python may be None where something is asked of them: a null-dereference analysis.
+
+By what is stored under a name anywhere in the program, and by what was tested or stored on the way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rebsync.reverse.analysis.facts import Facts, Holds, IsThere, names_of, tested
+from rebsync.reverse.analysis.origins import LibraryOrigin
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.stores import CallResult, Member, Stored, key_of
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.program import FunctionKind
+from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.routines import Language
+
+_DEEPEST = 3
+_FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
+
+
+class NoneValues:
+    """The values of one function, in Python."""
+
+    def __init__(self, notes: ProblemNotes) -> None:
+        self._notes = notes
+        self._origins = notes.origins
+        self._graph = notes.origins.graph
+        self._name = notes.function.name
+
+    def check(
+        self,
+        value: e.Expression,
+        node: s.Statement | e.Expression,
+        facts: Facts,
+        failure: str = "is None",
+    ) -> None:
+        """Notes that something is asked of a value that None has not."""
+        if self._notes.table.language is Language.PYTHON and self.may_be(value, facts):
+            self._notes.fails(node, failure)
+
+    def may_be(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a value may be None."""
+        while isinstance(value, e.Convert):
+            value = value.operand
+        names = names_of(facts, value)
+        if any(Holds(name) in facts for name in names):
+            return False
+        match value:
+            case e.Conditional(test, one, other):
+                if self.may_be(one, tested(facts, test, True)):
+                    return True
+                return self.may_be(other, tested(facts, test, False))
+            case e.Or(left, right):
+                return self.may_be(right, tested(facts, left, False))
+            case e.And(left, right):
+                return self.may_be(left, facts) or self.may_be(right, tested(facts, left, True))
+        nothing = list(self._nothing(value))
+        if any(IsThere(name) in facts for name in names):
+            # Whatever ran since then, it was not what makes objects, or it made another one.
+            nothing = [n for n in nothing if self._graph.program.function(n).kind not in _FIRST]
+        return bool(nothing)
+
+    def gives(self, call: s.Call) -> bool:
+        """Whether a call of the function may give None."""
+        return self._gives_nothing(call, self._name, 0)
+
+    def _nothing(self, value: e.Expression) -> Iterator[str]:
+        """The functions that store None under the name of a value."""
+        if isinstance(value, e.Literal) and value.value is None:
+            yield self._name
+        key = key_of(value, self._name)
+        stored = self._graph.stores.of(key) if key is not None else ()
+        for each in stored:
+            if self._is_nothing(each, 0) and not self._is_of_other(value, key, each[0]):
+                yield each[0]
+
+    def _is_of_other(self, value: e.Expression, key: object, function: str) -> bool:
+        """Whether what a function stores is an attribute of its own object, of another class."""
+        if not (isinstance(key, Member) and isinstance(value, e.Attribute)):
+            return False
+        here, there = self._notes.function, self._graph.program.function(function)
+        if not (isinstance(value.object, e.Local) and value.object.name == here.receiver):
+            return False
+        if (
+            here.owner is None
+            or there.owner is None
+            or there.owner in self._graph.family(here.owner)
+        ):
+            return False
+        targets = [n.target for n in walk(there) if isinstance(n, s.Assign | s.Call | s.Declare)]
+        own = e.Local(there.receiver or "")
+        asked = [t for t in targets if isinstance(t, e.Attribute) and t.name == key.name]
+        return all(t.object == own for t in asked)
+
+    def _is_nothing(self, stored: Stored, depth: int) -> bool:
+        function, value = stored
+        match value:
+            case e.Literal(None):
+                return True
+            case e.Conditional(_, one, other) | e.And(one, other):
+                return any(self._is_nothing((function, each), depth) for each in (one, other))
+            case e.Or(_, other) | e.Convert(_, other):
+                return self._is_nothing((function, other), depth)
+            case CallResult(call):
+                return self._gives_nothing(call, function, depth)
+            case e.Temporary() | e.Local() if depth < _DEEPEST:
+                key = key_of(value, function)
+                found = self._graph.stores.of(key) if key is not None else []
+                return any(self._is_nothing(each, depth + 1) for each in found)
+            case _:
+                return False
+
+    def _gives_nothing(self, call: s.Call, function: str, depth: int) -> bool:
+        """Whether a call may give None, and something else: no code asks anything of None alone."""
+        match call.callee:
+            case s.LibraryCallee(name) if self._notes.table.function(name).may_be_none:
+                return len(call.arguments) < 2 or not name.endswith("get")
+            case s.MethodCallee(receiver, "get") if len(call.arguments) == 1:
+                return self._origins.of(receiver, function) == {LibraryOrigin("dict", True)}
+            case callee:
+                around = self._graph.program.function(function)
+                called = self._graph.callee(callee, around).functions
+        return depth < _DEEPEST and any(self._returns_nothing(name, depth + 1) for name in called)
+
+    def _returns_nothing(self, name: str, depth: int) -> bool:
+        function = self._graph.program.function(name)
+        if function.kind is not FunctionKind.FUNCTION:
+            return False
+        values = [n.value for n in walk(function) if isinstance(n, s.Return)]
+        some = [v for v in values if v is not None]
+        nothing = [v for v in some if self._is_nothing((name, v), depth)]
+        if len(nothing) == len(some):
+            return False
+        return bool(nothing) or None in values or falls_through(function.body)
+
+
+def falls_through(body: s.Body) -> bool:
+    """Whether a body may come to its end, as far as its last statement says."""
+    match body[-1] if body else None:
+        case s.Return() | s.Raise() | s.Break() | s.Continue():
+            return False
+        case s.If(_, then, otherwise):
+            return falls_through(then) or falls_through(otherwise)
+        case s.With(_, _, inner) | s.Block(inner):
+            return falls_through(inner)
+        case s.Try(inner, handlers, otherwise, final):
+            if final and not falls_through(final):
+                return False
+            ways = (*inner, *otherwise), *(h.body for h in handlers)
+            return any(map(falls_through, ways))
+        case s.Loop(e.Literal(True), inner):
+            return any(isinstance(n, s.Break) for n in walk(inner))
+        case _:
+            return True

@@ -1,0 +1,72 @@
+"""What exceptions may leave statements of people's Python: the callback ends there, or the node.
+
+The model has no exceptions. What it has of a statement raises none; neither does what a function
+raises that stands in the place of its call, where that is listed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from tree_sitter import Node
+
+from rebsync.reverse.analysis.unset_names import LACKS, UNSET
+from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.python.py_tree import named, nodes_in
+from rebsync.source import Span
+
+if TYPE_CHECKING:
+    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
+
+_ASSERTION = "builtins.AssertionError"  # the model has assertions
+
+
+def raised(reader: BodyStatementReader, node: Node) -> str | None:
+    """What a statement that was read may raise beside those in it; None if that is nothing."""
+    if reader.reading.form is None:
+        return None
+    for part in _own(reader, node):
+        why = next(_raised(reader, reader.frame.span(part)), None)
+        if why is not None:
+            return why
+    return None
+
+
+def is_raised_in(reader: BodyStatementReader, block: Node) -> bool:
+    """Whether something in a block may raise an exception, whether or not that is handled."""
+    form = reader.reading.form
+    if form is None:
+        return True
+    problems = form.raising(reader.frame.py, reader.frame.span(block))
+    exact = reader.reading.exact
+    return any((s.py.source.path, p.place) not in exact for p, s in problems)
+
+
+def _raised(reader: BodyStatementReader, place: Span) -> Iterator[str]:
+    reading, form = reader.reading, reader.reading.form
+    assert form is not None
+    here = reader.frame.scope
+    for problem, scope in form.raised(reader.frame.py, place):
+        is_listed = scope.node.id != here.node.id and _is_read(reader, scope)
+        # What only may run here, as operators and generators do, is not asked for names.
+        is_other = scope.node.id != here.node.id and problem.why.endswith((LACKS, UNSET))
+        is_exact = (scope.py.source.path, problem.place) in reading.exact
+        if not is_listed and not is_exact and not is_other and problem.raises != _ASSERTION:
+            yield problem.why
+
+
+def _is_read(reader: BodyStatementReader, function: Scope) -> bool:
+    """Whether the statements of a function were read, so that what they raise is listed there."""
+    body = function.node.child_by_field_name("body")
+    listed = reader.reading.listed
+    return body is not None and any(n.id in listed for n in (body, *named(body)))
+
+
+def _own(reader: BodyStatementReader, node: Node) -> Iterator[Node]:
+    """The parts of a statement that no statement in it has, as far as these were read."""
+    if not any(n.id in reader.reading.listed and n.id != node.id for n in nodes_in(node)):
+        yield node
+    elif node.type != "block":
+        for child in named(node):
+            yield from _own(reader, child)
