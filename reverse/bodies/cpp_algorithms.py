@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import reduce
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.building import binary, chosen, is_calm
 from rebsync.reverse.bodies.cpp_conversions import operands, type_in
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_widths import check_whole, wide_of
 from rebsync.reverse.bodies.known_functions import takes_values
@@ -20,9 +20,6 @@ from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_declarations import CppParameter, parameters_in
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import INT, is_integer
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 EXTREMES = {"std::max_element": ">", "std::min_element": "<"}
 _BEGINS, _ENDS = ("begin", "cbegin"), ("end", "cend")

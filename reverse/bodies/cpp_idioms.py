@@ -6,7 +6,6 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -15,7 +14,7 @@ from rebsync.reverse.bodies import cpp_algorithms, cpp_atomics, cpp_optional_cal
 from rebsync.reverse.bodies.building import binary, cast, chosen, is_calm, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
-from rebsync.reverse.bodies.cpp_expression_reader import Exchange
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader, Exchange
 from rebsync.reverse.bodies.cpp_literals import lower
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_time import is_flat, time_called, to_seconds
@@ -31,9 +30,6 @@ from rebsync.reverse.texts import text_literal
 from rebsync.source import Span
 from rebsync.static.constants import constant
 from rebsync.static.types import DOUBLE, INT, is_floating, is_integer
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _LEAST = -0x80000000
 _LARGE = 200  # parts of an expression

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -18,6 +17,7 @@ from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_pointer_parameters import check_pointer
 from rebsync.reverse.bodies.cpp_return_types import return_type, returns_in
 from rebsync.reverse.bodies.cpp_roots import is_element
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import place_of
@@ -41,9 +41,6 @@ from rebsync.reverse.syntax.cpp_depth import DEEPEST
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant as constant_of
 from rebsync.static.types import converts, is_boolean, is_integer, is_numeric
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _DEEPEST = 8
 _PLACES = frozenset(

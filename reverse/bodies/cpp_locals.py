@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -26,6 +25,7 @@ from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_references import is_made, stays
 from rebsync.reverse.bodies.cpp_roots import specifiers_of
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import seconds_of
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
@@ -37,9 +37,6 @@ from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.texts import TEXT, is_constant
 from rebsync.static.constants import constant
 from rebsync.static.types import BYTE, INT, SHORT
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _VECTOR = re.compile(r"(?:std::)?vector<(.*)>\Z")
 _RESIZES = ("push_back", "emplace_back", "resize", "insert", "erase", "clear", "assign", "swap")

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_ranges import COMPARES, INT_BITS, LOGICAL, range_of
 from rebsync.reverse.bodies.cpp_roots import declared_in
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 from rebsync.static.types import BOOLEAN, INT
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _SUMS = frozenset({"+", "-", "*", "/", "%", "&", "|", "^"})
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -17,9 +16,11 @@ from rebsync import model as m
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import body_messages
+from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_presence import is_there, presence_key, presence_name
 from rebsync.reverse.python.body_reading import Reading, field_key
 from rebsync.reverse.python.body_scope import OTHER, TRUTH, TYPES, Frame, Message, Var
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_variables import store
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_bindings import Binding
@@ -27,10 +28,6 @@ from rebsync.reverse.python.py_index import CLASS, Scope, arguments_of
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import External
 from rebsync.reverse.syntax.ancestors import ancestors
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 _ROOT = re.compile(r"(?:(\w+)\.)?(\w+)")
 _COPY = "copy.copy"

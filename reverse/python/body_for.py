@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from tree_sitter import Node
 
@@ -15,15 +15,13 @@ from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_loops import with_else
 from rebsync.reverse.python.body_rounds import leaves_nothing
 from rebsync.reverse.python.body_scope import REAL, WHOLE, Key, Value, Var
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_targets import check_target
 from rebsync.reverse.python.body_together import is_object, kept
 from rebsync.reverse.python.body_variables import forget, give
 from rebsync.reverse.python.py_index import arguments_of
 from rebsync.reverse.python.py_tree import field, is_label, named, text_of
 from rebsync.static.types import INT
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 _RANGES = ("builtins.range", "builtins.xrange")
 _LISTS = frozenset({"list", "tuple"})

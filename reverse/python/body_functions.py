@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -12,6 +11,7 @@ from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.body_arguments import Argument, arguments
 from rebsync.reverse.python.body_effects import HARMLESS_DECORATORS, getter, is_harmless, is_still
+from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_reading import has_nonlocals
 from rebsync.reverse.python.body_scope import (
     Frame,
@@ -25,9 +25,6 @@ from rebsync.reverse.python.body_scope import (
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_index import Scope, arguments_of, has_splat
 from rebsync.reverse.python.py_tree import field, named, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 
 _NOTHING = frozenset({"comment", "pass_statement"})
 _PATTERNS = frozenset({"pattern_list", "tuple_pattern"})

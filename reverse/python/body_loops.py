@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -15,13 +14,11 @@ from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import body_variables
 from rebsync.reverse.python.body_effects import is_log
 from rebsync.reverse.python.body_node_loops import EndlessLoop, forever
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.py_index import last_name
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.static.types import BOOLEAN
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 _APART = frozenset({"while_statement", "for_statement", "function_definition", "lambda"})
 

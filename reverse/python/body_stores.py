@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import chain
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -29,14 +28,11 @@ from rebsync.reverse.python.body_scope import (
     Value,
     Var,
 )
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_targets import check_target
 from rebsync.reverse.python.body_variables import change, forget, give, outside
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.texts import no_text
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
-
 
 _CONTAINERS = frozenset({"dictionary", "list", "tuple"})
 _PLACES = frozenset({"identifier", "attribute"})

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -22,10 +21,8 @@ from rebsync.reverse.python.body_scope import (
     Value,
     Var,
 )
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.py_tree import named
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 
 def change(reader: BodyStatementReader, message: Message, path: str) -> None:

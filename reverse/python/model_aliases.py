@@ -7,17 +7,15 @@ one. What follows a local that is either of two is read twice: in both branches 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 
 _SET_UP = frozenset({"__init__", "_wire"})
 _INNER = frozenset({"lambda", "class_definition", "function_definition"})

@@ -7,7 +7,6 @@ locals, or stand for the arguments where it only gives a value.
 from __future__ import annotations
 
 from itertools import count
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -17,12 +16,10 @@ from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_closures import arguments_of
 from rebsync.reverse.python.model_names import Closure
+from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts, type_of
 from rebsync.reverse.python.py_tree import calls_in, field, named, nodes_in, text_of
 from rebsync.static.types import INT
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
 _LOOPS = frozenset({"for_statement", "while_statement"})

@@ -6,17 +6,14 @@ A record may be changed, so that only its fields may be read, and it may be call
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.py_index import has_splat
 from rebsync.reverse.python.py_tree import field, is_label, named, nodes_in, text_of
 from rebsync.reverse.syntax.ancestors import climb
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 
 _SCOPES = frozenset({"function_definition", "lambda", "class_definition"})
 

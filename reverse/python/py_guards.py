@@ -8,18 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Plain, Unresolved
 from rebsync.reverse.python.py_bindings import Binding
+from rebsync.reverse.python.py_evaluator import PyEvaluator
+from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_worth import Value, Ways, distinct
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.py_evaluator import PyEvaluator
-    from rebsync.reverse.python.py_index import Scope
 
 
 def together(values: PyEvaluator, found: Sequence[tuple[Binding, Ways]], scope: Scope) -> Ways:

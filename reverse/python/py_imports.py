@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import PurePosixPath
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.build.common_messages import COMMON
 from rebsync.reverse.python.py_bindings import Binding
+from rebsync.reverse.python.py_evaluator import PyEvaluator
 from rebsync.reverse.python.py_index import PyCode, Scope
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import External, Module, Ways
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.py_evaluator import PyEvaluator
 
 
 def imported(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Ways:

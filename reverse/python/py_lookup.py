@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.python.py_bindings import Binding, reaching
-from rebsync.reverse.python.py_evaluator import each_of, lineage
+from rebsync.reverse.python.py_evaluator import PyEvaluator, each_of, lineage
 from rebsync.reverse.python.py_guards import together
 from rebsync.reverse.python.py_imports import imported, star_imported
 from rebsync.reverse.python.py_index import CLASS, Scope
@@ -32,9 +31,6 @@ from rebsync.reverse.python.py_worth import (
     distinct,
 )
 from rebsync.reverse.syntax.ancestors import climb
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.py_evaluator import PyEvaluator
 
 _ENUMERATIONS = frozenset({"enum.Enum", "enum.Flag"})
 _MIXED = frozenset({"builtins.str", "builtins.int", "builtins.float"})
