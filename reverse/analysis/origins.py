@@ -31,8 +31,6 @@ from rebsync.reverse.ir.program import Program
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 
-_LIMIT = 8  # sizes from here on are one
-
 
 @dataclass(frozen=True, slots=True)
 class FunctionOrigin:

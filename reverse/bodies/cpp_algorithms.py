@@ -43,9 +43,7 @@ def dereferenced(reader: CppExpressionReader, node: Node) -> m.Expression | None
     return reduce(lambda most, x: chosen(binary(sign, x, most), x, most), elements)
 
 
-def call(
-    reader: CppExpressionReader, node: Node, name: str, arguments: Sequence[Node]
-) -> m.Expression | None:
+def call(reader: CppExpressionReader, name: str, arguments: Sequence[Node]) -> m.Expression | None:
     """What a call gives that adds up, counts or tests a whole array; None for other calls."""
     if name in _TESTING and len(arguments) == 3:
         return _tested(reader, name, arguments)

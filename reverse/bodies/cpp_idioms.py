@@ -99,7 +99,7 @@ def call(
             return reader.calls(node, None, plain, arguments)
         case "sqrt", 1:
             return reader.calls(node, None, plain, arguments)
-    if (found := cpp_algorithms.call(reader, node, plain, arguments)) is not None:
+    if (found := cpp_algorithms.call(reader, plain, arguments)) is not None:
         return found
     if (limit := _LIMIT.match(name)) is not None and count == 0:
         least = limit[1] in ("min", "lowest")

@@ -34,7 +34,6 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
 _WHY = "C++ leaves open in which order this is evaluated"
 _HINT = "say it in two statements"
-_CHANGES = ("assignment_expression", "update_expression")
 _GUARDED = frozenset({"conditional_expression", "while_statement", "for_statement", "do_statement"})
 
 

@@ -61,7 +61,7 @@ def acting_in_blocks(
     blocks = _blocks(cpp, body)
     spans = [b for b in blocks if not any(b.start <= at.start <= b.end for at in listed)]
     if spans:
-        yield from _SensorProgram(code).acting_in(cpp, body, spans)
+        yield from _SensorProgram(code).acting_in(body, spans)
 
 
 def _blocks(cpp: Cpp, body: Node) -> Iterator[Span]:
@@ -116,7 +116,7 @@ class _SensorProgram:
             source = self.lowering.file_of(problem.function).source
             yield source, Unread(problem.place, f"{_ASKED}: {problem.why}")
 
-    def acting_in(self, cpp: Cpp, body: Node, spans: list[Span]) -> Iterator[tuple[Source, Unread]]:
+    def acting_in(self, body: Node, spans: list[Span]) -> Iterator[tuple[Source, Unread]]:
         """What statements of a body do."""
         names = (n for n, s in self._symbols.items() if s.code.body == body)
         for function in map(self.program.function, names):

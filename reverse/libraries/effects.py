@@ -1,29 +1,24 @@
 """What a call of a library does, for analyses: effect, purity, blocking, what is written.
 
-Asked for by a function's full name, or by the full name of a class and a method of it. What no
-table has may do anything. Functions of the standard libraries do what is said of them with values
-of plain types: an object's own operators and conversions, which they may call, are code of its own.
+Asked for by a function's full name. What no table has may do anything. Functions of the standard
+libraries do what is said of them with values of plain types: an object's own operators and
+conversions, which they may call, are code of its own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.registry import libraries
 from rebsync.reverse.libraries.routines import (
-    ANY_CONTAINER,
     Effect,
     Kind,
     Language,
-    Library,
     Routine,
 )
 
 _PREFIXES = ("std::this_thread::", "std::", "boost::")
-_CONTAINERS = frozenset(
-    {"vector", "array", "deque", "list", "map", "set", "string", "unordered_map"}
-)
 _CALLING = frozenset({Kind.HOOK, Kind.START, Kind.OTHER})
 
 
@@ -43,10 +38,6 @@ class CallEffect:
     callbacks: tuple[int, ...] = ()
     called: frozenset[str] = frozenset()
 
-    def may_write(self, place: int) -> bool:
-        """Whether it may write an argument, or with -1 its object."""
-        return self.writes is None or place in self.writes
-
 
 UNKNOWN = CallEffect(Effect.UNKNOWN, False, True, None)
 
@@ -56,18 +47,6 @@ def of_function(language: Language, name: str) -> CallEffect:
     names = _names(language, name)
     found = [_of(r) for candidate in names for r in _functions(language, candidate)]
     return found[0] if found and all(f == found[0] for f in found) else UNKNOWN
-
-
-def of_method(language: Language, of: str, name: str) -> CallEffect:
-    """What a method does, by the full name of the class of its object."""
-    plain = of.removeprefix("::")
-    found = [
-        methods[name]
-        for library in libraries(language)
-        for methods in _methods(library, plain)
-        if name in methods
-    ]
-    return _of(found[0]) if found else UNKNOWN
 
 
 def _names(language: Language, name: str) -> Iterator[str]:
@@ -86,19 +65,6 @@ def _functions(language: Language, name: str) -> Iterator[Routine]:
     for library in libraries(language):
         if name in library.functions:
             yield library.functions[name]
-
-
-def _methods(library: Library, of: str) -> Iterator[Mapping[str, Routine]]:
-    """The methods of a class; all classes of nodes of a library have the same."""
-    classes = library.nodes if of in library.nodes else {of}
-    if library.language is Language.CPP and _is_container(of):
-        classes = {ANY_CONTAINER}
-    yield from (library.methods[c] for c in sorted(classes) if c in library.methods)
-
-
-def _is_container(of: str) -> bool:
-    scope, _, name = of.partition("::")
-    return scope == "std" and name.partition("<")[0] in _CONTAINERS
 
 
 def _of(routine: Routine) -> CallEffect:

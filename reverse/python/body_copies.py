@@ -197,7 +197,7 @@ def _may_change(source: BodyStatementReader, node: Node, target: Node, type_: st
             is_named = any(_is_below(holder, each) for each in names)
             if is_named and scope is frame.scope and _are_before(bindings, holder, node):
                 continue
-            if is_named or not _is_new(reading, frame, scope, holder):
+            if is_named or not _is_new(reading, scope, holder):
                 return True
     return False
 
@@ -216,7 +216,7 @@ def _are_before(bindings: list[Binding], holder: str, node: Node) -> bool:
     )
 
 
-def _is_new(reading: Reading, frame: Frame, scope: Scope, holder: str) -> bool:
+def _is_new(reading: Reading, scope: Scope, holder: str) -> bool:
     """Whether a variable holds nothing but messages that are made for it."""
     match = _ROOT.match(holder)
     if match is None:

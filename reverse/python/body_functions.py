@@ -42,8 +42,7 @@ def value_of_call(reader: BodyExpressionReader, own: Scope, call: Node) -> Value
             raise Unread(reader.frame.span(call), why)
         if not HARMLESS_DECORATORS.issuperset(own.decorators):
             raise _unread(reader, own, call)
-        span = reader.frame.span(call)
-        return _computed(reader, own, arguments(own, call, span), call)
+        return _computed(reader, own, arguments(own, call), call)
     except Pending:
         raise
     except (Unknown, Unread) as failed:

@@ -80,7 +80,7 @@ def _entered(
     if has_splat(call):
         raise Unread(span, "what stars unpack into the arguments is not read")
     first: list[m.Statement] = []
-    for parameter, node, given in arguments(own, call, span):
+    for parameter, node, given in arguments(own, call):
         first += _bound(reader, inner, parameter, node, given)
     return first, inner
 

@@ -119,7 +119,7 @@ class Reading:
             if text in around.names and text not in [p.name for p in around.parameters]:
                 return self._variable(("local", around.node.id, text), text)
             around = around.parent
-        return self._of_module(text, node, scope)
+        return self._of_module(text, scope)
 
     def _local(self, text: str, scope: Scope, frame: Frame) -> Meaning:
         if text in frame.kept:
@@ -129,7 +129,7 @@ class Reading:
             frame.names[text] = self.fresh(text, key)
         return self._typed(key, frame.names[text], False)
 
-    def _of_module(self, text: str, node: Node, scope: Scope) -> Meaning:
+    def _of_module(self, text: str, scope: Scope) -> Meaning:
         module = scope.module
         bindings = module.names.get(text, [])
         if not bindings or any(b.how in ("import", "scope") for b in bindings):

@@ -65,7 +65,7 @@ def units_of(
             continue
         family = families[owner]
         together = [f for o in (family or (owner,)) for f in grouped.get(o, [])]
-        found.append(_unit(values, owner, family, together, facts, names))
+        found.append(_unit(owner, family, together, facts, names))
     return found
 
 
@@ -76,7 +76,6 @@ def _family(values: PyValues, owner: Scope) -> tuple[Scope, ...]:
 
 
 def _unit(
-    values: PyValues,
     owner: Scope,
     family: tuple[Scope, ...],
     together: Sequence[Fact],

@@ -27,7 +27,7 @@ _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "attribut
 def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m.Statement] | None:
     """The statements behind one that makes a local stand for an array; None if it does not."""
     name, arrays, condition = _declared(node)
-    if not arrays or name in reader.expressions.locals or not _is_alias(reader, node, name):
+    if not arrays or name in reader.expressions.locals or not _is_alias(node, name):
         return None
     if not all(_is_kept(reader, array) for array in arrays):
         return None
@@ -99,7 +99,7 @@ def _is_target(node: Node) -> bool:
     )
 
 
-def _is_alias(reader: ModelStatementReader, node: Node, name: str) -> bool:
+def _is_alias(node: Node, name: str) -> bool:
     """Whether a local is bound once, and else only its elements are looked at or stored."""
     function = node.parent
     while function is not None and function.type not in _INNER:

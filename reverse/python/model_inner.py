@@ -24,7 +24,6 @@ from rebsync.static.types import INT
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
 _LOOPS = frozenset({"for_statement", "while_statement"})
 _FUNCTIONS = frozenset({"function_definition", "lambda", "class_definition"})
-_STORES = frozenset({"assignment", "augmented_assignment", "named_expression"})
 
 
 def declare(reader: ModelStatementReader, node: Node) -> list[m.Statement]:

@@ -15,7 +15,7 @@ from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import External, Module, Ways
 
 
-def imported(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Ways:
+def imported(values: PyEvaluator, binding: Binding, scope: Scope) -> Ways:
     """What an import binds to a name."""
     item = binding.value
     wanted = text_of(field(item, "name") if item.type == "aliased_import" else item)

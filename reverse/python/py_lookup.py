@@ -109,7 +109,7 @@ def bound(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Way
                 values, values.ways(binding.value, scope_at(values, binding, scope)), binding, scope
             )
         case "augmented":
-            return _augmented(values, binding, name, scope)
+            return _augmented(values, binding, scope)
         case "loop":
             inner = scope_at(values, binding, scope)
             rounds = each_of(values, binding.value, inner)
@@ -119,7 +119,7 @@ def bound(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Way
         case "parameter":
             return argument(values, scope, binding.path[0])
         case "import":
-            return imported(values, binding, name, scope)
+            return imported(values, binding, scope)
         case _:
             return (values.unknown("a name that a statement sets", binding.node, scope),)
 
@@ -152,7 +152,7 @@ def _unpacked(values: PyEvaluator, ways: Ways, binding: Binding, scope: Scope) -
     return ways
 
 
-def _augmented(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Ways:
+def _augmented(values: PyEvaluator, binding: Binding, scope: Scope) -> Ways:
     left = values.ways(field(binding.node, "left"), scope_at(values, binding, scope))
     right = values.ways(binding.value, scope_at(values, binding, scope))
     operator = text_of(field(binding.node, "operator")).rstrip("=")

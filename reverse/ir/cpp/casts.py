@@ -38,13 +38,13 @@ def named_cast(
     declared = context.world.types.descriptor(context.cpp, context.scope, types[0])
     value = lower_value(context, nodes[0])
     if name == "dynamic_cast":
-        return _dynamic(context, value, declared, place)
+        return _dynamic(value, declared, place)
     if name == "reinterpret_cast" and not isinstance(declared.type, t.Reference):
         raise Unlowered("bits taken for those of another type")
     return cast(context, value, declared, place)
 
 
-def _dynamic(context: Context, value: Value, declared: Declared, place: Span) -> Value:
+def _dynamic(value: Value, declared: Declared, place: Span) -> Value:
     """`dynamic_cast<T*>(p)`: null where the object is of no such class; it is up to its class."""
     if not isinstance(declared.type, t.Reference):
         raise Unlowered("a dynamic cast to a reference, which may throw")

@@ -9,10 +9,8 @@ from rebsync.reverse.ir.cpp.classes import (
     copies_trivially,
     ends_silently,
     has_unknown_base,
-    implicit_constructor,
     is_base,
     members,
-    needs_constructor,
 )
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value
 from rebsync.reverse.ir.cpp.conversions import converted
@@ -202,9 +200,7 @@ def _tuple_value(context: Context, type_: t.Record, place: Span) -> e.Expression
     return e.BuildRecord(type_, tuple(fields), place)
 
 
-def default_constructed(
-    context: Context, target: e.Lvalue, type_: t.Type, place: Span, is_local: bool = False
-) -> None:
+def default_constructed(context: Context, target: e.Lvalue, type_: t.Type, place: Span) -> None:
     """`T x;` ([dcl.init] default-initialisation): numbers and pointers hold nothing yet."""
     owner = class_of(context, type_)
     if owner is not None:
@@ -230,11 +226,6 @@ def default_constructed(
         context.emit(s.Assign(target, value, place))
     elif isinstance(type_, t.Record | t.RosMessage):
         context.emit(s.Call(target, s.LibraryCallee(type_.name), (), place))
-
-
-def constructor_name(context: Context, owner: ClassSymbol) -> str | None:
-    """The implicit default constructor, if it runs anything."""
-    return implicit_constructor(owner) if needs_constructor(context.world, owner) else None
 
 
 def assigned_memberwise(
