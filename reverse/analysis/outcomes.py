@@ -103,7 +103,7 @@ class OutcomeAnalysis:
 
     def _of_body(self, function: Function, running: frozenset[str]) -> Equation[Problem]:
         """What a body may do; `running` are functions that silent calls are not looked for of."""
-        notes = self._notes(function)
+        notes = ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)
         walk_ = OutcomeWalk(notes, self.iterators)
         walk_.defaults(self._defaults.get(function.name, ()))
         walk_.body(function.body, NO_FACTS)
@@ -124,9 +124,6 @@ class OutcomeAnalysis:
             return Equation(own, tuple((c.function, c.leaving) for c in calls))
         uses = ((c.function, lambda p, c=c: frozenset(map(_ending, c.leaving(p)))) for c in calls)
         return Equation(frozenset(map(_ending, own)), tuple(uses))
-
-    def _notes(self, function: Function) -> ProblemNotes:
-        return ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)
 
     def _run(self, function: Function, names: Collection[str], notes: ProblemNotes) -> None:
         """Notes functions that run though no call of them stands in a function."""

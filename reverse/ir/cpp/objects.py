@@ -107,16 +107,12 @@ def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value
     found = converted(value.expression, value.type, to, place)
     if found is not None:
         return Value(found, to, value.is_lvalue and found is value.expression)
-    if isinstance(to, t.Record | t.FunctionType | t.RosHandle | t.RosMessage) or _of_library(
-        value.type
+    if isinstance(to, t.Record | t.FunctionType | t.RosHandle | t.RosMessage) or isinstance(
+        value.type, t.Record | t.RosMessage | t.RosHandle
     ):
         made_value = e.Convert(Conversion.CAST, as_value(context, value, place), to, True, place)
         return Value(made_value, to)
     raise Unlowered("a conversion that is not known")
-
-
-def _of_library(type_: t.Type) -> bool:
-    return isinstance(type_, t.Record | t.RosMessage | t.RosHandle)
 
 
 def passed(context: Context, value: Value, declared: Declared, place: Span) -> e.Expression:
