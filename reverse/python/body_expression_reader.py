@@ -28,6 +28,7 @@ from rebsync.reverse.python.body_scope import (
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.texts import text_literal
+from rebsync.source import Span
 from rebsync.static.types import DOUBLE
 
 
@@ -90,7 +91,7 @@ class BodyExpressionReader(ABC):
         """The value, of which the model must have the same number."""
         if self._is_refused(node, what):
             if strict:
-                raise Unread(self.frame.span(node), strict)
+                raise Unread(self._span(node), strict)
             raise unknown(self.frame, node, "a number that may be beyond its int")
         self._noted(value.expression, node, what, within)
         return value.expression
@@ -103,6 +104,9 @@ class BodyExpressionReader(ABC):
     def _is_refused(self, node: Node, what: str) -> bool:
         mark = (self.frame.py.source.path, node.start_byte, node.end_byte, what)
         return self.reading.learnt.is_refused(mark)
+
+    def _span(self, node: Node) -> Span:
+        return self.frame.span(node)
 
     @abstractmethod
     def read(self, node: Node) -> Value:
