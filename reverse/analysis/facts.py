@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 from rebsync.records import dataclass
 from rebsync.reverse.ir import expressions as e
-from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.operators import MIRRORED, Operator
 from rebsync.reverse.ir.walk import walk
 
 _LIMIT = 8
@@ -167,12 +167,6 @@ _OPPOSITE = {
     Operator.SAME: Operator.NOT_SAME,
     Operator.NOT_SAME: Operator.SAME,
 }
-_MIRRORED = {
-    Operator.LESS: Operator.GREATER,
-    Operator.GREATER: Operator.LESS,
-    Operator.LESS_EQUAL: Operator.GREATER_EQUAL,
-    Operator.GREATER_EQUAL: Operator.LESS_EQUAL,
-}
 _AT_LEAST = (Operator.GREATER, Operator.GREATER_EQUAL, Operator.EQUAL)
 
 
@@ -215,7 +209,7 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
     if operator is Operator.IN:
         return facts | {HasKey(right, left)}
     if isinstance(left, e.Literal) and not isinstance(right, e.Literal):
-        return _compared(facts, _MIRRORED.get(operator, operator), right, left)
+        return _compared(facts, MIRRORED.get(operator, operator), right, left)
     if not isinstance(right, e.Literal):
         return facts
     number = right.value

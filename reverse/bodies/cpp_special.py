@@ -19,7 +19,7 @@ from rebsync.reverse.bodies import (
     cpp_texts,
     cpp_timers,
 )
-from rebsync.reverse.bodies.building import bare, is_calm, negated
+from rebsync.reverse.bodies.building import bare, is_calm, negated, number_literal
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to, place_of
 from rebsync.reverse.bodies.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.cpp_failing import failing
@@ -273,12 +273,8 @@ def subject(reader: CppStatementReader, node: Node, body: Node) -> m.Expression:
                 values.append(int(known))
         expressions.approximate(node, unread)
         other = max(values, default=0) + 1
-        options = tuple(_literal(v) for v in dict.fromkeys([*values, other]))
+        options = tuple(number_literal(v) for v in dict.fromkeys([*values, other]))
         return m.Choice(options, reader.cpp.span(node)) if len(options) > 1 else options[0]
-
-
-def _literal(value: int) -> m.Expression:
-    return m.IntLiteral(value) if value >= 0 else m.Unary("-", m.IntLiteral(-value))
 
 
 # --- the rest -----------------------------------------------------------------------------------

@@ -18,7 +18,7 @@ from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, text_of
+from rebsync.reverse.syntax.cpp_tree import named, operator_of, text_of
 
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
 _LOOP_WORDS = re.compile(rb"\b(?:while|for|do)\b")
@@ -118,16 +118,13 @@ def _conjuncts(node: Node) -> Iterator[Node]:
     inner = named(node)
     if node.type in ("condition_clause", "parenthesized_expression") and len(inner) == 1:
         yield from _conjuncts(inner[0])
-    elif node.type == "binary_expression" and len(inner) == 2 and _operator(node) in ("&&", "and"):
+    elif (
+        node.type == "binary_expression" and len(inner) == 2 and operator_of(node) in ("&&", "and")
+    ):
         for each in inner:
             yield from _conjuncts(each)
     else:
         yield node
-
-
-def _operator(node: Node) -> str:
-    operator = node.child_by_field_name("operator")
-    return text_of(operator) if operator is not None else ""
 
 
 def _is_awake(node: Node) -> bool:

@@ -21,6 +21,7 @@ from rebsync.reverse.python.body_together import is_object, kept
 from rebsync.reverse.python.body_variables import forget, give
 from rebsync.reverse.python.py_index import arguments_of
 from rebsync.reverse.python.py_tree import field, is_label, named, text_of
+from rebsync.reverse.syntax.ancestors import holds
 from rebsync.static.types import INT
 
 _RANGES = ("builtins.range", "builtins.xrange")
@@ -211,7 +212,7 @@ def _only_here(reader: BodyStatementReader, node: Node, variable: str) -> bool:
     if any(b.how != "loop" for b in bindings):
         return False
     loops = [b.node for b in bindings]
-    inner = [n for n in loops if n != node and _holds(node, n)]
+    inner = [n for n in loops if n != node and holds(node, n)]
     if inner:
         return False
     waiting = [scope.node]
@@ -223,7 +224,3 @@ def _only_here(reader: BodyStatementReader, node: Node, variable: str) -> bool:
             return False
         waiting += current.named_children
     return True
-
-
-def _holds(outer: Node, inner: Node) -> bool:
-    return outer.start_byte <= inner.start_byte and inner.end_byte <= outer.end_byte

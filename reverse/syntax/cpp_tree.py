@@ -225,6 +225,11 @@ def text_of(node: Node) -> str:
         return text.decode("utf-8", "replace")
 
 
+def squeezed(node: Node) -> str:
+    """The text of a node without its layout."""
+    return "".join(text_of(node).split())
+
+
 def last_name(node: Node) -> str:
     """The last part of a qualified name, however it is laid out."""
     return text_of(node).rpartition("::")[2].strip()
@@ -280,6 +285,12 @@ def part(node: Node, name: str) -> Node:
     if child is None:
         raise ValueError(f"{node.type} without {name}")
     return child
+
+
+def operator_of(node: Node) -> str:
+    """The operator of an expression; empty where it has none."""
+    operator = node.child_by_field_name("operator")
+    return text_of(operator) if operator is not None else ""
 
 
 def markers_above(node: Node) -> tuple[str, ...]:
