@@ -11,7 +11,6 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_algorithms, cpp_atomics, cpp_optional_calls, cpp_texts
-from rebsync.reverse.bodies.building import binary, cast, chosen, is_calm, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader, Exchange
@@ -24,9 +23,10 @@ from rebsync.reverse.bodies.scope import Called, Record, Variable
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.models.building import binary, cast, chosen, is_calm, tight
+from rebsync.reverse.models.texts import text_literal
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.texts import text_literal
 from rebsync.source import Span
 from rebsync.static.constants import constant
 from rebsync.static.types import DOUBLE, INT, is_floating, is_integer

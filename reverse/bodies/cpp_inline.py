@@ -9,7 +9,6 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_aliases, cpp_captures, cpp_idioms, cpp_sequencing
-from rebsync.reverse.bodies.building import bare, cast, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
@@ -35,6 +34,7 @@ from rebsync.reverse.bodies.scope import (
     Variable,
 )
 from rebsync.reverse.bodies.serving import Serves
+from rebsync.reverse.models.building import bare, cast, is_calm, is_effect
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_depth import DEEPEST

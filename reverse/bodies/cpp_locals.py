@@ -16,7 +16,6 @@ from rebsync.reverse.bodies import (
     cpp_optionals,
     cpp_plain_locals,
 )
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_call_effects import check_object
 from rebsync.reverse.bodies.cpp_conversions import converted_to, type_in
 from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, number_of, only_value, taken_apart
@@ -33,8 +32,9 @@ from rebsync.reverse.bodies.known_functions import is_matrix, type_takes_values
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
 from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import is_calm
+from rebsync.reverse.models.texts import TEXT, is_constant
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.texts import TEXT, is_constant
 from rebsync.static.constants import constant
 from rebsync.static.types import BYTE, INT, SHORT
 

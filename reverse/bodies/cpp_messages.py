@@ -33,8 +33,8 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.models.texts import TEXT, any_text, text_literal
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.texts import TEXT, any_text, text_literal
 from rebsync.static.types import is_boolean
 
 _POINTER = re.compile(r"(?:::)?(?:Const)?(?:Shared|Unique|Weak)?Ptr$")

@@ -18,9 +18,9 @@ from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_types import arguments_of
 from rebsync.reverse.bodies.cpp_widths import check_stored, place_of
 from rebsync.reverse.bodies.scope import Record, Variable
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named
-from rebsync.reverse.texts import TEXT
 from rebsync.static.types import BOOLEAN
 
 _FALSE, _TRUE = m.BoolLiteral(False), m.BoolLiteral(True)

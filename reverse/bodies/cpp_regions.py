@@ -15,9 +15,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import number_literal
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.models.building import number_literal
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_numbers import constant_number
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of

@@ -8,9 +8,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Scope, Variable
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.texts import TEXT
 
 
 def root(scope: Scope, inner: Collection[str], node: Node) -> tuple[str, Meaning | None]:

@@ -19,7 +19,6 @@ from rebsync.reverse.bodies import (
     cpp_texts,
     cpp_timers,
 )
-from rebsync.reverse.bodies.building import bare, is_calm, negated, number_literal
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to, place_of
 from rebsync.reverse.bodies.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.cpp_failing import failing
@@ -45,6 +44,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import STREAMS
+from rebsync.reverse.models.building import bare, is_calm, negated, number_literal
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant

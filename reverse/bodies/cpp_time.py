@@ -7,7 +7,6 @@ from fractions import Fraction
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary, cast
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
@@ -18,6 +17,7 @@ from rebsync.reverse.findings import NotWhole, Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import SLEEPS, SUFFIXES, UNITS
+from rebsync.reverse.models.building import binary, cast
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import DOUBLE, is_integer

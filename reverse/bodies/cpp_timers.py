@@ -11,10 +11,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Switch, TimerOf
+from rebsync.reverse.models.building import binary
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 # Methods that stop a timer, or let it go on.

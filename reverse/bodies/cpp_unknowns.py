@@ -8,8 +8,8 @@ from collections.abc import Iterable
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import number_literal
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import number_literal
 from rebsync.reverse.syntax.cpp_tree import markers_above, markers_beside, markers_in, text_of
 from rebsync.source import Span
 

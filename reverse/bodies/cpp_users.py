@@ -9,7 +9,6 @@ from collections.abc import Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_failing import may_fail
 from rebsync.reverse.bodies.cpp_plain_locals import declared_names
@@ -19,6 +18,7 @@ from rebsync.reverse.bodies.scope import Ignored
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import STREAMS
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 

@@ -14,7 +14,6 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.intervals import Interval, exactly, of_bits
-from rebsync.reverse.bodies.building import binary, is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_misread import ChainOperand
@@ -29,6 +28,7 @@ from rebsync.reverse.bodies.cpp_ranges import (
 )
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.models.building import binary, is_calm
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import is_floating

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import negated
+from rebsync.reverse.models.building import negated
 
 # So many branches within each other may go on with the same statements.
 _MOST_COPIES = 8

@@ -9,7 +9,7 @@ from rebsync import questions as q
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, did_you_mean
 from rebsync.records import dataclass
 from rebsync.reverse.environment.observation import ANY, COUNT, Observation
-from rebsync.reverse.texts import TEXT
+from rebsync.reverse.models.texts import TEXT
 from rebsync.source import Source, Span
 
 _NAME = "Question"

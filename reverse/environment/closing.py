@@ -19,9 +19,9 @@ from rebsync.reserved import KEEP_LAST, OPEN
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.representatives import of_texts, representatives
 from rebsync.reverse.environment.scopes import Scope
+from rebsync.reverse.models.texts import OTHER, TEXT
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.open_ends import OpenEnd
-from rebsync.reverse.texts import OTHER, TEXT
 from rebsync.static.constants import Value
 
 _NONE: Mapping[str, int] = {}

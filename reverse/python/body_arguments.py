@@ -7,8 +7,8 @@ from typing import TypeAlias
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.py_index import PyParameter, Scope, arguments_of
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.syntax.py_index import PyParameter, Scope, arguments_of
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 Argument: TypeAlias = tuple[PyParameter, "Node | None", bool]
 

@@ -23,11 +23,11 @@ from rebsync.reverse.python.body_scope import OTHER, TRUTH, TYPES, Frame, Messag
 from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_variables import store
 from rebsync.reverse.python.interfaces import interface_of
-from rebsync.reverse.python.py_bindings import Binding
-from rebsync.reverse.python.py_index import CLASS, Scope, arguments_of
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import External
 from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import CLASS, Scope, arguments_of
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _ROOT = re.compile(r"(?:(\w+)\.)?(\w+)")
 _COPY = "copy.copy"

@@ -8,9 +8,9 @@ from typing import TypeAlias
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, binary, chosen, is_plain, whole_number
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import bare, binary, chosen, is_plain, whole_number
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_loops import with_else
 from rebsync.reverse.python.body_rounds import leaves_nothing
@@ -19,9 +19,9 @@ from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_targets import check_target
 from rebsync.reverse.python.body_together import is_object, kept
 from rebsync.reverse.python.body_variables import forget, give
-from rebsync.reverse.python.py_index import arguments_of
-from rebsync.reverse.python.py_tree import field, is_label, named, text_of
 from rebsync.reverse.syntax.ancestors import holds
+from rebsync.reverse.syntax.py_index import arguments_of
+from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
 from rebsync.static.types import INT
 
 _RANGES = ("builtins.range", "builtins.xrange")

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.body_arguments import Argument, arguments
 from rebsync.reverse.python.body_effects import HARMLESS_DECORATORS, getter, is_harmless, is_still
 from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
@@ -23,8 +23,8 @@ from rebsync.reverse.python.body_scope import (
     Value,
 )
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import Scope, arguments_of, has_splat
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_index import Scope, arguments_of, has_splat
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _NOTHING = frozenset({"comment", "pass_statement"})
 _PATTERNS = frozenset({"pattern_list", "tuple_pattern"})

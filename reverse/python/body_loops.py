@@ -15,9 +15,9 @@ from rebsync.reverse.python import body_variables
 from rebsync.reverse.python.body_effects import is_log
 from rebsync.reverse.python.body_node_loops import EndlessLoop, forever
 from rebsync.reverse.python.body_statement_reader import BodyStatementReader
-from rebsync.reverse.python.py_index import last_name
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.py_index import last_name
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.static.types import BOOLEAN
 
 _APART = frozenset({"while_statement", "for_statement", "function_definition", "lambda"})

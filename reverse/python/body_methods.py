@@ -19,8 +19,8 @@ from rebsync.reverse.python.body_scope import Frame, Message, Nobody, Own, Var
 from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_variables import give
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import FUNCTION, PyParameter, Scope, has_splat
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.syntax.py_index import FUNCTION, PyParameter, Scope, has_splat
+from rebsync.reverse.syntax.py_tree import field, named, nodes_in, text_of
 
 _DEEPEST = 12
 # What a function does, and what it returns, with who reads that.

@@ -15,6 +15,7 @@ from rebsync.reverse.analysis.needs import Need
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import Fact
+from rebsync.reverse.models.texts import MEMBER, is_text, text_literal
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_values import Instance
@@ -41,13 +42,12 @@ from rebsync.reverse.python.body_scope import (
 )
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.node_effects import NodeEffects
-from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
 from rebsync.reverse.python.py_lookup import attribute, bound
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import EnumMember, External, Function, Made, Module, Ways
 from rebsync.reverse.python.py_worth import Instance as Object
-from rebsync.reverse.texts import MEMBER, is_text, text_literal
+from rebsync.reverse.syntax.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
+from rebsync.reverse.syntax.py_tree import field, text_of
 from rebsync.source import Source, Span
 
 

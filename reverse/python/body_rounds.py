@@ -9,9 +9,9 @@ from rebsync.reverse.python.body_scope import Nobody
 from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_targets import check_target
 from rebsync.reverse.python.body_variables import forget
-from rebsync.reverse.python.py_index import last_name
-from rebsync.reverse.python.py_tree import field, named
 from rebsync.reverse.python.py_worth import Bound, External, Made
+from rebsync.reverse.syntax.py_index import last_name
+from rebsync.reverse.syntax.py_tree import field, named
 
 # Calls whose results have an end, and do not wait for what comes.
 _FINITE = frozenset(

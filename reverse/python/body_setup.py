@@ -18,9 +18,9 @@ from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_units import wakes
-from rebsync.reverse.python.py_index import CLASS, arguments_of, last_name
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class
+from rebsync.reverse.syntax.py_index import CLASS, arguments_of, last_name
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _NAMES = frozenset({"identifier", "attribute"})
 

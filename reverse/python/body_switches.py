@@ -13,9 +13,9 @@ from rebsync.reverse.graph import TimerFact
 from rebsync.reverse.python.body_scope import OTHER, TRUTH, WHOLE
 from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_timers import MADE, alone, key_of, keys_of, switch_for, timer_of
-from rebsync.reverse.python.py_index import arguments_of
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.py_index import arguments_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 # Methods that stop a timer, or let it begin anew.
 _SWITCHING = frozenset({"cancel", "reset", "shutdown"})

@@ -40,10 +40,10 @@ from rebsync.reverse.python.body_units import (
 from rebsync.reverse.python.escapes import list_escapes
 from rebsync.reverse.python.handle_stores import list_handle_stores
 from rebsync.reverse.python.node_effects import NodeEffects
-from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.python.spinning import list_unserved
+from rebsync.reverse.syntax.py_index import Scope
 
 _MOST_ROUNDS = 60
 # Rebecs of a unit that are read alike, by their number.

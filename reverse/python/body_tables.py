@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.building import chosen, is_calm
+from rebsync.reverse.models.building import chosen, is_calm
 from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import STRING, TRUTH, WHOLE, Value, unknown
-from rebsync.reverse.python.py_index import arguments_of
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.py_worth import Items, Table
+from rebsync.reverse.syntax.py_index import arguments_of
+from rebsync.reverse.syntax.py_tree import field, named, nodes_in, text_of
 
 _LISTS = frozenset({"tuple", "list", "set"})
 # What may store an element, or take it out, if that is a part of it.

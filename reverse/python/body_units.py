@@ -25,10 +25,10 @@ from rebsync.reverse.nodes.node_servers import Server, beside_topic, topic_of
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import CLASS, LAMBDA, PyCode, Scope
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.syntax.py_index import CLASS, LAMBDA, PyCode, Scope
 
 _GIVES = frozenset({"value", "augmented", "loop", "opaque"})
 _PARALLEL = (b"MultiThreadedExecutor", b"CallbackGroup")

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_reading import field_key
@@ -22,7 +22,7 @@ from rebsync.reverse.python.body_scope import (
     Var,
 )
 from rebsync.reverse.python.body_statement_reader import BodyStatementReader
-from rebsync.reverse.python.py_tree import named
+from rebsync.reverse.syntax.py_tree import named
 
 
 def change(reader: BodyStatementReader, message: Message, path: str) -> None:

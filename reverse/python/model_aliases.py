@@ -13,9 +13,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import field, named, nodes_in, text_of
 
 _SET_UP = frozenset({"__init__", "_wire"})
 _INNER = frozenset({"lambda", "class_definition", "function_definition"})

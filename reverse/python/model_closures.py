@@ -5,7 +5,7 @@ from __future__ import annotations
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_names import Closure

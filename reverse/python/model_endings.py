@@ -13,8 +13,8 @@ from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python.model_failing import may_fail
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.syntax.ancestors import ancestors, climb
+from rebsync.reverse.syntax.py_tree import field, named, nodes_in, text_of
 
 _LOOPS = frozenset({"for_statement", "while_statement"})
 _FUNCTIONS = frozenset({"function_definition", "lambda", "class_definition"})

@@ -13,7 +13,7 @@ from rebsync.reverse.python.model_names import Filling
 from rebsync.reverse.python.model_roles import PyRoles, PySends
 from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _PUBLISH = "self._mailbox.publish"
 

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Iterator
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_default
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.models.building import is_default
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
-from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.syntax.py_index import Scope
 
 _SHARED = "descendants start with this value too, and the model runs one constructor of a rebec"
 _HINT = "store it in the constructor of each class"

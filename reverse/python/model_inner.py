@@ -11,14 +11,14 @@ from itertools import count
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_closures import arguments_of
 from rebsync.reverse.python.model_names import Closure
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts, type_of
-from rebsync.reverse.python.py_tree import calls_in, field, named, nodes_in, text_of
+from rebsync.reverse.syntax.py_tree import calls_in, field, named, nodes_in, text_of
 from rebsync.static.types import INT
 
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})

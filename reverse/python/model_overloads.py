@@ -19,8 +19,8 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_roles import PyRoles, PySends
 from rebsync.reverse.python.model_types import class_name, type_of
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import field, named
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import field, named
 from rebsync.static.types import is_floating, is_integer
 
 

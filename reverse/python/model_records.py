@@ -11,9 +11,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
-from rebsync.reverse.python.py_index import has_splat
-from rebsync.reverse.python.py_tree import field, is_label, named, nodes_in, text_of
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.py_index import has_splat
+from rebsync.reverse.syntax.py_tree import field, is_label, named, nodes_in, text_of
 
 _SCOPES = frozenset({"function_definition", "lambda", "class_definition"})
 

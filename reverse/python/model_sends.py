@@ -14,7 +14,7 @@ from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_overloads import told
 from rebsync.reverse.python.model_roles import PySends
 from rebsync.reverse.python.model_types import string_value
-from rebsync.reverse.python.py_tree import named, text_of
+from rebsync.reverse.syntax.py_tree import named, text_of
 
 _CLOCK = names_in_model(Language.PYTHON)
 

@@ -8,14 +8,14 @@ from itertools import count
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_inner import leaves
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts, string_value
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.syntax.py_tree import field, named, nodes_in, text_of
 from rebsync.static.types import INT
 
 _PLACES = ("identifier", "attribute")

@@ -14,8 +14,8 @@ from tree_sitter import Node
 from rebsync.reverse.python.import_effects import parsed
 from rebsync.reverse.python.log_words import HARMLESS
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.user_effects import effects_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.source import Source
 
 _BLOCK = re.compile(r"^[ \t]*#\s*rebsync:\s*(user\s+\S+|end\b)", re.MULTILINE)

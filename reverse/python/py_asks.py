@@ -10,8 +10,6 @@ from rebsync.records import dataclass
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind, Routine
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import Scope, arguments_of, last_name
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import (
     Bound,
@@ -22,6 +20,8 @@ from rebsync.reverse.python.py_worth import (
     Made,
     Value,
 )
+from rebsync.reverse.syntax.py_index import Scope, arguments_of, last_name
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 
 @dataclass(frozen=True, eq=False, slots=True)

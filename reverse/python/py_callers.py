@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.python.py_evaluator import PyEvaluator, lineage
-from rebsync.reverse.python.py_index import LAMBDA, PyParameter, Scope, arguments_of, classes_in
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Instance, Ways, distinct
+from rebsync.reverse.syntax.py_index import LAMBDA, PyParameter, Scope, arguments_of, classes_in
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _MANY = 40
 # Of objects with which somebody else makes an object of a class nothing is known.

@@ -12,12 +12,12 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Plain, Unresolved
-from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_evaluator import PyEvaluator
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_worth import Value, Ways, distinct
 from rebsync.reverse.syntax.ancestors import holds
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 
 def together(values: PyEvaluator, found: Sequence[tuple[Binding, Ways]], scope: Scope) -> Ways:

@@ -7,12 +7,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
-from rebsync.reverse.python.py_bindings import Binding, reaching
 from rebsync.reverse.python.py_evaluator import PyEvaluator, each_of, lineage
 from rebsync.reverse.python.py_guards import together
 from rebsync.reverse.python.py_imports import imported, star_imported
-from rebsync.reverse.python.py_index import CLASS, Scope
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import (
     Bound,
     Class,
@@ -31,6 +28,9 @@ from rebsync.reverse.python.py_worth import (
     distinct,
 )
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.py_bindings import Binding, reaching
+from rebsync.reverse.syntax.py_index import CLASS, Scope
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _ENUMERATIONS = frozenset({"enum.Enum", "enum.Flag"})
 _MIXED = frozenset({"builtins.str", "builtins.int", "builtins.float"})

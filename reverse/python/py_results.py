@@ -10,9 +10,7 @@ from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Access, Kind
 from rebsync.reverse.python.py_evaluator import PyEvaluator, each_of, lineage
-from rebsync.reverse.python.py_index import LAMBDA, Scope, arguments_of
 from rebsync.reverse.python.py_texts import filled
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_worth import (
     Bound,
     Class,
@@ -30,6 +28,8 @@ from rebsync.reverse.python.py_worth import (
     distinct,
     resolved,
 )
+from rebsync.reverse.syntax.py_index import LAMBDA, Scope, arguments_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _SAME = frozenset({"str", "int", "float", "bool", "list", "tuple", "unicode", "sorted", "set"})
 _PARTIAL = frozenset({"functools.partial", "partial"})

@@ -19,8 +19,8 @@ from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.python.import_effects import parsed
-from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.py_index import PyCode
 from rebsync.source import Source, Span
 
 _ASKED = "this runs when it is asked what a sensor saw"

@@ -22,11 +22,11 @@ from rebsync.reverse.python.body_started import is_module
 from rebsync.reverse.python.body_units import scope_around
 from rebsync.reverse.python.py_asks import is_node
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import CLASS, LAMBDA, MODULE, Scope, arguments_of, last_name
-from rebsync.reverse.python.py_tree import field, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import Class, External, Function, Instance, Made, Module, Value
 from rebsync.reverse.syntax.ancestors import ancestors, climb
+from rebsync.reverse.syntax.py_index import CLASS, LAMBDA, MODULE, Scope, arguments_of, last_name
+from rebsync.reverse.syntax.py_tree import field, nodes_in, text_of
 
 _SERVED = (SubscriptionFact, TimerFact, ServiceFact)
 _LOOPS = frozenset({"while_statement", "for_statement"})

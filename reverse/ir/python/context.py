@@ -16,7 +16,7 @@ from rebsync.reverse.ir.python.names import NameLookup
 from rebsync.reverse.ir.python.results import OPERATORS, type_of
 from rebsync.reverse.ir.python.symbols import Binder, Symbols
 from rebsync.reverse.ir.types import TEXT, UNKNOWN, Container, ContainerKind, Type
-from rebsync.reverse.python.py_tree import Py, field, named, text_of
+from rebsync.reverse.syntax.py_tree import Py, field, named, text_of
 from rebsync.source import Span
 
 _STABLE = (

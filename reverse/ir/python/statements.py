@@ -16,8 +16,8 @@ from rebsync.reverse.ir.python.references import name_target, unsupported
 from rebsync.reverse.ir.python.results import has_truth
 from rebsync.reverse.ir.python.symbols import ScopeKind, imported_name
 from rebsync.reverse.ir.python.targets import assign_all, augment, delete
-from rebsync.reverse.python.py_imports import module_of
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_index import module_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _SILENT = frozenset(
     {"pass_statement", "global_statement", "nonlocal_statement", "future_import_statement"}

@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync.precedence import LOWEST, binding
 from rebsync.printing import print_expression, print_statement
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import bare
+from rebsync.reverse.models.building import bare
 from rebsync.roundtrip.diff.alignment import aligned, overlap
 from rebsync.roundtrip.diff.bodies.similarity import head_of
 from rebsync.roundtrip.diff.normal_form import joined_starts, with_starts

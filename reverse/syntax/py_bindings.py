@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.syntax.ancestors import ancestors, holds
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 # What is in these may run or not; `with` always runs what is in it.
 _BRANCHES = frozenset(
