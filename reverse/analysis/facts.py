@@ -231,16 +231,17 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
     if excludes.get(operator, False):
         facts = _held(facts, left, True)
     if operator in _AT_LEAST and number >= 0:
-        facts |= {IsPositive(left), IsPositive(_bare(left))}
+        facts |= {IsPositive(left), IsPositive(bare(left))}
     least = {Operator.GREATER: number + 1, Operator.GREATER_EQUAL: number, Operator.EQUAL: number}
     if operator in least:
         for fact in list(facts):
-            if isinstance(fact, IsSize) and fact.value == _bare(left):
+            if isinstance(fact, IsSize) and fact.value == bare(left):
                 facts |= sized(fact.container, int(least[operator]))
     return facts
 
 
-def _bare(value: e.Expression) -> e.Expression:
+def bare(value: e.Expression) -> e.Expression:
+    """A value without the conversions around it."""
     while isinstance(value, e.Convert):
         value = value.operand
     return value

@@ -6,6 +6,7 @@ import re
 
 from rebsync.reverse.analysis.facts import (
     Facts,
+    bare,
     without,
     without_shared,
 )
@@ -343,7 +344,7 @@ class OutcomeCalls:
             case Raises.PART:
                 return takes_part(node) or self._is_count(node, facts)
             case Raises.POSITION:
-                return bool(values) and is_position(self.expressions.bare(values[0]))
+                return bool(values) and is_position(bare(values[0]))
             case Raises.ZERO_STEP:
                 return not all(self.expressions.is_nonzero(v, facts) for v in values[2:])
             case Raises.TEXT:

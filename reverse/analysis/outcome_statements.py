@@ -14,6 +14,7 @@ from rebsync.reverse.analysis.facts import (
     IsBelow,
     IsSame,
     IsSize,
+    bare,
     size_of,
     sized,
     tested,
@@ -167,12 +168,12 @@ class OutcomeWalk:
         facts |= sized(target, size)
         if isinstance(target, e.Temporary):
             facts |= {IsSame(target, value)}
-        bare = self._expressions.bare(value)
+        plain = bare(value)
         for fact in before:
             match fact:
                 case Holds(known) if known == value:
                     facts |= {Holds(target)}
-                case IsSize(known, container) if known == bare:
+                case IsSize(known, container) if known == plain:
                     facts |= {IsSize(target, container)}
                 case _:
                     pass
