@@ -27,19 +27,15 @@ class CallEffect:
     """What a call does besides giving its result.
 
     `writes` are the places of arguments that it may write, -1 that of the object it is called on;
-    None where it may write anything. `callbacks` are the places, and `called` the names, of the
-    arguments that it calls, now or later: what those do comes on top.
+    None where it may write anything. One that calls its arguments is not pure.
     """
 
     effect: Effect
     is_pure: bool
-    blocks: bool
     writes: frozenset[int] | None
-    callbacks: tuple[int, ...] = ()
-    called: frozenset[str] = frozenset()
 
 
-UNKNOWN = CallEffect(Effect.UNKNOWN, False, True, None)
+UNKNOWN = CallEffect(Effect.UNKNOWN, False, None)
 
 
 def of_function(language: Language, name: str) -> CallEffect:
@@ -70,8 +66,8 @@ def _functions(language: Language, name: str) -> Iterator[Routine]:
 def _of(routine: Routine) -> CallEffect:
     writes = routine.written
     if routine.effect is Effect.CHANGES and not writes:
-        return CallEffect(routine.effect, False, False, None)
+        return CallEffect(routine.effect, False, None)
     calls = routine.effect is Effect.ASKS or routine.kind in _CALLING
-    called = frozenset(name for name, role in routine.keywords if calls and role == "callback")
-    pure = routine.is_pure and not routine.callbacks and not called
-    return CallEffect(routine.effect, pure, routine.blocks, writes, routine.callbacks, called)
+    is_called = calls and any(role == "callback" for _, role in routine.keywords)
+    pure = routine.is_pure and not routine.callbacks and not is_called
+    return CallEffect(routine.effect, pure, writes)
