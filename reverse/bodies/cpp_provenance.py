@@ -14,7 +14,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, returns_in, text_of
 from rebsync.reverse.values.cpp_flow import Texts
 from rebsync.reverse.values.cpp_flow_calls import Calls
 from rebsync.reverse.values.cpp_flow_definitions import Definition, definitions
@@ -180,7 +180,7 @@ class ProvenanceAnalysis:
             returns = [
                 value
                 for f in reached
-                for each in _returns(f.body)
+                for each in returns_in(f.body)
                 for value in ((f.cpp, v) for v in named(each))
             ]
             return max((self.of(c, v, depth + 1) for c, v in returns), default=Provenance.MADE)
@@ -198,16 +198,6 @@ class ProvenanceAnalysis:
 
 _NONE = Provenance.MADE
 _OTHER = Provenance.LIBRARY
-
-
-def _returns(body: Node | None) -> Iterator[Node]:
-    waiting = [body] if body is not None else []
-    while waiting:
-        current = waiting.pop()
-        if current.type == "return_statement":
-            yield current
-        elif current.type != "lambda_expression":
-            waiting += current.named_children
 
 
 def _refers(variable: Variable) -> bool:

@@ -19,8 +19,9 @@ from rebsync.reverse.python.body_scope import Frame, Message, Nobody, Own, Var
 from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_variables import give
 from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import FUNCTION, PyParameter, Scope, has_splat
-from rebsync.reverse.syntax.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _DEEPEST = 12
 # What a function does, and what it returns, with who reads that.

@@ -46,8 +46,9 @@ from rebsync.reverse.python.py_lookup import attribute, bound
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import EnumMember, External, Function, Made, Module, Ways
 from rebsync.reverse.python.py_worth import Instance as Object
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
-from rebsync.reverse.syntax.py_tree import field, text_of
+from rebsync.reverse.syntax.py_tree import SCOPES, field, text_of
 from rebsync.source import Source, Span
 
 
@@ -333,15 +334,10 @@ def nonlocals(scope: Scope) -> set[str]:
     """The names that a function declares to be of the one around it."""
     if not has_nonlocals(scope):
         return set()
-    found: set[str] = set()
-    waiting = list(scope.node.named_children)
-    while waiting:
-        node = waiting.pop()
-        if node.type == "nonlocal_statement":
-            found |= {text_of(c) for c in node.named_children}
-        elif node.type not in ("function_definition", "lambda", "class_definition"):
-            waiting += node.named_children  # those inside say it of names of this one
-    return found
+    # Functions inside say it of names of this one.
+    inside = (n for c in scope.node.named_children for n in nodes_in(c, *SCOPES))
+    said = (n for n in inside if n.type == "nonlocal_statement")
+    return {text_of(name) for each in said for name in each.named_children}
 
 
 def has_nonlocals(scope: Scope) -> bool:

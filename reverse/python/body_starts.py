@@ -29,9 +29,10 @@ from rebsync.reverse.python.body_statements import PyStatements
 from rebsync.reverse.python.body_units import scope_around
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.py_worth import Class
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding
 from rebsync.reverse.syntax.py_index import MODULE, Scope
-from rebsync.reverse.syntax.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 
 def constructor(reading: Reading, loops: list[EndlessLoop]) -> tuple[m.Statement, ...]:

@@ -38,7 +38,8 @@ from rebsync.reverse.python.body_scope import (
     Pending,
 )
 from rebsync.reverse.python.body_statement_reader import BodyStatementReader
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
 from rebsync.statements import UNREADABLE
 
 _NOTHING = frozenset(
@@ -114,7 +115,7 @@ class PyStatements(BodyStatementReader):
 
     def _lose(self, node: Node) -> None:
         """Of what a statement sets that is not read nothing is known."""
-        for inner in _inside(node):
+        for inner in nodes_in(node, *SCOPES):
             if inner.type in ("assignment", "augmented_assignment", "for_statement"):
                 body_variables.forget(self, field(inner, "left"))
             elif inner.type == "named_expression":
@@ -251,11 +252,11 @@ class PyStatements(BodyStatementReader):
         found = self.statements(named(body))
         clauses = {c.type for c in named(node)}
         if not self.frame.is_start:
-            unsure = [n for n in _inside(body) if self._may_raise(n)]
+            unsure = [n for n in nodes_in(body, *SCOPES) if self._may_raise(n)]
             if unsure or len(findings.all) > count:
                 why = "what may raise an exception here is not in the model"
                 raise Unread(self.frame.span(node), why)
-        if clauses & _BEHIND and any(n.type in _LEAVING for n in _inside(body)):
+        if clauses & _BEHIND and any(n.type in _LEAVING for n in nodes_in(body, *SCOPES)):
             raise Unread(self.frame.span(node), "what runs behind a jump out of this is not read")
         yield from found
         for clause in named(node):
@@ -301,12 +302,3 @@ class PyStatements(BodyStatementReader):
                 body_targets.check_target(self, target)
                 body_variables.forget(self, target.named_children[0])
         yield from self.statements(named(field(node, "body")))
-
-
-def _inside(node: Node) -> Iterator[Node]:
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        yield current
-        if current.type not in ("function_definition", "class_definition", "lambda"):
-            waiting += current.named_children

@@ -11,8 +11,9 @@ from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import STRING, TRUTH, WHOLE, Value, unknown
 from rebsync.reverse.python.py_worth import Items, Table
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import arguments_of
-from rebsync.reverse.syntax.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _LISTS = frozenset({"tuple", "list", "set"})
 # What may store an element, or take it out, if that is a part of it.

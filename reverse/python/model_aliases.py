@@ -14,13 +14,13 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode
-from rebsync.reverse.syntax.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
 
 _SET_UP = frozenset({"__init__", "_wire"})
-_INNER = frozenset({"lambda", "class_definition", "function_definition"})
 _STORES = frozenset({"assignment", "augmented_assignment", "named_expression"})
-_UNSAFE = _INNER | {"augmented_assignment", "named_expression", "delete_statement"}
+_UNSAFE = SCOPES | {"augmented_assignment", "named_expression", "delete_statement"}
 _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "attribute"})
 
 
@@ -102,7 +102,7 @@ def _is_target(node: Node) -> bool:
 def _is_alias(node: Node, name: str) -> bool:
     """Whether a local is bound once, and else only its elements are looked at or stored."""
     function = node.parent
-    while function is not None and function.type not in _INNER:
+    while function is not None and function.type not in SCOPES:
         function = function.parent
     if function is None:
         return False

@@ -18,12 +18,12 @@ from rebsync.reverse.python.model_closures import arguments_of
 from rebsync.reverse.python.model_names import Closure
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts, type_of
-from rebsync.reverse.syntax.py_tree import calls_in, field, named, nodes_in, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import SCOPES, calls_in, field, named, text_of
 from rebsync.static.types import INT
 
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
 _LOOPS = frozenset({"for_statement", "while_statement"})
-_FUNCTIONS = frozenset({"function_definition", "lambda", "class_definition"})
 
 
 def declare(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
@@ -172,6 +172,6 @@ def leaves(node: Node, in_loop: bool = False) -> bool:
     for child in named(node):
         if child.type in _LEAVING and not (in_loop and child.type != "return_statement"):
             return True
-        if child.type not in _FUNCTIONS and leaves(child, in_loop or child.type in _LOOPS):
+        if child.type not in SCOPES and leaves(child, in_loop or child.type in _LOOPS):
             return True
     return False

@@ -16,7 +16,8 @@ from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts, markers_above
-from rebsync.reverse.syntax.py_tree import field, named, nodes_in, text_of, whole_number_of
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
 
 _STEP = "step"
 

@@ -33,8 +33,9 @@ from rebsync.reverse.python.module_variables import (
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.record_classes import records_in
 from rebsync.reverse.syntax.ancestors import ancestors, climb
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
-from rebsync.reverse.syntax.py_tree import field, is_label, named, nodes_in, text_of
+from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
 
 _SET_UP = ("__init__", "_wire")
 _VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})

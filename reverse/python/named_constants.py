@@ -19,6 +19,7 @@ from rebsync.reverse.python.model_kinds import float_literal
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import Class, External, Items, Module, Value
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding
 from rebsync.reverse.syntax.py_index import (
     CLASS,
@@ -29,7 +30,7 @@ from rebsync.reverse.syntax.py_index import (
     module_named,
     module_of,
 )
-from rebsync.reverse.syntax.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _INTEGERS = "enum.IntEnum"
 _PLAIN_BASES = frozenset({"builtins.object", "abc.ABC", _INTEGERS})

@@ -30,7 +30,7 @@ from rebsync.reverse.python.py_worth import (
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_bindings import Binding, reaching
 from rebsync.reverse.syntax.py_index import CLASS, Scope
-from rebsync.reverse.syntax.py_tree import field, text_of
+from rebsync.reverse.syntax.py_tree import SCOPES, field, text_of
 
 _ENUMERATIONS = frozenset({"enum.Enum", "enum.Flag"})
 _MIXED = frozenset({"builtins.str", "builtins.int", "builtins.float"})
@@ -126,8 +126,7 @@ def bound(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Way
 
 def scope_at(values: PyEvaluator, binding: Binding, scope: Scope) -> Scope:
     """The scope in which the value of a binding stands: a method may set a global or attribute."""
-    scopes = ("function_definition", "class_definition", "lambda")
-    above = climb(binding.node, lambda n: n.type in scopes)
+    above = climb(binding.node, lambda n: n.type in SCOPES)
     if above is None:
         return scope.module
     return values.code.scopes.get((scope.py.source.path, above.id), scope)

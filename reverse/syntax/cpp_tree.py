@@ -15,6 +15,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_depth import deep_parts, may_be_deep, without
 from rebsync.reverse.syntax.cpp_text import readable
 from rebsync.reverse.syntax.cpp_words import Plain
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.source import Source, SourceSpan, Span
 
 _MOST_COMMENTS = 60  # each is looked for from the start of what is around it
@@ -254,6 +255,12 @@ def inside(node: Node | None, *types: str) -> list[Node]:
         if current.named_child_count:
             waiting += reversed(current.named_children)
     return found
+
+
+def returns_in(body: Node | None) -> Iterator[Node]:
+    """The `return` statements of a body, not those of lambdas in it."""
+    inner = nodes_in(body, "lambda_expression") if body is not None else ()
+    return (n for n in inner if n.type == "return_statement")
 
 
 def by_types(node: Node, types: tuple[str, ...]) -> dict[str, list[Node]]:
