@@ -43,7 +43,6 @@ _LOCKS = {"threading.Lock": False, "threading.RLock": True}
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
 _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
-_GROWING = frozenset({"append", "clear"})
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -117,7 +116,7 @@ class Silent:
         holder, method = field(function, "object"), text_of(field(function, "attribute"))
         if method == "publish":
             return text_of(holder).removeprefix("self.") in self.publishers
-        return method in _GROWING and self._is_place(holder)
+        return method in ("append", "clear") and self._is_place(holder)
 
     def _is_place(self, node: Node) -> bool:
         """Whether something is a silent member or message, or a part of one."""
