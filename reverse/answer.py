@@ -15,9 +15,9 @@ from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.files.reading import Chosen
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.graph_json import graph_data
+from rebsync.reverse.models.texts import shown
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import as_json, as_text, diagnostics, grade_of, report_data, summary
-from rebsync.reverse.texts import shown
 from rebsync.terminal import json_text
 
 _NOTHING = Extracted(m.Model((), (), None), (), ())

@@ -15,7 +15,6 @@ from rebsync.reverse.build.built import unbuilt
 from rebsync.reverse.build.field_order import in_order
 from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.calls.ros_calls import Asking
-from rebsync.reverse.dead_texts import without_dead_texts
 from rebsync.reverse.files.monitors import is_monitor
 from rebsync.reverse.files.packages import BESIDE, CODE
 from rebsync.reverse.files.python_files import SETUP, is_launch, is_python
@@ -27,9 +26,11 @@ from rebsync.reverse.generated.parameters import odd_arguments
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_kept import Memory, read_with
 from rebsync.reverse.generated.ros1_messages import own_messages
-from rebsync.reverse.generated.system import GeneratedSystem, unit_of_time
+from rebsync.reverse.generated_system import GeneratedSystem, unit_of_time
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch
+from rebsync.reverse.models.dead_texts import without_dead_texts
+from rebsync.reverse.models.texts import enumerated, text_variables
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_joined import Joined, Observed, Part
 from rebsync.reverse.nodes.node_lacking import marked_lacking
@@ -41,7 +42,6 @@ from rebsync.reverse.nodes.open_ends import open_ends, with_open_servers
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.reverse.syntax.unparsed import unparsed
-from rebsync.reverse.texts import enumerated, text_variables
 from rebsync.source import NOWHERE, Source
 
 if TYPE_CHECKING:

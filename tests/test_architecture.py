@@ -17,11 +17,11 @@ from rebsync.reverse.findings import Findings
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_messages import own_messages
 from rebsync.reverse.ir.python.lowering import python_program
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import parse as parse_python
 from rebsync.reverse.recovery import extract
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import parse
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import parse as parse_python
 from rebsync.source import Source
 from tests.reverse.ir.dump import dump_function
 

@@ -62,16 +62,22 @@ class NamedFormula:
     formula: Formula
 
 
+def parts(formula: Formula) -> Iterator[Formula]:
+    """A formula and all that it is made of, each before what is in it."""
+    yield formula
+    match formula:
+        case Atom():
+            inner: tuple[Formula, ...] = ()
+        case Not(operand):
+            inner = (operand,)
+        case And(left, right) | Or(left, right):
+            inner = (left, right)
+        case Temporal(_, operands) | Timed(_, _, operands):
+            inner = operands
+    for each in inner:
+        yield from parts(each)
+
+
 def atoms(formula: Formula) -> Iterator[int]:
     """The numbers of the predicates in a formula."""
-    match formula:
-        case Atom(predicate):
-            yield predicate
-        case Not(operand):
-            yield from atoms(operand)
-        case And(left, right) | Or(left, right):
-            yield from atoms(left)
-            yield from atoms(right)
-        case Temporal(_, operands) | Timed(_, _, operands):
-            for operand in operands:
-                yield from atoms(operand)
+    return (part.predicate for part in parts(formula) if isinstance(part, Atom))

@@ -11,10 +11,10 @@ from rebsync.reverse.graph import ClientFact, Graph, NodeFact, UnmodelledFact
 from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.body_started import is_module, scripts_of
 from rebsync.reverse.python.body_units import units_of
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import parse
 from rebsync.reverse.python.py_unmodelled import whole_graph
 from rebsync.reverse.python.py_values import PyValues
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import parse
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.rosgraph.closed import is_closed
 from rebsync.rosgraph.ends import End, NodeCode

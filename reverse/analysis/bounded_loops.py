@@ -13,19 +13,13 @@ from rebsync.reverse.analysis.finite_numbers import FiniteNumbers, Limits, value
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.operators import MIRRORED, Operator
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.routines import Language
 
 _NAMED = e.Local | e.Captured | e.Global | e.Attribute
 _UP = (Operator.LESS, Operator.LESS_EQUAL)
 _DOWN = (Operator.GREATER, Operator.GREATER_EQUAL)
-_MIRRORED = {
-    Operator.LESS: Operator.GREATER,
-    Operator.GREATER: Operator.LESS,
-    Operator.LESS_EQUAL: Operator.GREATER_EQUAL,
-    Operator.GREATER_EQUAL: Operator.LESS_EQUAL,
-}
 _OPPOSITE = {
     Operator.LESS: Operator.GREATER_EQUAL,
     Operator.GREATER: Operator.LESS_EQUAL,
@@ -75,7 +69,7 @@ class LoopEnds:
                 pass
         if self._is_counter(loop, left, test.operator, test.right):
             return True
-        mirrored = _MIRRORED.get(test.operator)
+        mirrored = MIRRORED.get(test.operator)
         return mirrored is not None and self._is_counter(loop, right, mirrored, test.left)
 
     def _is_counter(

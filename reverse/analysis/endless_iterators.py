@@ -80,7 +80,7 @@ class EndlessIterators:
         match node:
             case s.Call(_, callee, arguments):
                 yield from (a.value for a in arguments if a.stars)
-                if self._wants_all(callee, arguments, function):
+                if self._wants_all(callee, function):
                     yield from (a.value for a in arguments if not a.stars)
             case s.Unpack(_, value) | s.Yield(_, value, True) | s.CompoundAssign(_, _, value):
                 yield value
@@ -93,9 +93,7 @@ class EndlessIterators:
             case _:
                 pass
 
-    def _wants_all(
-        self, callee: s.Callee, arguments: tuple[s.CallArgument, ...], function: Function
-    ) -> bool:
+    def _wants_all(self, callee: s.Callee, function: Function) -> bool:
         """Whether a call may go through what it gets: not where the program itself does that."""
         names = self._libraries(callee, function.name)
         if not names:

@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 from rebsync.records import dataclass
 from rebsync.reverse.ir import expressions as e
-from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.operators import MIRRORED, Operator
 from rebsync.reverse.ir.walk import walk
 
 _LIMIT = 8
@@ -200,12 +200,6 @@ _OPPOSITE = {
     Operator.SAME: Operator.NOT_SAME,
     Operator.NOT_SAME: Operator.SAME,
 }
-_MIRRORED = {
-    Operator.LESS: Operator.GREATER,
-    Operator.GREATER: Operator.LESS,
-    Operator.LESS_EQUAL: Operator.GREATER_EQUAL,
-    Operator.GREATER_EQUAL: Operator.LESS_EQUAL,
-}
 _AT_LEAST = (Operator.GREATER, Operator.GREATER_EQUAL, Operator.EQUAL)
 
 
@@ -248,7 +242,7 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
     if operator is Operator.IN:
         return facts | {HasKey(right, left)}
     if isinstance(left, e.Literal) and not isinstance(right, e.Literal):
-        return _compared(facts, _MIRRORED.get(operator, operator), right, left)
+        return _compared(facts, MIRRORED.get(operator, operator), right, left)
     if not isinstance(right, e.Literal):
         return facts
     number = right.value
@@ -270,16 +264,17 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
     if excludes.get(operator, False):
         facts = _held(facts, left, True)
     if operator in _AT_LEAST and number >= 0:
-        facts |= {IsPositive(left), IsPositive(_bare(left))}
+        facts |= {IsPositive(left), IsPositive(bare(left))}
     least = {Operator.GREATER: number + 1, Operator.GREATER_EQUAL: number, Operator.EQUAL: number}
     if operator in least:
         for fact in list(facts):
-            if isinstance(fact, IsSize) and fact.value == _bare(left):
+            if isinstance(fact, IsSize) and fact.value == bare(left):
                 facts |= sized(fact.container, int(least[operator]))
     return facts
 
 
-def _bare(value: e.Expression) -> e.Expression:
+def bare(value: e.Expression) -> e.Expression:
+    """A value without the conversions around it."""
     while isinstance(value, e.Convert):
         value = value.operand
     return value

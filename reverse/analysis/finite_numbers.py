@@ -77,7 +77,7 @@ class FiniteNumbers:
                     return None
                 return Limits(Interval(math.floor(number), math.ceil(number)), False)
             case e.Convert(_, operand, type_):
-                return _converted(self._limits(operand, function, within), operand, type_)
+                return _converted(self._limits(operand, function, within), type_)
             case e.Unary(Operator.NEGATE, operand, t.Unknown()):
                 return _negated(self._limits(operand, function, within))
             case e.Conditional(_, one, other) | e.And(one, other) | e.Or(one, other):
@@ -172,7 +172,7 @@ def values_of(type_: t.Integer) -> Interval:
     return signed(type_.bits - 1) if type_.signed else unsigned(type_.bits)
 
 
-def _converted(limits: Limits | None, operand: e.Expression, type_: t.Type) -> Limits | None:
+def _converted(limits: Limits | None, type_: t.Type) -> Limits | None:
     of_type = _of_type(type_)
     if of_type is None:
         return limits if isinstance(type_, t.Float) else None

@@ -28,7 +28,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.analysis import writes
 from rebsync.reverse.analysis.needs import Mark, Need
 from rebsync.reverse.analysis.writes import array_of, variable_of, written
-from rebsync.reverse.bodies.building import bare, is_calm
+from rebsync.reverse.models.building import bare, is_calm
 from rebsync.source import Span
 
 _OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "==": "!=", "!=": "=="}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rebsync.reverse.analysis.facts import Facts, HasKey, names_of
+from rebsync.reverse.analysis.facts import Facts, HasKey, bare, names_of
 from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import ANYTHING, LibraryOrigin, Origin, PlainOrigin
@@ -93,7 +93,7 @@ class LibraryExceptions:
             case Raises.PART:
                 return takes_part(node) or self._is_count(node, facts)
             case Raises.POSITION:
-                return bool(values) and is_position(self.expressions.bare(values[0]))
+                return bool(values) and is_position(bare(values[0]))
             case Raises.ZERO_STEP:
                 return not all(self.expressions.is_nonzero(v, facts) for v in values[2:])
             case Raises.TEXT:

@@ -32,7 +32,6 @@ from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 
 _SETTERS = frozenset({"builtins.setattr", "builtins.vars"})
-_LIMIT = 8  # sizes from here on are one
 
 
 @dataclass(frozen=True, slots=True)

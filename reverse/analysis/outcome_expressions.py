@@ -8,6 +8,7 @@ from rebsync.reverse.analysis.facts import (
     Holds,
     IsBelow,
     IsSize,
+    bare,
     names_of,
     size_of,
     tested,
@@ -145,15 +146,15 @@ class OutcomeExpressions:
 
     def _is_least(self, value: e.Expression) -> bool:
         """Whether a number may be one that is written as the least of its type."""
-        match self.bare(value):
+        match bare(value):
             case e.LibraryReference(name):
                 return name.rpartition("::")[2] in _LEAST
             case e.Literal(int() as number):
                 return number in (-(1 << 31), -(1 << 63))
             case e.Unary(Operator.NEGATE, e.Literal(int() as number)):
                 return number in (1 << 31, 1 << 63)
-            case bare:
-                key = key_of(bare, self.function)
+            case inner:
+                key = key_of(inner, self.function)
         stored = self.origins.graph.stores.of(key) if key is not None else []
         return any(self._is_least_stored(v) for _, v in stored)
 
@@ -338,7 +339,7 @@ class OutcomeExpressions:
         size = self.size(value.object, facts)
         if isinstance(value.object, e.Local) and self.notes.is_parameter(value.object):
             size = max(size, self.notes.elements.get(self.function, 0))
-        match self.bare(value.index):
+        match bare(value.index):
             case e.Literal(int() as index):
                 return -size <= index < size if value.from_end else 0 <= index < size
             case e.Unary(Operator.NEGATE, e.Literal(int() as index)):
@@ -370,12 +371,6 @@ class OutcomeExpressions:
                 return 0 < bound <= size
             case _:
                 return False
-
-    def bare(self, value: e.Expression) -> e.Expression:
-        """A value without the conversions around it."""
-        while isinstance(value, e.Convert):
-            value = value.operand
-        return value
 
 
 def _as_key(value: e.Index) -> e.Expression:

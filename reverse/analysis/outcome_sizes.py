@@ -10,6 +10,7 @@ from rebsync.reverse.analysis.facts import (
     Implies,
     IsBelow,
     IsSize,
+    bare,
     size_of,
     sized,
     without_shared,
@@ -191,16 +192,16 @@ class OutcomeSizes:
 
     def is_emptied(self, loop: s.Loop) -> bool:
         """Whether each round takes an element out of the container whose size is tested."""
-        test = self.expressions.bare(loop.test)
+        test = bare(loop.test)
         if isinstance(test, e.Binary) and isinstance(test.right, e.Literal):
             least = {Operator.GREATER: 0, Operator.GREATER_EQUAL: 1}.get(test.operator)
             limit = test.right.value
             if least is None or not isinstance(limit, int) or limit < least:
                 return False
-            test = self.expressions.bare(test.left)
+            test = bare(test.left)
         asks, asked, tested = self.bound, test, {test}
         if isinstance(test, e.Unary) and test.operator is Operator.NOT:
-            asks, asked = self.emptied, self.expressions.bare(test.operand)
+            asks, asked = self.emptied, bare(test.operand)
         for node in loop.prelude:
             if isinstance(node, s.Call) and node.target == asked:
                 container = asks(node)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import cache, partial
 
 from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.facts import (
@@ -16,6 +15,7 @@ from rebsync.reverse.analysis.facts import (
     IsSame,
     IsSize,
     IsThere,
+    bare,
     is_bound,
     size_of,
     sized,
@@ -25,12 +25,13 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
     without_sizes,
 )
+from rebsync.reverse.analysis.handlers import Handlers
 from rebsync.reverse.analysis.loop_endings import LoopEndings
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin
 from rebsync.reverse.analysis.outcome_calls import OutcomeCalls
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
-from rebsync.reverse.analysis.problems import TERMINATES, Called, Problem, ProblemNotes
+from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
 from rebsync.reverse.analysis.unset_names import UnsetNames
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -55,6 +56,7 @@ class OutcomeWalk:
         self._sizes = OutcomeSizes(notes, self._expressions)
         self._calls = OutcomeCalls(notes, self._expressions, self._sizes)
         self._endings = LoopEndings(notes, self._sizes, iterators)
+        self._handlers = Handlers(notes)
         self._handled: list[set[Problem | Called]] = []
         self._breaks: list[list[Facts]] = []  # what is known where the loops around are left
         self.first = UnsetNames(notes).first()
@@ -183,12 +185,12 @@ class OutcomeWalk:
         facts |= sized(target, size)
         if isinstance(target, e.Temporary):
             facts |= {IsSame(target, value)}
-        bare = self._expressions.bare(value)
+        plain = bare(value)
         for fact in before:
             match fact:
                 case Holds(known) if known == value:
                     facts |= {Holds(target)}
-                case IsSize(known, container) if known == bare:
+                case IsSize(known, container) if known == plain:
                     facts |= {IsSize(target, container)}
                 case _:
                     pass
@@ -368,7 +370,7 @@ class OutcomeWalk:
         inside = self._changed(facts, node.body)
         ways = []
         for handler in node.handlers:
-            caught, raised = self._split(raised, handler)
+            caught, raised = self._handlers.split(raised, handler)
             self._handled.append(caught)
             caught_as = inside if handler.target is None else stored(inside, handler.target)
             ways.append(self.body((*handler.prelude, *handler.body), caught_as))
@@ -383,40 +385,6 @@ class OutcomeWalk:
         last = self._changed(inside, node.final) if after is None else after
         final = self.body(node.final, last if after is not None else inside)
         return None if after is None else final
-
-    def _split(
-        self, raised: set[Problem | Called], handler: s.Handler
-    ) -> tuple[set[Problem | Called], set[Problem | Called]]:
-        """What a handler is for of what a block raises, and what it lets through."""
-        catches = cache(partial(self._catches, handler))
-        passes = cache(lambda problem: not catches(problem))
-        caught, passed = set[Problem | Called](), set[Problem | Called]()
-        for each in raised:
-            match each:
-                case Called(name, tests):
-                    caught.add(Called(name, (*tests, catches)))
-                    passed.add(Called(name, (*tests, passes)))
-                case Problem():
-                    (caught if catches(each) else passed).add(each)
-        return caught, passed
-
-    def _catches(self, handler: s.Handler, problem: Problem) -> bool:
-        """Whether a handler is for what a place raises."""
-        if problem.raises in ("", TERMINATES):
-            return False
-        if handler.types is None:
-            return True
-        names = self._above(problem.raises)
-        origins = (self.origins.of(t, self.name) for t in handler.types)
-        types = {
-            o.name for held in origins for o in held if isinstance(o, ClassOrigin | LibraryOrigin)
-        }
-        return not types.isdisjoint(names)
-
-    def _above(self, name: str) -> Iterable[str]:
-        """An exception and all classes that it extends."""
-        bases = [name, *self.origins.graph.bases(name)]
-        return [above for base in bases for above in self.notes.table.are_above(base)]
 
 
 def _joined(one: Facts | None, other: Facts | None) -> Facts | None:

@@ -103,7 +103,7 @@ class OutcomeAnalysis:
 
     def _of_body(self, function: Function, running: frozenset[str]) -> Equation[Problem]:
         """What a body may do; `running` are functions that silent calls are not looked for of."""
-        notes = self._notes(function)
+        notes = ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)
         walk_ = OutcomeWalk(notes, self.iterators)
         walk_.defaults(self._defaults.get(function.name, ()))
         walk_.body(function.body, walk_.first if running else NO_FACTS)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from rebsync.reverse.analysis.facts import bare
 from rebsync.reverse.analysis.foreign_filling import ForeignFilling
 from rebsync.reverse.analysis.origins import LibraryOrigin, PlainOrigin
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
@@ -99,9 +100,9 @@ class SizeChanges:
                 for container in (self.sizes.bound(node), self.sizes.emptied(node)):
                     if container is not None:
                         yield container
-        bare = self.sizes.expressions.bare(loop.test)
-        if isinstance(bare, e.Local | e.Global | e.Captured | e.Attribute):
-            yield bare  # while values:
+        test = bare(loop.test)
+        if isinstance(test, e.Local | e.Global | e.Captured | e.Attribute):
+            yield test  # while values:
         for part in tests:
             if isinstance(part, e.Index):  # while i < values[0]
                 yield part.object

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare
+from rebsync.reverse.models.building import bare
 
 _STEP = 1 << 16  # what a counter may count by: it takes long to get out of an `int`
 _UNROLLED = 32  # rounds of a loop that are followed one by one

@@ -5,24 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import reduce
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary, chosen, is_calm
 from rebsync.reverse.bodies.cpp_conversions import operands, type_in
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_widths import check_whole, wide_of
 from rebsync.reverse.bodies.known_functions import takes_values
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.models.building import binary, chosen, is_calm
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_declarations import CppParameter, parameters_in
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import INT, is_integer
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 EXTREMES = {"std::max_element": ">", "std::min_element": "<"}
 _BEGINS, _ENDS = ("begin", "cbegin"), ("end", "cend")
@@ -46,9 +43,7 @@ def dereferenced(reader: CppExpressionReader, node: Node) -> m.Expression | None
     return reduce(lambda most, x: chosen(binary(sign, x, most), x, most), elements)
 
 
-def call(
-    reader: CppExpressionReader, node: Node, name: str, arguments: Sequence[Node]
-) -> m.Expression | None:
+def call(reader: CppExpressionReader, name: str, arguments: Sequence[Node]) -> m.Expression | None:
     """What a call gives that adds up, counts or tests a whole array; None for other calls."""
     if name in _TESTING and len(arguments) == 3:
         return _tested(reader, name, arguments)

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, is_place
 from rebsync.reverse.bodies.cpp_conversions import place_of, type_in
 from rebsync.reverse.bodies.cpp_kinds import NOTHING
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.cpp_widths import wide_of
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import bare, is_place
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import BYTE, INT, SHORT
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _HINT = "say its type: static_cast<int32_t>(...)"
 

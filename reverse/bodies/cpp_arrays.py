@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_algorithms import first_of, plain_type, whole_array
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant as constant_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _ZERO = m.IntLiteral(0)
 

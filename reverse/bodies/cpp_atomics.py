@@ -6,21 +6,17 @@ What another thread does to such an object is listed where that thread is begun.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary
 from rebsync.reverse.bodies.cpp_conversions import converted_to, operands
-from rebsync.reverse.bodies.cpp_expression_reader import Exchange
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader, Exchange
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_widths import check
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.models.building import binary
 from rebsync.reverse.syntax.cpp_tree import text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _ORDER = ("std::memory_order", "memory_order")
 _ADDS = {"fetch_add": "+", "fetch_sub": "-"}

@@ -5,20 +5,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Outside, Record, Variable
 from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _BINDING = "structured_binding_declarator"
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.reverse.bodies import cpp_idioms, cpp_mailbox
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import is_this
 from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
@@ -24,9 +24,6 @@ from rebsync.reverse.bodies.scope import (
     is_another,
 )
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _OPERATIONS = {
     "divide": "/",

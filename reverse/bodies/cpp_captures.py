@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_roots import identifiers_in, specifiers_of
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_widths import wide_of
 from rebsync.reverse.bodies.known_functions import may_change, takes_values
 from rebsync.reverse.bodies.scope import (
@@ -29,9 +29,6 @@ from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import BYTE, INT, SHORT
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _INITIALISED = "lambda_capture_initializer"
 # What makes a value of its own of what stands in it, or decides by it.

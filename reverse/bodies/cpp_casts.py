@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.reverse.bodies import cpp_texts
-from rebsync.reverse.bodies.building import bare, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, converted_to, type_in
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.cpp_widths import check_stored, place_of
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.models.building import bare, tight
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_tree import text_of
-from rebsync.reverse.texts import TEXT
 from rebsync.static.types import BOOLEAN, INT, is_boolean, is_integer
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 
 def cast(reader: CppExpressionReader, to: Node, operand: Node, node: Node) -> m.Expression:

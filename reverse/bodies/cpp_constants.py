@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare
 from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_types import Carried, is_time
+from rebsync.reverse.models.building import bare
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.static.constants import constant
 from rebsync.static.types import BOOLEAN, BYTE, DOUBLE, INT, SHORT, is_integer
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _BITS = {BYTE: 7, SHORT: 15, INT: 31}
 _EXACT = 2**24  # whole numbers up to here are numbers of a `float`

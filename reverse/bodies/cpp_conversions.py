@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, binary, cast, chosen
 from rebsync.reverse.bodies.scope import Called, Outside, Record, Scope, Variable
-from rebsync.reverse.texts import TEXT
+from rebsync.reverse.models.building import bare, binary, cast, chosen
+from rebsync.reverse.models.texts import TEXT
 from rebsync.static.constants import constant, float_value
 from rebsync.static.operators import binary_type, unary_type
 from rebsync.static.types import (

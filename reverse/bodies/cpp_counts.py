@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -11,11 +10,9 @@ from rebsync import model as m
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.cpp_roots import is_modelled, root
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 # What is in these may be evaluated later, or not at all.
 _PERHAPS = frozenset({"lambda_expression", "conditional_expression"})

@@ -7,7 +7,6 @@ with the other.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -16,12 +15,10 @@ from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, only_value, tak
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_roots import specifiers_of
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import part, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _MOST = 5  # references behind such a one
 _KEPT = frozenset({"static", "thread_local"})

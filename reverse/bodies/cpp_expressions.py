@@ -20,7 +20,6 @@ from rebsync.reverse.bodies import (
     cpp_texts,
     cpp_widths,
 )
-from rebsync.reverse.bodies.building import binary, is_calm, is_place, tight
 from rebsync.reverse.bodies.cpp_constants import of_constant
 from rebsync.reverse.bodies.cpp_conversions import (
     alternatives,
@@ -51,8 +50,9 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.bodies.serving import Serves
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import binary, is_calm, is_place, tight
+from rebsync.reverse.models.texts import TEXT, text_literal
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.texts import TEXT, text_literal
 from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
 
 _PREFIX = frozenset({"+", "-", "!", "~"})

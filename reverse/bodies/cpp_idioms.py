@@ -6,16 +6,14 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_algorithms, cpp_atomics, cpp_optional_calls, cpp_texts
-from rebsync.reverse.bodies.building import binary, cast, chosen, is_calm, tight
 from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
-from rebsync.reverse.bodies.cpp_expression_reader import Exchange
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader, Exchange
 from rebsync.reverse.bodies.cpp_literals import lower
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_time import is_flat, time_called, to_seconds
@@ -25,15 +23,13 @@ from rebsync.reverse.bodies.scope import Called, Record, Variable
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.models.building import binary, cast, chosen, is_calm, tight
+from rebsync.reverse.models.texts import text_literal
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.texts import text_literal
 from rebsync.source import Span
 from rebsync.static.constants import constant
 from rebsync.static.types import DOUBLE, INT, is_floating, is_integer
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _LEAST = -0x80000000
 _LARGE = 200  # parts of an expression
@@ -103,7 +99,7 @@ def call(
             return reader.calls(node, None, plain, arguments)
         case "sqrt", 1:
             return reader.calls(node, None, plain, arguments)
-    if (found := cpp_algorithms.call(reader, node, plain, arguments)) is not None:
+    if (found := cpp_algorithms.call(reader, plain, arguments)) is not None:
         return found
     if (limit := _LIMIT.match(name)) is not None and count == 0:
         least = limit[1] in ("min", "lowest")

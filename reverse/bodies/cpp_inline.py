@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_aliases, cpp_captures, cpp_idioms, cpp_sequencing
-from rebsync.reverse.bodies.building import bare, cast, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, type_in
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_pointer_parameters import check_pointer
-from rebsync.reverse.bodies.cpp_return_types import return_type, returns_in
+from rebsync.reverse.bodies.cpp_return_types import return_type
 from rebsync.reverse.bodies.cpp_roots import is_element
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import place_of
@@ -35,15 +34,13 @@ from rebsync.reverse.bodies.scope import (
     Variable,
 )
 from rebsync.reverse.bodies.serving import Serves
+from rebsync.reverse.models.building import bare, cast, is_calm, is_effect
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_depth import DEEPEST
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import named, part, returns_in, text_of
 from rebsync.static.constants import constant as constant_of
 from rebsync.static.types import converts, is_boolean, is_integer, is_numeric
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _DEEPEST = 8
 _PLACES = frozenset(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -17,7 +16,6 @@ from rebsync.reverse.bodies import (
     cpp_optionals,
     cpp_plain_locals,
 )
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_call_effects import check_object
 from rebsync.reverse.bodies.cpp_conversions import converted_to, type_in
 from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, number_of, only_value, taken_apart
@@ -27,6 +25,7 @@ from rebsync.reverse.bodies.cpp_misparsed import check_misparsed
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_references import is_made, stays
 from rebsync.reverse.bodies.cpp_roots import specifiers_of
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import seconds_of
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
@@ -34,13 +33,11 @@ from rebsync.reverse.bodies.known_functions import is_matrix, type_takes_values
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
 from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import is_calm
+from rebsync.reverse.models.texts import TEXT, is_constant
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.texts import TEXT, is_constant
 from rebsync.static.constants import constant
 from rebsync.static.types import BYTE, INT, SHORT
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _VECTOR = re.compile(r"(?:std::)?vector<(.*)>\Z")
 _RESIZES = ("push_back", "emplace_back", "resize", "insert", "erase", "clear", "assign", "swap")

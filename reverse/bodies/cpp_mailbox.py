@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -13,6 +12,7 @@ from rebsync import model as m
 from rebsync import precedence
 from rebsync.names import original
 from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.overloads import HINT, WHY, telling
 from rebsync.reverse.bodies.scope import Record, Runtime, Scope, Sends, Variable
@@ -20,9 +20,6 @@ from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _CLOCK = names_in_model(Language.CPP)
 # The function under which a statement of `@Move` is read, until it is one.

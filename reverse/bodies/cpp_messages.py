@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -17,6 +16,7 @@ from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_places import field_of, resolve
 from rebsync.reverse.bodies.cpp_pointers import check_shared, is_null, pointed, points
 from rebsync.reverse.bodies.cpp_roots import path_in
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_types import wider
 from rebsync.reverse.bodies.cpp_unknowns import HINT, Demote, Unknown, choice, domain_near
 from rebsync.reverse.bodies.overloads import plain, telling
@@ -33,12 +33,9 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.models.texts import TEXT, any_text, text_literal
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.texts import TEXT, any_text, text_literal
 from rebsync.static.types import is_boolean
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _POINTER = re.compile(r"(?:::)?(?:Const)?(?:Shared|Unique|Weak)?Ptr$")
 _SHARED = re.compile(r"(?:::)?(?:boost|std)::(?:shared|unique)_ptr<(.*)>$")

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_mailbox
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Record, Variable
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import INT, converts, is_integer
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 
 def declared(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:

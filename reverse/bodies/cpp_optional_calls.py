@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import chosen, is_calm
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import HELD, resolve
 from rebsync.reverse.bodies.cpp_present import is_asked
 from rebsync.reverse.bodies.scope import Record
+from rebsync.reverse.models.building import chosen, is_calm
 from rebsync.reverse.syntax.cpp_tree import text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 
 def call(

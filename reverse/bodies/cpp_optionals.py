@@ -6,7 +6,6 @@ What `*x` gives of one that is empty nobody may look at: such code means nothing
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -15,16 +14,14 @@ from rebsync.reverse.bodies import cpp_messages, cpp_texts
 from rebsync.reverse.bodies.cpp_conversions import converted_to, type_in
 from rebsync.reverse.bodies.cpp_places import HELD, resolve
 from rebsync.reverse.bodies.cpp_pointers import is_null, points
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_types import arguments_of
 from rebsync.reverse.bodies.cpp_widths import check_stored, place_of
 from rebsync.reverse.bodies.scope import Record, Variable
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named
-from rebsync.reverse.texts import TEXT
 from rebsync.static.types import BOOLEAN
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _FALSE, _TRUE = m.BoolLiteral(False), m.BoolLiteral(True)
 

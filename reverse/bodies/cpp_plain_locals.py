@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_messages
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.bodies.shared import WORDS
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
 from rebsync.source import Span
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _MOST_LEFT_OUT = 1000  # elements of an array; each becomes a statement of its own
 

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_pointers import is_null
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Record, Variable
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
 from rebsync.reverse.syntax.cpp_tree import inside as nodes_in
 from rebsync.reverse.syntax.cpp_tree import named, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 
 def check_pointer(

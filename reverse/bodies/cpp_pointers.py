@@ -5,19 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.scope import Record, Scope
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.source import Span
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _GIVEN = re.compile(r"(?:std::move|(?:(?:std|boost)::)?make_(?:shared|unique)\b)")
 _NULL = ("nullptr", "NULL", "std::nullopt", "nullopt")

@@ -13,7 +13,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_kinds import LOOPS
 from rebsync.reverse.syntax.ancestors import ancestors
-from rebsync.reverse.syntax.cpp_tree import named, text_of
+from rebsync.reverse.syntax.cpp_tree import named, operator_of, text_of
 
 # Names in capitals are macros, which are asked elsewhere what they hide.
 _CALL = re.compile(r"\b(?:[a-z_]\w*|[A-Z]\w*[a-z]\w*)\s*(?:<[^;(){}]*>\s*)?\(|[\])]\s*\(")
@@ -42,7 +42,7 @@ def is_asked(node: Node, optional: str) -> bool:
 def _says(at: Node, below: Node, name: str) -> Node | None:
     """What says that there is a value, in a condition that holds wherever what is below runs."""
     condition = None
-    if at.type == "binary_expression" and _operator(at) in _AND:
+    if at.type == "binary_expression" and operator_of(at) in _AND:
         condition = at.child_by_field_name("left")
         condition = condition if condition != below else None
     elif at.type == "conditional_expression" or at.type in _WAYS:
@@ -64,16 +64,11 @@ def _parts(node: Node | None, joined: tuple[str, str]) -> Iterator[Node]:
     is_around = node is not None and node.type in ("condition_clause", "parenthesized_expression")
     if is_around and len(inner) == 1:
         yield from _parts(inner[0], joined)
-    elif node is not None and node.type == "binary_expression" and _operator(node) in joined:
+    elif node is not None and node.type == "binary_expression" and operator_of(node) in joined:
         for each in inner:
             yield from _parts(each, joined)
     elif node is not None:
         yield node
-
-
-def _operator(node: Node) -> str:
-    operator = node.child_by_field_name("operator")
-    return text_of(operator) if operator is not None else ""
 
 
 def _left_before(below: Node, node: Node, name: str) -> bool:

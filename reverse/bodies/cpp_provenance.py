@@ -14,7 +14,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, returns_in, text_of
 from rebsync.reverse.values.cpp_flow import Texts
 from rebsync.reverse.values.cpp_flow_calls import Calls
 from rebsync.reverse.values.cpp_flow_definitions import Definition, definitions
@@ -54,6 +54,10 @@ class ProvenanceAnalysis:
     calls: Calls
     statics: StaticTypes
     _known: dict[int, Provenance] = field(default_factory=dict)
+    # Variables that are looked for, by their place in the search, and the first that was met again:
+    # what depends on it is not known before it is (Tarjan 1972).
+    _open: dict[int, int] = field(default_factory=dict)
+    _first: int = 0
 
     def of(self, cpp: Cpp, node: Node, depth: int = 0) -> Provenance:
         """Where the object that an expression names, or points to, comes from."""
@@ -98,16 +102,28 @@ class ProvenanceAnalysis:
 
     def _given_by(self, functions: Iterable[CppFunction], depth: int) -> Provenance:
         """Where what some functions give comes from."""
-        returns = ((f.cpp, v) for f in functions for each in _returns(f.body) for v in named(each))
-        return max((self.of(c, v, depth + 1) for c, v in returns), default=Provenance.MADE)
+        returns = ((f.cpp, each) for f in functions for each in returns_in(f.body))
+        given = ((cpp, value) for cpp, each in returns for value in named(each))
+        return max((self.of(c, v, depth + 1) for c, v in given), default=Provenance.MADE)
 
     def variable(self, variable: Variable, depth: int = 0) -> Provenance:
         """Where what a variable holds, or points to, comes from."""
         key = variable.name.id
-        if key not in self._known:
-            self._known[key] = Provenance.MADE  # while it is looked for
-            self._known[key] = self._variable(variable, depth)
-        return self._known[key]
+        if key in self._known:
+            return self._known[key]
+        if key in self._open:
+            self._first = min(self._first, self._open[key])
+            return Provenance.MADE
+        around, self._first = self._first, len(self._open)
+        place = self._open[key] = self._first
+        found = self._variable(variable, depth)
+        del self._open[key]
+        if self._first == place:
+            self._known[key] = found
+            self._first = around
+        else:
+            self._first = min(around, self._first)
+        return found
 
     def _variable(self, variable: Variable, depth: int) -> Provenance:
         is_auto = variable.type is not None and variable.type.type == "placeholder_type_specifier"
@@ -208,16 +224,6 @@ class ProvenanceAnalysis:
 
 _NONE = Provenance.MADE
 _OTHER = Provenance.LIBRARY
-
-
-def _returns(body: Node | None) -> Iterator[Node]:
-    waiting = [body] if body is not None else []
-    while waiting:
-        current = waiting.pop()
-        if current.type == "return_statement":
-            yield current
-        elif current.type != "lambda_expression":
-            waiting += current.named_children
 
 
 def _refers(variable: Variable) -> bool:

@@ -76,9 +76,9 @@ def range_of(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
         case "sizeof_expression":
             return Ranged(64, unsigned(8))
         case "identifier" | "qualified_identifier" | "field_expression" | "subscript_expression":
-            return _named(cpp, scope, node)
+            return _named(scope, node)
         case "pointer_expression":
-            return _named(cpp, scope, node)
+            return _named(scope, node)
         case "parenthesized_expression" if len(named(node)) == 1:
             return range_of(cpp, scope, named(node)[0])
         case "comma_expression" | "assignment_expression":
@@ -136,7 +136,7 @@ def _variable(scope: Scope, variable: Variable) -> Ranged | None:
     return _of_type(Carried(m.Type(variable.type.name), variable.bits))
 
 
-def _named(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
+def _named(scope: Scope, node: Node) -> Ranged | None:
     place = node
     while place.type == "subscript_expression":
         place = part(place, "argument")
@@ -242,7 +242,7 @@ def _called(cpp: Cpp, scope: Scope, node: Node) -> Ranged | None:
         if name == "value_or":
             return _or_other(scope, resolve(scope, part(function, "argument")))
         if name in ("load", "get"):
-            return _named(cpp, scope, part(function, "argument"))
+            return _named(scope, part(function, "argument"))
         if name in _SIZES:
             return Ranged(64, unsigned(31))
         return None if name == "toSec" else _result(scope, name)

@@ -17,6 +17,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.models.building import number_literal
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_numbers import constant_number
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
@@ -74,7 +75,7 @@ class Regions:
             }
         )
         least = 0 if unsigned else -(1 << bits)
-        return tuple(_whole(n) for n in _apart(whole, bounds) if least <= n < 1 << bits)
+        return tuple(number_literal(n) for n in _apart(whole, bounds) if least <= n < 1 << bits)
 
     # --- where a name stands --------------------------------------------------------------------
 
@@ -180,10 +181,6 @@ def _between(bounds: Sequence[float]) -> list[float]:
         last = index + 1 == len(bounds)
         found.append(bound + 1.0 if last else (bound + bounds[index + 1]) / 2)
     return found
-
-
-def _whole(value: int) -> m.Expression:
-    return m.IntLiteral(value) if value >= 0 else m.Unary("-", m.IntLiteral(-value))
 
 
 def _real(value: float) -> m.Expression:

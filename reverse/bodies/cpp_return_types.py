@@ -2,33 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Collection
 
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_ranges import COMPARES, INT_BITS, LOGICAL, range_of
 from rebsync.reverse.bodies.cpp_roots import declared_in
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.scope import Variable
-from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, named, part, returns_in, text_of
 from rebsync.static.types import BOOLEAN, INT
 
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-
 _SUMS = frozenset({"+", "-", "*", "/", "%", "&", "|", "^"})
-
-
-def returns_in(body: Node) -> Iterator[Node]:
-    """The `return` statements of a body, not those of lambdas in it."""
-    waiting = [body]
-    while waiting:
-        current = waiting.pop()
-        if current.type == "return_statement":
-            yield current
-        elif current.type != "lambda_expression":
-            waiting += current.named_children
 
 
 def return_type(reader: CppStatementReader, body: Node) -> Carried | None:

@@ -8,9 +8,10 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Scope, Variable
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.texts import TEXT
+from rebsync.reverse.syntax.descendants import nodes_in
 
 
 def root(scope: Scope, inner: Collection[str], node: Node) -> tuple[str, Meaning | None]:
@@ -109,13 +110,8 @@ def identifiers_in(node: Node) -> Iterator[Node]:
 
 def declared_in(declarator: Node) -> Iterator[str]:
     """The names that a declarator declares."""
-    waiting = [declarator]
-    while waiting:
-        current = waiting.pop()
-        if current.type == "identifier":
-            yield text_of(current)
-        elif current.type != "parameter_list":
-            waiting += current.named_children
+    inside = nodes_in(declarator, "parameter_list")
+    return (text_of(n) for n in inside if n.type == "identifier")
 
 
 def parameters_of(function: Node) -> Iterator[str]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import field, replace
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -18,6 +17,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_effects import touching
 from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.cpp_roots import declared_in, identifiers_in, parameters_of, root
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.known_functions import may_change
 from rebsync.reverse.bodies.scope import (
     Called,
@@ -32,12 +32,8 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-
 _WHY = "C++ leaves open in which order this is evaluated"
 _HINT = "say it in two statements"
-_CHANGES = ("assignment_expression", "update_expression")
 _GUARDED = frozenset({"conditional_expression", "while_statement", "for_statement", "do_statement"})
 
 

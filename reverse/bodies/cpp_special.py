@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -20,13 +19,13 @@ from rebsync.reverse.bodies import (
     cpp_texts,
     cpp_timers,
 )
-from rebsync.reverse.bodies.building import bare, is_calm, negated
 from rebsync.reverse.bodies.cpp_call_effects import check_operator
 from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to, place_of
 from rebsync.reverse.bodies.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.cpp_failing import failing
 from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import pause, units
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.cpp_widths import check_whole
@@ -46,13 +45,10 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import STREAMS
+from rebsync.reverse.models.building import bare, is_calm, negated, number_literal
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-
 
 # --- statements ---------------------------------------------------------------------------------
 
@@ -279,12 +275,8 @@ def subject(reader: CppStatementReader, node: Node, body: Node) -> m.Expression:
                 values.append(int(known))
         expressions.approximate(node, unread)
         other = max(values, default=0) + 1
-        options = tuple(_literal(v) for v in dict.fromkeys([*values, other]))
+        options = tuple(number_literal(v) for v in dict.fromkeys([*values, other]))
         return m.Choice(options, reader.cpp.span(node)) if len(options) > 1 else options[0]
-
-
-def _literal(value: int) -> m.Expression:
-    return m.IntLiteral(value) if value >= 0 else m.Unary("-", m.IntLiteral(-value))
 
 
 # --- the rest -----------------------------------------------------------------------------------

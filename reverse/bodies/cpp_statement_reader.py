@@ -10,13 +10,13 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import bare, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_expression_reader import Exchange
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 from rebsync.reverse.bodies.cpp_unknowns import Demote
 from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Variable
 from rebsync.reverse.bodies.shared import Shared
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.models.building import bare, is_calm, is_effect
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 
 

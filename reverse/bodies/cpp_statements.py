@@ -29,7 +29,6 @@ from rebsync.reverse.bodies import (
     cpp_trying,
     cpp_users,
 )
-from rebsync.reverse.bodies.building import cell, is_calm, is_effect
 from rebsync.reverse.bodies.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.cpp_expression_reader import Exchange
 from rebsync.reverse.bodies.cpp_expressions import MOVE
@@ -44,6 +43,7 @@ from rebsync.reverse.bodies.unknown_names import UnknownNames
 from rebsync.reverse.bodies.wide_locals import broken_locals
 from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import cell, is_calm, is_effect
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import Cpp, markers_in, named, part, text_of
 from rebsync.statements import UNREADABLE

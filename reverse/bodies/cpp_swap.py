@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, is_calm, is_place
 from rebsync.reverse.bodies.cpp_conversions import place_of
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.models.building import bare, is_calm, is_place
 from rebsync.reverse.syntax.cpp_calls import call_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 
 def swap(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None:

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, is_calm, negated
 from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.scope import Record, Scope, Variable
+from rebsync.reverse.models.building import bare, is_calm, negated
+from rebsync.reverse.models.texts import TEXT, is_constant, is_plain, same, text_literal
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import part, text_of
-from rebsync.reverse.texts import TEXT, is_constant, is_plain, same, text_literal
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 
 def is_text(reader: CppExpressionReader, expression: m.Expression) -> bool:

@@ -7,18 +7,15 @@ one timer come in the order in which they were sent, so that a number of stale o
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary
 from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Switch, TimerOf
+from rebsync.reverse.models.building import binary
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 # Methods that stop a timer, or let it go on.
 SWITCHING = frozenset({"start", "stop", "cancel", "reset"})

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, is_calm
 from rebsync.reverse.bodies.cpp_effects import touching
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import bare, is_calm
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 _MAILBOX = "mailbox_"  # a member of classes whose bodies the run-time part runs
 _TRUTH = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))

@@ -12,9 +12,9 @@ from rebsync.model import Type
 from rebsync.names import uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_CLASSES
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_numerals import whole_number
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.reverse.texts import TEXT
 
 _INTEGERS = {
     "byte": ("int8_t", "signed char"),

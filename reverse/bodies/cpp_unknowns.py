@@ -9,6 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import number_literal
 from rebsync.reverse.syntax.cpp_tree import markers_above, markers_beside, markers_in, text_of
 from rebsync.source import Span
 
@@ -69,7 +70,7 @@ def domain_of(text: str) -> tuple[m.Expression, ...] | None:
         first, last = int(match[1]), int(match[2])
         if not first <= last < first + _MOST:
             return None
-        return tuple(_whole(n) for n in range(first, last + 1))
+        return tuple(number_literal(n) for n in range(first, last + 1))
     listed = text.strip().partition("}")[0].strip("{ ").split(",")
     values = [_value(piece.strip()) for piece in listed]
     known = tuple(dict.fromkeys(v for v in values if v is not None))
@@ -80,15 +81,11 @@ def _value(text: str) -> m.Expression | None:
     if text in ("true", "false"):
         return m.BoolLiteral(text == "true")
     if re.fullmatch(r"-?\d+", text):
-        return _whole(int(text))
+        return number_literal(int(text))
     if re.fullmatch(r"-?\d+\.\d*", text):
         positive = m.FloatLiteral(f"{text.lstrip('-')}d")
         return m.Unary("-", positive) if text.startswith("-") else positive
     return None
-
-
-def _whole(value: int) -> m.Expression:
-    return m.IntLiteral(value) if value >= 0 else m.Unary("-", m.IntLiteral(-value))
 
 
 def choice(values: tuple[m.Expression, ...]) -> m.Expression:

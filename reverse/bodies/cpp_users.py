@@ -6,23 +6,20 @@ They may look at what the model has, and do what they like with the rest.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_failing import may_fail
 from rebsync.reverse.bodies.cpp_plain_locals import declared_names
+from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.known_functions import UNUSED
 from rebsync.reverse.bodies.scope import Ignored
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import STREAMS
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 
 
 def block_after(

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.intervals import Interval, exactly, of_bits
-from rebsync.reverse.bodies.building import binary, is_calm
 from rebsync.reverse.bodies.cpp_conversions import type_in
+from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_misread import ChainOperand
 from rebsync.reverse.bodies.cpp_ranges import (
     COMPARES,
@@ -29,12 +28,10 @@ from rebsync.reverse.bodies.cpp_ranges import (
 )
 from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.models.building import binary, is_calm
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import is_floating
-
-if TYPE_CHECKING:
-    from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 
 _MAY_BE_WIDE = re.compile(
     r"size\(\)|sizeof|size_t|\blong\b|unsigned|uint|int64|\b(?:0x[\da-f]+|\d+)[ul]", re.IGNORECASE

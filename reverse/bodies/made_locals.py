@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
+from rebsync.reverse.models.building import is_calm
 
 
 def tidied(statements: tuple[m.Statement, ...], made: Collection[str]) -> tuple[m.Statement, ...]:

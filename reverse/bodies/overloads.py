@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import binary, cast, chosen
+from rebsync.reverse.models.building import binary, cast, chosen
 from rebsync.static.types import converts, is_boolean, is_integer, is_numeric
 
 # The types of parameters; None for what is no plain number or truth value.

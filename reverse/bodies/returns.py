@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import negated
+from rebsync.reverse.models.building import negated
 
 # So many branches within each other may go on with the same statements.
 _MOST_COPIES = 8
@@ -19,7 +19,7 @@ def without_returns(
     None where they cannot be so written: a return in a loop, or too many ways to go on.
     """
     for number, statement in enumerate(statements):
-        if not _returns(statement):
+        if not any(isinstance(n, m.Return) for n in m.walk(statement)):
             continue
         rest = statements[number + 1 :]
         done: tuple[m.Statement, ...] | None = None
@@ -64,10 +64,6 @@ def _listed(statement: m.Statement | None) -> tuple[m.Statement, ...]:
             return statements
         case _:
             return (statement,)
-
-
-def _returns(statement: m.Statement) -> bool:
-    return any(isinstance(n, m.Return) for n in m.walk(statement))
 
 
 def always_leaves(statement: m.Statement) -> bool:

@@ -26,6 +26,7 @@ from rebsync.reverse.bodies.scope import Scope
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
 
 _PLACES = frozenset({"field_expression", "subscript_expression", "pointer_expression"})
 
@@ -40,13 +41,11 @@ class UnknownNames:
     @classmethod
     def of(cls, scope: Scope, statement: Node) -> UnknownNames:
         """For a statement: what it declares hides what is declared elsewhere."""
-        waiting, names = [statement], set[str]()
-        while waiting:
-            node = waiting.pop()
+        names = set[str]()
+        for node in nodes_in(statement):
             for declarator in node.children_by_field_name("declarator"):
                 if declarator.type != "init_declarator":  # its own declarator is there as well
                     names.update(declared_in(declarator))
-            waiting += node.named_children
         return cls(scope, frozenset(names))
 
     def uses(self, node: Node) -> Iterator[Node]:

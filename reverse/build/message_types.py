@@ -15,8 +15,8 @@ from rebsync.reverse.bodies.scope import WIDE, Variable, of_width
 from rebsync.reverse.build.common_messages import COMMON
 from rebsync.reverse.build.messages import plain_type, read_message
 from rebsync.reverse.files.packages import owner_of
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_tree import Cpp
-from rebsync.reverse.texts import TEXT
 from rebsync.source import Source
 
 # What the model keeps of a field's values. Wider integers are taken for `int`.

@@ -60,7 +60,7 @@ def _asked(
         ask = replace(routine, arguments=_roles(values, cpp, given, routine))
         yield Asked(ask, site_of(values, cpp, place, call), given, types)
     if not is_flat and above.type == "field_declaration":
-        yield from _of_member(values, cpp, place, above, routine, types)
+        yield from _of_member(values, above, routine, types)
 
 
 def _made(
@@ -77,8 +77,6 @@ def _made(
 
 def _of_member(
     values: Values,
-    cpp: Cpp,
-    place: Node,
     declared: Node,
     routine: Routine,
     types: tuple[Node, ...],

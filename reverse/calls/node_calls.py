@@ -17,61 +17,36 @@ from rebsync.reverse.calls.ros_calls_shapes import (
     objects_of,
     types_of,
 )
-from rebsync.reverse.calls.ros_calls_sites import site_of
 from rebsync.reverse.calls.ros_calls_types import is_interface
-from rebsync.reverse.libraries.cpp_calls import Calls
+from rebsync.reverse.calls.words import Word
 from rebsync.reverse.libraries.routines import Kind, Routine
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import CppClass
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow_types import unscoped_member
 from rebsync.reverse.values.cpp_values import Values
 
-_CALLED = frozenset({"template_method", "template_function", "dependent_name"})
 
-
-def asked_of_nodes(
-    calls: Calls, values: Values, cpp: Cpp, place: Node, name: str
-) -> Iterator[Asked]:
+def asked_of_nodes(word: Word) -> Iterator[Asked]:
     """What a word asks for, if anything."""
-    if name in calls.nodes:
-        yield from _node(calls, values, cpp, place, name)
-        return
-    if name in calls.objects:
-        yield from _object(calls, values, cpp, place, name)
-        return
-    node, above = place, place.parent
-    while above is not None and above.type in _CALLED:
-        node, above = above, above.parent
-    if above is None:
-        return
-    if above.type == "field_expression" and part(above, "field") == node:
-        call = above.parent
-        if call is not None and call.type == "call_expression" and part(call, "function") == above:
-            yield from _of_method(calls, values, cpp, place, call, node, part(above, "argument"))
-    else:
-        yield from _of_function(calls, values, cpp, place, node, above, name)
+    if word.name in word.calls.nodes:
+        return _node(word)
+    if word.name in word.calls.objects:
+        return _object(word)
+    return word.as_called(_of_method, _of_function)
 
 
 # --- calls --------------------------------------------------------------------------------------
 
 
-def _of_method(
-    calls: Calls,
-    values: Values,
-    cpp: Cpp,
-    place: Node,
-    call: Node,
-    called: Node,
-    target: Node,
-) -> Iterator[Asked]:
+def _of_method(word: Word, call: Node, called: Node, target: Node) -> Iterator[Asked]:
     """`node->create_publisher<T>("x", 10)`."""
+    calls, values, cpp = word.calls, word.values, word.cpp
     name = unscoped_member(called)
     ask = calls.on_nodes.get(name)
     if ask is None:
         return
-    given = tuple(named(part(call, "arguments")))
     scope, _, type_ = values.types.type_of(cpp, target).rpartition("::")
     is_own = scope.rpartition("::")[2] not in calls.node_scopes  # `rclcpp::Node` is no own `Node`
     class_ = values.texts.class_near(type_, cpp) if type_ and is_own else None
@@ -81,15 +56,15 @@ def _of_method(
         ask = calls.methods.get(type_, {}).get(name)
         meant = ask is not None
     else:
+        given = tuple(named(part(call, "arguments")))
         meant = type_ in calls.nodes or says_enough(values, cpp, ask, given)
     if meant and ask is not None:
-        yield Asked(ask, site_of(values, cpp, place, call), given, types_of(called), target)
+        yield word.asked(ask, call, types=types_of(called), target=target)
 
 
-def _of_function(
-    calls: Calls, values: Values, cpp: Cpp, place: Node, node: Node, above: Node, name: str
-) -> Iterator[Asked]:
+def _of_function(word: Word, node: Node, above: Node) -> Iterator[Asked]:
     """`create_publisher<T>("x", 10)` in a class of nodes, `library::create_timer(...)`."""
+    calls, values, cpp, name = word.calls, word.values, word.cpp, word.name
     called = called_as(node, above)
     if called is None:
         return
@@ -100,13 +75,12 @@ def _of_function(
     if ask is not None and values.calls.functions(cpp, call):
         return  # it is among the files, and read itself
     if ask is None and scope in ("", *calls.nodes):
-        function = values.texts.function_around(cpp, place)
+        function = values.texts.function_around(cpp, word.place)
         class_ = values.texts.class_of(function)
         if class_ is not None and _may_be_node(values, class_, name):
             ask = calls.on_nodes.get(name)
     if ask is not None:
-        given = tuple(named(part(call, "arguments")))
-        yield Asked(ask, site_of(values, cpp, place, call), given, types_of(node))
+        yield word.asked(ask, call, types=types_of(node))
 
 
 def _may_be_node(values: Values, class_: CppClass, method: str) -> bool:
@@ -132,40 +106,43 @@ def _bases(class_: CppClass) -> set[str]:
 # --- nodes --------------------------------------------------------------------------------------
 
 
-def _node(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+def _node(word: Word) -> Iterator[Asked]:
     """`: Node("x")`, `rclcpp::Node::make_shared("x")`, `std::make_shared<rclcpp::Node>("x")`."""
-    named_ = calls.nodes[name]
-    scope, node, above = "", place, place.parent
+    texts, name = word.values.texts, word.name
+    named_ = word.calls.nodes[name]
+    scope, node, above = "", word.place, word.place.parent
     while above is not None and above.type == "qualified_identifier":
         written = above.child_by_field_name("scope")
         if written is not None and part(above, "name") == node:
             scope = text_of(written)
         elif written == node and above.parent is not None:
-            yield from _by_own_maker(values, cpp, place, above, named_)
+            yield from _by_own_maker(word, above, named_)
             return
         node, above = above, above.parent
     if above is None:
         return
-    if not scope and values.texts.code.all_classes.get(name):
+    if not scope and texts.code.all_classes.get(name):
         return  # a class of that name of their own
     if above.type == "field_initializer":
-        class_ = values.texts.class_of(values.texts.function_around(cpp, place))
+        class_ = texts.class_of(texts.function_around(word.cpp, word.place))
         if class_ is not None and name in _bases(class_):
             lists = [n for n in above.named_children if n.type.endswith("_list")]
             given = tuple(named(lists[-1])) if lists else ()
-            yield Asked(named_, site_of(values, cpp, place, above), given)
-    elif scope.rpartition("::")[2] in calls.node_scopes:
-        yield from _made(values, cpp, place, node, above, named_)
+            yield word.asked(named_, above, given)
+    elif scope.rpartition("::")[2] in word.calls.node_scopes:
+        for call, given in objects_of(node, above):
+            if given or above.type == "type_descriptor":
+                yield word.asked(named_, call, given)
 
 
-def _object(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+def _object(word: Word) -> Iterator[Asked]:
     """`rclcpp::GenericTimer<F>::make_shared(clock, period, f)`, `rclcpp::Rate rate(10)`."""
-    ask, scopes = calls.objects[name]
-    node, above = place, place.parent
+    ask, scopes = word.calls.objects[word.name]
+    node, above = word.place, word.place.parent
     scope = ""
     while above is not None and above.type in (*TEMPLATES, "qualified_identifier"):
         if above.type == "qualified_identifier" and part(above, "name") != node:
-            yield from _by_own_maker(values, cpp, place, above, ask)
+            yield from _by_own_maker(word, above, ask)
             return
         if above.type == "qualified_identifier" and not scope:
             written = above.child_by_field_name("scope")
@@ -176,25 +153,13 @@ def _object(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> I
         return
     for call, given in objects_of(node, above):
         if not is_rate or (given and not handed_on(call)):
-            yield Asked(ask, site_of(values, cpp, place, call), given)
+            yield word.asked(ask, call, given)
 
 
-def _by_own_maker(
-    values: Values, cpp: Cpp, place: Node, above: Node, ask: Routine
-) -> Iterator[Asked]:
+def _by_own_maker(word: Word, above: Node, ask: Routine) -> Iterator[Asked]:
     """`rclcpp::Node::make_shared("x")`; `above` is the name with the class before it."""
     if unscoped_member(part(above, "name")) not in MAKERS:
         return
     call = climb(above, lambda n: n.type != "qualified_identifier")
     if call is not None and call.type == "call_expression":
-        given = tuple(named(part(call, "arguments")))
-        yield Asked(ask, site_of(values, cpp, place, call), given)
-
-
-def _made(
-    values: Values, cpp: Cpp, place: Node, node: Node, above: Node, ask: Routine
-) -> Iterator[Asked]:
-    """An object that is declared, made by `new` or by a function of the standard library."""
-    for call, given in objects_of(node, above):
-        if given or above.type == "type_descriptor":
-            yield Asked(ask, site_of(values, cpp, place, call), given)
+        yield word.asked(ask, call)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
-from functools import partial
 
 from tree_sitter import Node
 
@@ -24,10 +23,9 @@ from rebsync.reverse.calls.ros_calls_shapes import (
 )
 from rebsync.reverse.calls.ros_calls_sites import owner_of, site_of
 from rebsync.reverse.calls.unmodelled_calls import unmodelled_in
-from rebsync.reverse.calls.words import words_in
+from rebsync.reverse.calls.words import Word, words_in
 from rebsync.reverse.graph import Fact, Graph, UnmodelledFact
 from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.libraries.cpp_calls import Calls
 from rebsync.reverse.libraries.cpp_calls import calls as calls_of_libraries
 from rebsync.reverse.libraries.routines import Routine
 from rebsync.reverse.syntax.ancestors import climb
@@ -37,7 +35,6 @@ from rebsync.reverse.values.cpp_values import Values
 from rebsync.reverse.values.cpp_values_ros2 import uses_flat
 
 _BEHIND = (b"(", b"<", b"/", b"#", b"\\")
-_CALLED = frozenset({"template_method", "template_function", "dependent_name"})
 
 
 @dataclass(slots=True, eq=False)
@@ -94,10 +91,13 @@ def _calls_in(code: Code, values: Values, without: Collection[str]) -> Iterator[
         for calls in calls_of_libraries():
             if calls.library.flat and not flat:
                 continue
-            asked_by = asked_of_nodes if calls.library.flat else _asked
-            for found in words_in(calls, cpp.original, cpp.words):
-                if found[2] in calls.classes or _may_be_called(cpp.original, found[1]):
-                    yield from _at(values, cpp, found, without, partial(asked_by, calls))
+            for start, end, name in words_in(calls, cpp.original, cpp.words):
+                if name not in calls.classes and not _may_be_called(cpp.original, end):
+                    continue
+                place = cpp.root.descendant_for_byte_range(start, end)
+                if place is None or place.start_byte != start or place.named_child_count:
+                    continue
+                yield from _at(Word(calls, values, cpp, place, name), without)
 
 
 def _may_be_called(data: bytes, end: int) -> bool:
@@ -110,21 +110,11 @@ def _may_be_called(data: bytes, end: int) -> bool:
     return data[end : end + 1] in _BEHIND
 
 
-def _at(
-    values: Values,
-    cpp: Cpp,
-    found: tuple[int, int, str],
-    without: Collection[str],
-    asked_by: Callable[[Values, Cpp, Node, str], Iterator[Asked]],
-) -> Iterator[Asked]:
+def _at(word: Word, without: Collection[str]) -> Iterator[Asked]:
     """What a word asks for where it was found in a file."""
-    start, end, word = found
-    place = cpp.root.descendant_for_byte_range(start, end)
-    if place is None or place.start_byte != start or place.named_child_count:
+    if owner_of(word.values.texts.function_around(word.cpp, word.place)) in without:
         return
-    if owner_of(values.texts.function_around(cpp, place)) in without:
-        return
-    for asked in asked_by(values, cpp, place, word):
+    for asked in asked_of_nodes(word) if word.calls.library.flat else _asked(word):
         if asked.site.owner not in without:
             yield asked
 
@@ -133,43 +123,28 @@ def _order(fact: Fact | UnmodelledFact) -> tuple[str, int]:
     return fact.site.place.source.path, fact.site.place.span.start
 
 
-def _asked(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+def _asked(word: Word) -> Iterator[Asked]:
     """What a word of a library with node handles asks for where it stands, if anything."""
-    if name in calls.macros:
-        yield from _nodelet(calls.macros[name], values, cpp, place)
+    if word.name in word.calls.macros:
+        call = word.place.parent
+        if call is not None and call.type == "call_expression":
+            yield word.asked(word.calls.macros[word.name], call)
         return
-    if name in calls.objects:
-        found = list(_object(calls, values, cpp, place, name))
-        yield from found
-        if found:
-            return
-    node, above = place, place.parent
-    while above is not None and above.type in _CALLED:
-        node, above = above, above.parent
-    if above is None:
-        return
-    if above.type == "field_expression" and part(above, "field") == node:
-        call = above.parent
-        if call is None or call.type != "call_expression" or part(call, "function") != above:
-            return
-        yield from _of_method(calls, values, cpp, place, call, node, part(above, "argument"), name)
-    else:
-        yield from _of_function(calls, values, cpp, place, node, above, name)
+    found = list(_object(word)) if word.name in word.calls.objects else []
+    yield from found or word.as_called(_of_method, _of_function)
 
 
-def _of_function(
-    calls: Calls, values: Values, cpp: Cpp, place: Node, node: Node, above: Node, name: str
-) -> Iterator[Asked]:
+def _of_function(word: Word, node: Node, above: Node) -> Iterator[Asked]:
     called = called_as(node, above)
     if called is None:
         return
     scope, call = called
-    ask = calls.functions.get((scope, name))
-    if ask is None or _is_own(call, scope, calls.scopes):
+    ask = word.calls.functions.get((scope, word.name))
+    if ask is None or _is_own(call, scope, word.calls.scopes):
         return
-    given = tuple(named(part(call, "arguments")))
-    if scope or (len(given) >= len(ask.arguments) - 1 and not values.calls.functions(cpp, call)):
-        yield Asked(ask, site_of(values, cpp, place, call), given, types_of(node))
+    has_all = len(named(part(call, "arguments"))) >= len(ask.arguments) - 1
+    if scope or (has_all and not word.values.calls.functions(word.cpp, call)):
+        yield word.asked(ask, call, types=types_of(node))
 
 
 def _is_own(call: Node, scope: str, scopes: frozenset[str]) -> bool:
@@ -184,24 +159,16 @@ def _is_own(call: Node, scope: str, scopes: frozenset[str]) -> bool:
     return True
 
 
-def _of_method(
-    calls: Calls,
-    values: Values,
-    cpp: Cpp,
-    place: Node,
-    call: Node,
-    called: Node,
-    target: Node,
-    name: str,
-) -> Iterator[Asked]:
+def _of_method(word: Word, call: Node, called: Node, target: Node) -> Iterator[Asked]:
     """What a method asks for, by the class of the object that it is called on."""
+    calls, values, cpp, name = word.calls, word.values, word.cpp, word.name
     given = tuple(named(part(call, "arguments")))
     type_ = values.types.type_of(cpp, target).rpartition("::")[2]
     if type_ in calls.filters and name == "subscribe":
         variable = values.types.variable(cpp, target)
         types = types_of(variable.type) if variable is not None else ()
-        site = replace(site_of(values, cpp, place, call), kept=text_of(target))
-        yield Asked(calls.objects[type_][0], site, given, types)
+        asked = word.asked(calls.objects[type_][0], call, types=types)
+        yield replace(asked, site=replace(asked.site, kept=text_of(target)))
         return
     ask = None
     on_handle = calls.on_handles.get(name)
@@ -218,7 +185,7 @@ def _of_method(
     elif on_handle is not None and type_ not in calls.known:
         ask = on_handle if names_parameter(values, cpp, on_handle, given) else None
     if ask is not None:
-        yield Asked(ask, site_of(values, cpp, place, call), given, types_of(called), target)
+        yield word.asked(ask, call, types=types_of(called), target=target)
 
 
 def _is_undeclared(values: Values, cpp: Cpp, target: Node) -> bool:
@@ -238,19 +205,12 @@ def _is_undeclared(values: Values, cpp: Cpp, target: Node) -> bool:
     return variable is None or (variable.type is not None and text_of(variable.type) == "auto")
 
 
-def _nodelet(ask: Routine, values: Values, cpp: Cpp, place: Node) -> Iterator[Asked]:
-    call = place.parent
-    if call is not None and call.type == "call_expression":
-        given = tuple(named(part(call, "arguments")))
-        yield Asked(ask, site_of(values, cpp, place, call), given)
-
-
 # --- objects that ask when they are made --------------------------------------------------------
 
 
-def _object(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> Iterator[Asked]:
+def _object(word: Word) -> Iterator[Asked]:
     """`ros::Rate r(10)`, `new message_filters::Subscriber<T>(nh, "x", 1)`."""
-    node, above = place, place.parent
+    node, above = word.place, word.place.parent
     types: tuple[Node, ...] = ()
     scope = ""
     while above is not None and above.type in (*TEMPLATES, "qualified_identifier"):
@@ -260,20 +220,22 @@ def _object(calls: Calls, values: Values, cpp: Cpp, place: Node, name: str) -> I
             written = above.child_by_field_name("scope")
             scope = text_of(written) if written is not None else ""
         node, above = above, above.parent
-    ask, scopes = calls.objects[name]
-    is_filter = name in calls.filters
-    is_meant = scope in scopes or (not scope and (not is_filter or is_used(cpp, scopes, name)))
+    ask, scopes = word.calls.objects[word.name]
+    is_filter = word.name in word.calls.filters
+    is_open = not scope and (not is_filter or is_used(word.cpp, scopes, word.name))
+    is_meant = scope in scopes or is_open
     if above is None or not is_meant:
         return
     if above.type == "field_declaration" and is_filter:
-        yield from _initialised(values, above, ask, types)
+        yield from _initialised(word.values, above, ask, types)
         return
     for call, given in objects_of(node, above):
         if given and (is_filter or not handed_on(call)):
-            site = site_of(values, cpp, place, call)
+            asked = word.asked(ask, call, given, types)
             if is_filter and call.type == "init_declarator":
-                site = replace(site, kept=text_of(part(call, "declarator")))
-            yield Asked(ask, site, given, types)
+                kept = text_of(part(call, "declarator"))
+                asked = replace(asked, site=replace(asked.site, kept=kept))
+            yield asked
 
 
 def _initialised(

@@ -8,6 +8,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import Callback, Unresolved
+from rebsync.reverse.syntax.cpp_declarations import lambda_parameters, name_of_parameter
 from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import nearness
@@ -156,7 +157,7 @@ class Callbacks:
             function.type == "field_expression" and part(function, "argument").type == "this"
         )
         given = [text_of(a) for a in named(part(call, "arguments"))]
-        if not on_this or given != list(_lambda_names(node)):
+        if not on_this or given != [*map(name_of_parameter, lambda_parameters(node))]:
             return None
         found = self.values.calls.functions(cpp, call)
         return found[0] if len(found) == 1 and found[0].owner else None
@@ -198,19 +199,6 @@ def _type_at(function: CppFunction, index: int) -> Node | None:
     return function.parameters[index].type if index < len(function.parameters) else None
 
 
-def _lambda_names(node: Node) -> Iterator[str]:
-    """The names of a lambda's parameters; empty for one that has none."""
-    declarator = node.child_by_field_name("declarator")
-    parameters = declarator.child_by_field_name("parameters") if declarator is not None else None
-    for parameter in named(parameters) if parameters is not None else []:
-        at_: Node | None = parameter.child_by_field_name("declarator")
-        while at_ is not None and at_.type != "identifier":
-            at_ = at_.named_children[-1] if at_.named_children else None
-        yield text_of(at_) if at_ is not None else ""
-
-
 def _lambda_type(node: Node) -> Node | None:
-    declarator = node.child_by_field_name("declarator")
-    parameters = declarator.child_by_field_name("parameters") if declarator is not None else None
-    first = named(parameters)[:1] if parameters is not None else []
+    first = lambda_parameters(node)[:1]
     return first[0].child_by_field_name("type") if first else None

@@ -9,7 +9,7 @@ from rebsync import questions as q
 from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, did_you_mean
 from rebsync.records import dataclass
 from rebsync.reverse.environment.observation import ANY, COUNT, Observation
-from rebsync.reverse.texts import TEXT
+from rebsync.reverse.models.texts import TEXT
 from rebsync.source import Source, Span
 
 _NAME = "Question"
@@ -106,7 +106,7 @@ class TopicVocabulary:
                 found = self._field(operand)
                 if found is not None:
                     return f"{found[0]}.{found[1].variable}"
-                return str(self._number(self._constant(operand)))
+                return str(self._number(next(iter(self._constant_values(operand)))))
             case q.QuotedText(text):
                 return str(self.texts[text])
             case bool():
@@ -141,9 +141,6 @@ class TopicVocabulary:
             return None
         fields = [o.path for _, o in self.observations if o.path not in (ANY, COUNT)]
         return self._only(word, fields, word.text)
-
-    def _constant(self, word: q.Word) -> int | str:
-        return next(iter(self._constant_values(word)))
 
     def _constant_values(self, word: q.Word) -> set[int | str]:
         """The value of a constant, if one name of a package's messages is this."""

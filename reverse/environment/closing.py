@@ -19,9 +19,9 @@ from rebsync.reserved import KEEP_LAST, OPEN
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.representatives import of_texts, representatives
 from rebsync.reverse.environment.scopes import Scope
+from rebsync.reverse.models.texts import OTHER, TEXT
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.open_ends import OpenEnd
-from rebsync.reverse.texts import OTHER, TEXT
 from rebsync.static.constants import Value
 
 _NONE: Mapping[str, int] = {}
@@ -134,7 +134,7 @@ class _Environment:
         """The fields of a message by their paths, which all its receivers get alike."""
         for path in dict.fromkeys(path for own in parameters for path in own):
             given = [(e, own[path]) for e, own in zip(ends, parameters, strict=True) if path in own]
-            places = {_scope(self.model, end).variable(own.name) for end, own in given}
+            places = {Scope.of(*_server(self.model, end)).variable(own.name) for end, own in given}
             type_ = given[0][1].type
             range_ = self.types.range_of(ends[0].type or "", path)
             found = representatives(self.model, places, type_, self.properties, range_)
@@ -197,10 +197,6 @@ def _server(model: m.Model, end: OpenEnd) -> tuple[m.ReactiveClass, m.MessageSer
         for member in owner.members
         if isinstance(member, m.MessageServer) and member.name == end.server
     )
-
-
-def _scope(model: m.Model, end: OpenEnd) -> Scope:
-    return Scope.of(*_server(model, end))
 
 
 def _parameters(model: m.Model, end: OpenEnd) -> dict[str, m.Parameter]:

@@ -9,11 +9,11 @@ from typing import TypeGuard
 
 from rebsync import model as m
 from rebsync.names import unique
-from rebsync.reverse.bodies.building import bare
 from rebsync.reverse.bodies.cpp_messages import zero_of
-from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.environment.fragments import PUBLISH, SUBSCRIBE, Fragment, TopicServer
 from rebsync.reverse.environment.observation import Hearer
+from rebsync.reverse.models.building import bare
+from rebsync.reverse.models.rewriting import rewritten
 from rebsync.reverse.nodes.node_joined import OBSERVER
 from rebsync.reverse.nodes.open_ends import OpenEnd
 

@@ -15,9 +15,9 @@ from rebsync.diagnostics import Diagnostic, Findings, RebsyncError, did_you_mean
 from rebsync.grammars.parser import parse_model
 from rebsync.records import dataclass
 from rebsync.reverse.build.message_types import Fields
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.nodes.node_joined import Observed
 from rebsync.reverse.nodes.node_names import model_word
-from rebsync.reverse.texts import TEXT
 from rebsync.source import Source, Span
 from rebsync.static import analyse
 from rebsync.static.annotations import KNOWN_ANNOTATIONS

@@ -17,13 +17,13 @@ from rebsync import model as m
 from rebsync.names import unique
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_messages import zero_of
-from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.graph import PublisherFact
+from rebsync.reverse.models.rewriting import rewritten
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.nodes.node_joined import OBSERVER, Joined, Observed
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.open_ends import wholly_open
-from rebsync.reverse.texts import TEXT
 
 _Begun = TypeVar("_Begun", m.MessageServer, m.Constructor)
 ANY = ""  # in the place of a field's path: whether there was a message

@@ -37,13 +37,13 @@ from rebsync.reverse.environment.observation import (
 )
 from rebsync.reverse.environment.overwriting import overwritten
 from rebsync.reverse.findings import Finding
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.nodes.node_joined import Joined, Observed
 from rebsync.reverse.nodes.node_system import unit_of_time
 from rebsync.reverse.nodes.node_times import common_measure
 from rebsync.reverse.nodes.open_ends import OpenEnd, open_ends, receivers
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import different
-from rebsync.reverse.texts import TEXT
 from rebsync.source import Source
 
 _ROUNDS = 4

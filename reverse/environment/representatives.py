@@ -22,7 +22,7 @@ from rebsync.reverse.environment.constant_variables import (
     possible_constants,
 )
 from rebsync.reverse.environment.scopes import Scope, Variable
-from rebsync.reverse.texts import OTHER, is_text
+from rebsync.reverse.models.texts import OTHER, is_text
 from rebsync.static.constants import Value, constant, single
 
 _COMPARISONS = frozenset({"==", "!=", "<", "<=", ">", ">="})

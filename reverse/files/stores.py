@@ -5,13 +5,10 @@ from __future__ import annotations
 import os
 import stat
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from rebsync.files import read_bytes
 from rebsync.folder import open_regular
-
-if TYPE_CHECKING:
-    pass
 
 _HEAD = 80  # bytes in which the first line of a script says who runs it
 

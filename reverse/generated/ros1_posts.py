@@ -21,7 +21,7 @@ from rebsync.reverse.generated.ros1_names import declared_type, has_mailbox, pla
 from rebsync.reverse.generated.ros1_roles import Roles, call_in, parameters_of
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import inside, part, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, part, squeezed, text_of
 
 _BINDS = frozenset({"std::bind", "boost::bind"})
 _NAMES = ("identifier", "type_identifier")
@@ -92,7 +92,7 @@ def _holds(owner: CppClass, serve: Node, given: list[Node]) -> bool:
     """Whether what serves a message has its arguments as they were when it was posted."""
     bound = call_of(serve)
     if bound is not None:
-        of = _squeezed(bound.arguments[0]).removeprefix("&").rpartition("::")[0]
+        of = squeezed(bound.arguments[0]).removeprefix("&").rpartition("::")[0]
         is_own = of.rpartition("::")[2] == owner.name and bound.name in _BINDS
         return is_own and text_of(bound.arguments[1]) == "this"
     captures = part(serve, "captures")
@@ -108,11 +108,7 @@ def tells_arguments(told: Node, given: list[Node]) -> bool:
     call = call_of(told)
     if call is None or call.target is not None or call.name.rpartition("::")[2] != "text":
         return False
-    return [_squeezed(a) for a in call.arguments] == [_squeezed(a) for a in given]
-
-
-def _squeezed(node: Node) -> str:
-    return "".join(text_of(node).split())
+    return [squeezed(a) for a in call.arguments] == [squeezed(a) for a in given]
 
 
 def own_post(

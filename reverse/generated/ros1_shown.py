@@ -13,7 +13,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_index import Code
-from rebsync.reverse.syntax.cpp_tree import Cpp, inside, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, part, squeezed, text_of
 
 OFFERS = frozenset({"advertise", "create_publisher"})
 _VALUE = re.compile(r"std_msgs::(?:msg::)?((?:U?Int(?:8|16|32|64)|Float(?:32|64)|Bool|String)\b)")
@@ -37,7 +37,7 @@ def shown_only(code: Code) -> frozenset[tuple[str, str]]:
     mentions = [each for cpp in code.files for each in _mentions(cpp)] if offers else []
     if len(mentions) != sum(len(_PACKAGE.findall(text)) for text in texts):
         return frozenset()  # there is a name for the package, or for one of its types
-    heard = {_plain(node) for node in mentions if not _is_sent(node)}
+    heard = {squeezed(node) for node in mentions if not _is_sent(node)}
     types = {type_ for type_, _, _ in offers}
     types -= {t for t in types if any(h.startswith(t) or "::" not in h for h in heard)}
     literals = [n for cpp in code.files for n in inside(cpp.root, "string_literal")]
@@ -60,7 +60,7 @@ def is_plain(call: CppCall) -> bool:
     rest = call.arguments[1:]
     if len(rest) > (2 if call.name == "advertise" else 1):
         return False
-    if not all(a.type in _PLAIN or _QOS.fullmatch(_plain(a)) for a in rest):
+    if not all(a.type in _PLAIN or _QOS.fullmatch(squeezed(a)) for a in rest):
         return False
     return string_of(call.arguments[0]) is None or _split(call)[0] is not None
 
@@ -77,7 +77,7 @@ def _split(call: CppCall) -> tuple[str | None, str]:
 
 def type_of(call: CppCall) -> str:
     """The type that a call is for."""
-    return _plain(call.types[0]) if len(call.types) == 1 else ""
+    return squeezed(call.types[0]) if len(call.types) == 1 else ""
 
 
 def sends(function: Node, member: str, type_: str) -> bool:
@@ -88,7 +88,7 @@ def sends(function: Node, member: str, type_: str) -> bool:
     made = {
         text_of(part(d, "declarator"))
         for d in inside(function, "declaration")
-        if _plain(part(d, "type")) == type_ and part(d, "declarator").type == "identifier"
+        if squeezed(part(d, "type")) == type_ and part(d, "declarator").type == "identifier"
     }
     given = [c.arguments for c in calls_in(function) if c.on == member and c.name == "publish"]
     used = [n for n in inside(function, "identifier", "field_identifier") if text_of(n) == member]
@@ -114,7 +114,7 @@ def _is_number_as_text(call: Node) -> bool:
     """Whether it is `std::to_string` of a variable, which is one of a number."""
     given = part(call, "arguments").named_children
     is_plain = len(given) == 1 and given[0].type in ("identifier", "field_expression")
-    return is_plain and _plain(part(call, "function")) == "std::to_string"
+    return is_plain and squeezed(part(call, "function")) == "std::to_string"
 
 
 def _stores(function: Node, member: str) -> list[Node]:
@@ -152,14 +152,10 @@ def _is_sent(mention: Node) -> bool:
     of = around.parent if around is not None else None
     is_argument = around is not None and around.type == "template_argument_list"
     name = text_of(part(of, "name")) if of is not None and is_argument else ""
-    return name in OFFERS | {"Publisher"} and _VALUE.fullmatch(_plain(mention)) is not None
+    return name in OFFERS | {"Publisher"} and _VALUE.fullmatch(squeezed(mention)) is not None
 
 
 def _is_free(name: str, own: set[int], literals: list[Node]) -> bool:
     """Whether a name stands nowhere else, as a whole or as the last of a longer one."""
     others = (text_of(n).strip('"').rpartition("/")[2] for n in literals if n.id not in own)
     return name not in others
-
-
-def _plain(node: Node) -> str:
-    return "".join(text_of(node).split())

@@ -16,7 +16,7 @@ from rebsync.reverse.generated.ros1_shown import OFFERS, is_plain, sends, topic_
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
-from rebsync.reverse.syntax.cpp_tree import part, text_of
+from rebsync.reverse.syntax.cpp_tree import part, squeezed, text_of
 
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)::")
@@ -53,7 +53,7 @@ def counters(code: Code, owner: CppClass) -> set[str]:
 
     Nothing but logs, and fields of messages that a function has made, gets what they are.
     """
-    numbers = {f.name: f for f in owner.fields if _NUMBER.fullmatch(_without_blanks(f.type))}
+    numbers = {f.name: f for f in owner.fields if _NUMBER.fullmatch(squeezed(f.type))}
     left = {n for n, f in numbers.items() if not f.markers}
     known = {f.node.id for f in owner.fields}
     told = set[str]()
@@ -100,10 +100,6 @@ def _fills(statement: Node) -> bool:
 def _expression_in(statement: Node) -> Node | None:
     is_one = statement.type == "expression_statement" and bool(statement.named_children)
     return statement.named_children[0] if is_one else None
-
-
-def _without_blanks(type_: Node) -> str:
-    return "".join(text_of(type_).split())
 
 
 def _is_own(node: Node) -> bool:

@@ -26,6 +26,7 @@ from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.source import Source, Span
 
 _ASKED = "this runs when it is asked what a sensor saw"
@@ -61,7 +62,7 @@ def acting_in_blocks(
     blocks = _blocks(cpp, body)
     spans = [b for b in blocks if not any(b.start <= at.start <= b.end for at in listed)]
     if spans:
-        yield from _SensorProgram(code).acting_in(cpp, body, spans)
+        yield from _SensorProgram(code).acting_in(body, spans)
 
 
 def _blocks(cpp: Cpp, body: Node) -> Iterator[Span]:
@@ -116,7 +117,7 @@ class _SensorProgram:
             source = self.lowering.file_of(problem.function).source
             yield source, Unread(problem.place, f"{_ASKED}: {problem.why}")
 
-    def acting_in(self, cpp: Cpp, body: Node, spans: list[Span]) -> Iterator[tuple[Source, Unread]]:
+    def acting_in(self, body: Node, spans: list[Span]) -> Iterator[tuple[Source, Unread]]:
         """What statements of a body do."""
         names = (n for n, s in self._symbols.items() if s.code.body == body)
         for function in map(self.program.function, names):
@@ -168,10 +169,6 @@ def _is_plain(code: Code, looked: Node) -> bool:
     """Whether all functions of a name only give a field of what they get."""
     name = text_of(looked).lstrip("& ").rpartition("::")[2]
     functions = [f for (_, own), found in code.definitions.items() if own == name for f in found]
-    waiting = [n for f in functions if f.body is not None for n in f.body.named_children]
-    while waiting:
-        node = waiting.pop()
-        if node.type not in _PLAIN:
-            return False
-        waiting += node.named_children
-    return bool(functions) and name.isidentifier()
+    parts = (n for f in functions if f.body is not None for n in f.body.named_children)
+    is_plain = all(n.type in _PLAIN for part in parts for n in nodes_in(part))
+    return is_plain and bool(functions) and name.isidentifier()

@@ -49,6 +49,15 @@ COMPARISONS = frozenset(
 )
 
 
+# What a comparison is with its operands exchanged.
+MIRRORED = {
+    Operator.LESS: Operator.GREATER,
+    Operator.GREATER: Operator.LESS,
+    Operator.LESS_EQUAL: Operator.GREATER_EQUAL,
+    Operator.GREATER_EQUAL: Operator.LESS_EQUAL,
+}
+
+
 class ImplicitCall(Enum):
     """What runs a method of a class though no call stands in the text."""
 

@@ -1,29 +1,24 @@
 """What a call of a library does, for analyses: effect, purity, blocking, what is written.
 
-Asked for by a function's full name, or by the full name of a class and a method of it. What no
-table has may do anything. Functions of the standard libraries do what is said of them with values
-of plain types: an object's own operators and conversions, which they may call, are code of its own.
+Asked for by a function's full name. What no table has may do anything. Functions of the standard
+libraries do what is said of them with values of plain types: an object's own operators and
+conversions, which they may call, are code of its own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.registry import libraries
 from rebsync.reverse.libraries.routines import (
-    ANY_CONTAINER,
     Effect,
     Kind,
     Language,
-    Library,
     Routine,
 )
 
 _PREFIXES = ("std::this_thread::", "std::", "boost::")
-_CONTAINERS = frozenset(
-    {"vector", "array", "deque", "list", "map", "set", "string", "unordered_map"}
-)
 _CALLING = frozenset({Kind.HOOK, Kind.START, Kind.OTHER})
 
 
@@ -32,23 +27,15 @@ class CallEffect:
     """What a call does besides giving its result.
 
     `writes` are the places of arguments that it may write, -1 that of the object it is called on;
-    None where it may write anything. `callbacks` are the places, and `called` the names, of the
-    arguments that it calls, now or later: what those do comes on top.
+    None where it may write anything. One that calls its arguments is not pure.
     """
 
     effect: Effect
     is_pure: bool
-    blocks: bool
     writes: frozenset[int] | None
-    callbacks: tuple[int, ...] = ()
-    called: frozenset[str] = frozenset()
-
-    def may_write(self, place: int) -> bool:
-        """Whether it may write an argument, or with -1 its object."""
-        return self.writes is None or place in self.writes
 
 
-UNKNOWN = CallEffect(Effect.UNKNOWN, False, True, None)
+UNKNOWN = CallEffect(Effect.UNKNOWN, False, None)
 
 
 def of_function(language: Language, name: str) -> CallEffect:
@@ -56,18 +43,6 @@ def of_function(language: Language, name: str) -> CallEffect:
     names = _names(language, name)
     found = [_of(r) for candidate in names for r in _functions(language, candidate)]
     return found[0] if found and all(f == found[0] for f in found) else UNKNOWN
-
-
-def of_method(language: Language, of: str, name: str) -> CallEffect:
-    """What a method does, by the full name of the class of its object."""
-    plain = of.removeprefix("::")
-    found = [
-        methods[name]
-        for library in libraries(language)
-        for methods in _methods(library, plain)
-        if name in methods
-    ]
-    return _of(found[0]) if found else UNKNOWN
 
 
 def _names(language: Language, name: str) -> Iterator[str]:
@@ -88,24 +63,11 @@ def _functions(language: Language, name: str) -> Iterator[Routine]:
             yield library.functions[name]
 
 
-def _methods(library: Library, of: str) -> Iterator[Mapping[str, Routine]]:
-    """The methods of a class; all classes of nodes of a library have the same."""
-    classes = library.nodes if of in library.nodes else {of}
-    if library.language is Language.CPP and _is_container(of):
-        classes = {ANY_CONTAINER}
-    yield from (library.methods[c] for c in sorted(classes) if c in library.methods)
-
-
-def _is_container(of: str) -> bool:
-    scope, _, name = of.partition("::")
-    return scope == "std" and name.partition("<")[0] in _CONTAINERS
-
-
 def _of(routine: Routine) -> CallEffect:
     writes = routine.written
     if routine.effect is Effect.CHANGES and not writes:
-        return CallEffect(routine.effect, False, False, None)
+        return CallEffect(routine.effect, False, None)
     calls = routine.effect is Effect.ASKS or routine.kind in _CALLING
-    called = frozenset(name for name, role in routine.keywords if calls and role == "callback")
-    pure = routine.is_pure and not routine.callbacks and not called
-    return CallEffect(routine.effect, pure, routine.blocks, writes, routine.callbacks, called)
+    is_called = calls and any(role == "callback" for _, role in routine.keywords)
+    pure = routine.is_pure and not routine.callbacks and not is_called
+    return CallEffect(routine.effect, pure, writes)

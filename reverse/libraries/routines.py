@@ -182,11 +182,6 @@ class Routine:
         return self.effect in _PURE and not self.written
 
     @property
-    def blocks(self) -> bool:
-        """Whether a call takes time of the model, or waits for others."""
-        return self.effect in BLOCKING
-
-    @property
     def written(self) -> frozenset[int]:
         """The places of the arguments that a call writes; -1 stands for its object."""
         roles = (*self.writes, *(_WRITTEN if self.kind is Kind.PARAMETER else ()))

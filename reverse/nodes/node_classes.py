@@ -12,9 +12,9 @@ from rebsync.reverse.bodies.cpp_conversions import converted_to
 from rebsync.reverse.bodies.cpp_effects import touching
 from rebsync.reverse.bodies.cpp_timers import stale_messages, without_stale
 from rebsync.reverse.bodies.cpp_unknowns import choice
-from rebsync.reverse.bodies.rewriting import STATEMENTS, rewritten
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import TimerFact
+from rebsync.reverse.models.rewriting import STATEMENTS, rewritten
 from rebsync.reverse.nodes.node_bodies import Bodies, repeated, takes_time
 from rebsync.reverse.nodes.node_functions import Functions
 from rebsync.reverse.nodes.node_lifecycle import is_transition

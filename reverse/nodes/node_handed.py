@@ -20,7 +20,7 @@ from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_joined import OBSERVER
-from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.ancestors import ancestors, holds
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
@@ -115,8 +115,8 @@ class _Handed:
         if is_called and any(depth > _DEEPEST or c.may_change(depth + 1) for c in self._callers()):
             return True
         late = [n for n in ancestors(self.call, self._is_body) if n.type in _LOOPS]
-        late = [n for n in late if not any(_is_in(d, n) for d in declared)]
-        late += [n for n in inside(self.body, "lambda_expression") if not _is_in(self.call, n)]
+        late = [n for n in late if not any(holds(n, d) for d in declared)]
+        late += [n for n in inside(self.body, "lambda_expression") if not holds(n, self.call)]
         return self._stores(self.function, self.body, late, self.call.end_byte)
 
     def _callers(self) -> Iterator[_Handed]:
@@ -139,7 +139,7 @@ class _Handed:
         """Whether a body may change the message behind a place of it, or in some loops."""
         others = made_in(body) - {self.name}
         for node in inside(body, "field_expression", "pointer_expression", "argument_list"):
-            if node.start_byte < since and not any(_is_in(node, n) for n in late):
+            if node.start_byte < since and not any(holds(n, node) for n in late):
                 continue
             if node.type == "argument_list":
                 if self._is_given(node):
@@ -219,7 +219,3 @@ def _moved(text: str) -> str:
 
 def _around(node: Node) -> Node:
     return node.parent if node.parent is not None else node
-
-
-def _is_in(node: Node, around: Node) -> bool:
-    return around.start_byte <= node.start_byte and node.end_byte <= around.end_byte

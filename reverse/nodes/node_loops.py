@@ -18,7 +18,8 @@ from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, text_of
+from rebsync.reverse.syntax.cpp_tree import named, operator_of, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
 
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement"})
 _LOOP_WORDS = re.compile(rb"\b(?:while|for|do)\b")
@@ -28,6 +29,7 @@ _STATEMENTS = frozenset(
     {"expression_statement", "declaration", "if_statement", "compound_statement"}
 )
 _BEHIND = "this follows a loop that may end while the node runs: it is not read"
+_JUMPS = frozenset({"break_statement", "goto_statement", "throw_statement"})
 _APART = frozenset({"lambda_expression", "switch_statement", "for_range_loop"})
 
 
@@ -118,16 +120,13 @@ def _conjuncts(node: Node) -> Iterator[Node]:
     inner = named(node)
     if node.type in ("condition_clause", "parenthesized_expression") and len(inner) == 1:
         yield from _conjuncts(inner[0])
-    elif node.type == "binary_expression" and len(inner) == 2 and _operator(node) in ("&&", "and"):
+    elif (
+        node.type == "binary_expression" and len(inner) == 2 and operator_of(node) in ("&&", "and")
+    ):
         for each in inner:
             yield from _conjuncts(each)
     else:
         yield node
-
-
-def _operator(node: Node) -> str:
-    operator = node.child_by_field_name("operator")
-    return text_of(operator) if operator is not None else ""
 
 
 def _is_awake(node: Node) -> bool:
@@ -274,18 +273,9 @@ def ended_early(statement: Node, without: Collection[int]) -> bool:
 
 def _may_end(loop: NodeLoop) -> bool:
     """Whether a loop may end while the node still runs."""
-    return bool(loop.guard) or any(_jumps_out(s) for s in (*loop.first, *loop.rest))
-
-
-def _jumps_out(statement: Node) -> bool:
-    waiting = [statement]
-    while waiting:
-        node = waiting.pop()
-        if node.type in ("break_statement", "goto_statement", "throw_statement"):
-            return True
-        if node.type not in _LOOPS and node.type not in _APART:
-            waiting += node.named_children
-    return False
+    return bool(loop.guard) or any(
+        n.type in _JUMPS for s in (*loop.first, *loop.rest) for n in nodes_in(s, *_LOOPS, *_APART)
+    )
 
 
 def _is_over(statement: Node) -> bool:

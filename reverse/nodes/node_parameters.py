@@ -11,10 +11,10 @@ from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reverse.graph import Fact, ParameterFact, Resolved, Unresolved
 from rebsync.reverse.libraries.routines import Access
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_tree import text_of
-from rebsync.reverse.texts import TEXT
 from rebsync.static.values import converted
 
 _DECLARES = "declare_parameter"

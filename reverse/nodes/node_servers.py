@@ -18,8 +18,9 @@ from rebsync.reverse.nodes.node_taken import declared, uses
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import calls_in
+from rebsync.reverse.syntax.cpp_declarations import lambda_parameters, name_of_parameter
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 
 Asking: TypeAlias = SubscriptionFact | TimerFact | ServiceFact
 _HEADER = "header."
@@ -211,18 +212,10 @@ def _parameters(callback: Callback) -> list[tuple[str, str]]:
     """Name and type of each parameter of a callback."""
     if isinstance(callback.function, CppFunction):
         return [(p.name, text_of(p.type)) for p in callback.function.parameters]
-    found = []
-    declarator = (
-        callback.lambda_.child_by_field_name("declarator") if callback.lambda_ is not None else None
-    )
-    listed = declarator.child_by_field_name("parameters") if declarator is not None else None
-    for parameter in named(listed) if listed is not None else []:
-        at = parameter.child_by_field_name("declarator")
-        while at is not None and at.type != "identifier":
-            at = at.named_children[-1] if at.named_children else None
-        type_ = parameter.child_by_field_name("type")
-        found.append((text_of(at) if at is not None else "", text_of(type_) if type_ else ""))
-    return found
+    listed = lambda_parameters(callback.lambda_) if callback.lambda_ is not None else []
+    types = (p.child_by_field_name("type") for p in listed)
+    texts = [text_of(type_) if type_ is not None else "" for type_ in types]
+    return [*zip(map(name_of_parameter, listed), texts, strict=True)]
 
 
 # --- which fields are used ----------------------------------------------------------------------

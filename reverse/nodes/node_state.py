@@ -20,6 +20,7 @@ from rebsync.reverse.bodies.known_functions import is_matrix
 from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variable
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.nodes.node_declarations import (
     declarations,
     is_asked,
@@ -34,7 +35,6 @@ from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_declarations import CppField, declared_name
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
-from rebsync.reverse.texts import TEXT
 from rebsync.static.types import BOOLEAN, INT
 
 

@@ -16,6 +16,7 @@ from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.graph import Fact, Graph, PublisherFact, SubscriptionFact
 from rebsync.reverse.launch.launched import Launch
+from rebsync.reverse.models.texts import TEXT, text_literal
 from rebsync.reverse.nodes.node_bodies import Bodies, Common
 from rebsync.reverse.nodes.node_bound import Helpers, note_bound, note_helpers, note_statics
 from rebsync.reverse.nodes.node_classes import NodeClass, too_deep
@@ -48,7 +49,6 @@ from rebsync.reverse.nodes.node_values import Instance, exact_seconds
 from rebsync.reverse.nodes.node_views import all_units
 from rebsync.reverse.nodes.node_wiring import Wiring, idle, instances
 from rebsync.reverse.syntax.cpp_index import Code
-from rebsync.reverse.texts import TEXT, text_literal
 from rebsync.source import NOWHERE, Source
 
 

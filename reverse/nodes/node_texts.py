@@ -9,10 +9,10 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variable
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import text_of
-from rebsync.reverse.texts import TEXT
 
 
 def leave_out(state: State, names: Collection[str]) -> None:

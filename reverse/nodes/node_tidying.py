@@ -12,8 +12,8 @@ from dataclasses import replace
 from operator import is_
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, is_calm
-from rebsync.reverse.bodies.rewriting import STATEMENTS, rewritten
+from rebsync.reverse.models.building import bare, is_calm
+from rebsync.reverse.models.rewriting import STATEMENTS, rewritten
 
 _MOST_ROUNDS = 6
 

@@ -19,6 +19,7 @@ from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
 
 _NARROW = {
     **dict.fromkeys(("uint8_t", "unsigned char"), unsigned(8)),
@@ -104,16 +105,12 @@ def _out_of_order(bodies: Bodies, owner: CppClass, function: CppFunction) -> boo
 
 def _depends(entry: Node, members: set[str], functions: set[str]) -> bool:
     """Whether an initialiser calls a function of the code, changes something, or names a member."""
-    for value in named(entry)[1:]:
-        waiting = [value]
-        while waiting:
-            node = waiting.pop()
-            if node.type in _CHANGES or (
-                node.type == "identifier" and text_of(node) in members | functions
-            ):
-                return True
-            waiting += node.named_children
-    return False
+    names = members | functions
+    return any(
+        n.type in _CHANGES or (n.type == "identifier" and text_of(n) in names)
+        for value in named(entry)[1:]
+        for n in nodes_in(value)
+    )
 
 
 # --- narrow enumerations ------------------------------------------------------------------------

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import bare
+from rebsync.reverse.models.building import bare
 from rebsync.static.constants import constant
 
 # The variables that have a value, elements of arrays as `a[0]`; None where no way goes on.

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rebsync import model as m
-from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.models.rewriting import rewritten
 from rebsync.reverse.nodes.node_unset import read_unset
 from rebsync.source import SourceSpan
 from rebsync.statements import UNREADABLE

@@ -95,10 +95,6 @@ def _own(start: Start) -> str:
     """What tells an object from the others of its program."""
     if start.made is not None and start.made.variable:
         return start.made.variable.removeprefix("this->").rstrip("_")
-    return _class(start)
-
-
-def _class(start: Start) -> str:
     return start.unit.owner.name if start.unit.owner is not None else start.unit.name
 
 

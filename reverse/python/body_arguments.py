@@ -7,13 +7,13 @@ from typing import TypeAlias
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.py_index import PyParameter, Scope, arguments_of
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.syntax.py_index import PyParameter, Scope, arguments_of
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 Argument: TypeAlias = tuple[PyParameter, "Node | None", bool]
 
 
-def arguments(own: Scope, call: Node, span: object) -> Iterator[Argument]:
+def arguments(own: Scope, call: Node) -> Iterator[Argument]:
     """The parameters of a function with what a call gives; False for what it is by default."""
     plain, keywords = arguments_of(call)
     parameters = own.parameters

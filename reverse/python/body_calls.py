@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -13,11 +12,12 @@ from rebsync import model as m
 from rebsync import precedence
 from rebsync.intervals import unsigned
 from rebsync.literals import exact_literal_of
-from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, tight, whole_number
 from rebsync.reverse.findings import NotWhole, Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.models.building import bare, binary, chosen, is_calm, tight, whole_number
 from rebsync.reverse.python import body_functions, body_timers
+from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_floats import as_number
 from rebsync.reverse.python.body_scope import (
     REAL,
@@ -27,12 +27,9 @@ from rebsync.reverse.python.body_scope import (
     Value,
     unknown,
 )
-from rebsync.reverse.python.py_index import arguments_of, last_name
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_index import arguments_of, last_name
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.reverse.unknowns import Open
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 
 _MOST = 64
 

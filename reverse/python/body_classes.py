@@ -14,9 +14,9 @@ from rebsync.records import dataclass
 from rebsync.reverse.analysis.invariants import Body, BodyStart, Unbounded, unbounded
 from rebsync.reverse.bodies.cpp_timers import stale_messages, without_stale
 from rebsync.reverse.bodies.made_locals import tidied
-from rebsync.reverse.bodies.rewriting import rewritten
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import TimerFact
+from rebsync.reverse.models.rewriting import rewritten
 from rebsync.reverse.nodes.node_bodies import repeated, takes_time, without_end
 from rebsync.reverse.nodes.node_loops import left
 from rebsync.reverse.nodes.node_names import Names
@@ -42,8 +42,8 @@ from rebsync.reverse.python.body_timers import switch_of
 from rebsync.reverse.python.body_units import runs_in_threads
 from rebsync.reverse.python.object_model import decorated_callback
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import LAMBDA, Scope
-from rebsync.reverse.python.py_tree import field, named
+from rebsync.reverse.syntax.py_index import LAMBDA, Scope
+from rebsync.reverse.syntax.py_tree import field, named
 
 _ASLEEP = "other callbacks may run while this one sleeps: the model runs none"
 _BEAT = (

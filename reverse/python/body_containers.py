@@ -9,7 +9,8 @@ from tree_sitter import Node
 from rebsync.reverse.graph import Fact
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import Frame
-from rebsync.reverse.python.py_tree import field, nodes_in, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _KEYS = frozenset({"string", "integer"})
 _READING = frozenset({"get", "items", "keys", "values"})

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -17,20 +16,18 @@ from rebsync import model as m
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import body_messages
+from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_presence import is_there, presence_key, presence_name
 from rebsync.reverse.python.body_reading import Reading, field_key
 from rebsync.reverse.python.body_scope import OTHER, TRUTH, TYPES, Frame, Message, Var
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_variables import store
 from rebsync.reverse.python.interfaces import interface_of
-from rebsync.reverse.python.py_bindings import Binding
-from rebsync.reverse.python.py_index import CLASS, Scope, arguments_of
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import External
 from rebsync.reverse.syntax.ancestors import ancestors
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import CLASS, Scope, arguments_of
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _ROOT = re.compile(r"(?:(\w+)\.)?(\w+)")
 _COPY = "copy.copy"
@@ -200,7 +197,7 @@ def _may_change(source: BodyStatementReader, node: Node, target: Node, type_: st
             is_named = any(_is_below(holder, each) for each in names)
             if is_named and scope is frame.scope and _are_before(bindings, holder, node):
                 continue
-            if is_named or not _is_new(reading, frame, scope, holder):
+            if is_named or not _is_new(reading, scope, holder):
                 return True
     return False
 
@@ -219,7 +216,7 @@ def _are_before(bindings: list[Binding], holder: str, node: Node) -> bool:
     )
 
 
-def _is_new(reading: Reading, frame: Frame, scope: Scope, holder: str) -> bool:
+def _is_new(reading: Reading, scope: Scope, holder: str) -> bool:
     """Whether a variable holds nothing but messages that are made for it."""
     match = _ROOT.match(holder)
     if match is None:

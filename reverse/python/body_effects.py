@@ -13,12 +13,13 @@ from rebsync.reverse.libraries.tables.standard import WAITING_ALONE
 from rebsync.reverse.python.body_reading import Reading, has_nonlocals
 from rebsync.reverse.python.body_scope import Frame, Message, Own, Var
 from rebsync.reverse.python.interfaces import interface_of
-from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_callers import UNGIVEN
-from rebsync.reverse.python.py_index import Scope, arguments_of, last_name
-from rebsync.reverse.python.py_tree import decorators_of, field, named, nodes_in, text_of
 from rebsync.reverse.python.py_worth import Class, Function, Instance, Made, NoneValue, Value, Ways
 from rebsync.reverse.syntax.ancestors import ancestors, climb
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import Scope, arguments_of, last_name
+from rebsync.reverse.syntax.py_tree import decorators_of, field, named, text_of
 
 DEFINITIONS = frozenset({"function_definition", "class_definition", "decorated_definition"})
 _DECORATORS = frozenset({"staticmethod", "classmethod", "property"})

@@ -10,9 +10,9 @@ from collections.abc import Iterable
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_units import scope_of
-from rebsync.reverse.python.py_index import FUNCTION, MODULE, Scope
-from rebsync.reverse.python.py_tree import text_of
 from rebsync.reverse.python.spinning import is_entry, own_nodes
+from rebsync.reverse.syntax.py_index import FUNCTION, MODULE, Scope
+from rebsync.reverse.syntax.py_tree import text_of
 
 _UNKNOWN = "it is not known what runs the function that asks for this"
 

@@ -11,8 +11,9 @@ from rebsync.intervals import INT32, Interval
 from rebsync.literals import exact_literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.needs import Need
-from rebsync.reverse.bodies.building import bare, cast
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import bare, cast
+from rebsync.reverse.models.texts import text_literal
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
     STRING,
@@ -26,8 +27,7 @@ from rebsync.reverse.python.body_scope import (
     unknown,
 )
 from rebsync.reverse.python.interfaces import interface_of
-from rebsync.reverse.python.py_tree import field, text_of
-from rebsync.reverse.texts import text_literal
+from rebsync.reverse.syntax.py_tree import field, text_of
 from rebsync.source import Span
 from rebsync.static.types import DOUBLE
 

@@ -15,9 +15,10 @@ from rebsync import precedence
 from rebsync.intervals import INT32, Interval, unsigned
 from rebsync.literals import exact_literal_of
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import bare, binary, chosen, is_calm, negated, tight
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import bare, binary, chosen, is_calm, negated, tight
+from rebsync.reverse.models.texts import text_literal
 from rebsync.reverse.python import (
     body_calls,
     body_functions,
@@ -39,7 +40,7 @@ from rebsync.reverse.python.body_scope import (
     Var,
     unknown,
 )
-from rebsync.reverse.python.py_tree import (
+from rebsync.reverse.syntax.py_tree import (
     field,
     is_asked,
     named,
@@ -47,7 +48,6 @@ from rebsync.reverse.python.py_tree import (
     text_in,
     text_of,
 )
-from rebsync.reverse.texts import text_literal
 
 _POSITIVE = Interval(1, INT32.high)
 _COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!=", "<>"})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, binary, cast, chosen
+from rebsync.reverse.models.building import bare, binary, cast, chosen
 from rebsync.reverse.python.body_scope import TRUTH, WHOLE, Value
 from rebsync.source import Span
 from rebsync.static.types import DOUBLE

@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, binary, chosen, is_plain, whole_number
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import bare, binary, chosen, is_plain, whole_number
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_loops import with_else
 from rebsync.reverse.python.body_rounds import leaves_nothing
 from rebsync.reverse.python.body_scope import REAL, WHOLE, Key, Value, Var
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_targets import check_target
 from rebsync.reverse.python.body_together import is_object, kept
 from rebsync.reverse.python.body_variables import forget, give
-from rebsync.reverse.python.py_index import arguments_of
-from rebsync.reverse.python.py_tree import field, is_label, named, text_of
+from rebsync.reverse.syntax.ancestors import holds
+from rebsync.reverse.syntax.py_index import arguments_of
+from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
 from rebsync.static.types import INT
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 _RANGES = ("builtins.range", "builtins.xrange")
 _LISTS = frozenset({"list", "tuple"})
@@ -213,7 +212,7 @@ def _only_here(reader: BodyStatementReader, node: Node, variable: str) -> bool:
     if any(b.how != "loop" for b in bindings):
         return False
     loops = [b.node for b in bindings]
-    inner = [n for n in loops if n != node and _holds(node, n)]
+    inner = [n for n in loops if n != node and holds(node, n)]
     if inner:
         return False
     waiting = [scope.node]
@@ -225,7 +224,3 @@ def _only_here(reader: BodyStatementReader, node: Node, variable: str) -> bool:
             return False
         waiting += current.named_children
     return True
-
-
-def _holds(outer: Node, inner: Node) -> bool:
-    return outer.start_byte <= inner.start_byte and inner.end_byte <= outer.end_byte

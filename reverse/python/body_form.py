@@ -23,8 +23,8 @@ from rebsync.reverse.libraries.endless import FINITE
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.size_effects import CHANGING_OBJECT
-from rebsync.reverse.python.py_index import FUNCTION, PyCode, Scope
-from rebsync.reverse.python.py_tree import Py
+from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
+from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import NOWHERE, Source, Span
 
 # What files name that have, or make, iterators without end.

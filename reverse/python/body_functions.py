@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.body_arguments import Argument, arguments
 from rebsync.reverse.python.body_effects import HARMLESS_DECORATORS, getter, is_harmless, is_still
+from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_reading import has_nonlocals
 from rebsync.reverse.python.body_scope import (
     Frame,
@@ -23,11 +23,8 @@ from rebsync.reverse.python.body_scope import (
     Value,
 )
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import Scope, arguments_of, has_splat
-from rebsync.reverse.python.py_tree import field, named, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
+from rebsync.reverse.syntax.py_index import Scope, arguments_of, has_splat
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _NOTHING = frozenset({"comment", "pass_statement"})
 _PATTERNS = frozenset({"pattern_list", "tuple_pattern"})
@@ -45,8 +42,7 @@ def value_of_call(reader: BodyExpressionReader, own: Scope, call: Node) -> Value
             raise Unread(reader.frame.span(call), why)
         if not HARMLESS_DECORATORS.issuperset(own.decorators):
             raise _unread(reader, own, call)
-        span = reader.frame.span(call)
-        return _computed(reader, own, arguments(own, call, span), call)
+        return _computed(reader, own, arguments(own, call), call)
     except Pending:
         raise
     except (Unknown, Unread) as failed:

@@ -28,11 +28,11 @@ from rebsync.reverse.nodes.node_wiring import (
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import Key, PyUnit
 from rebsync.reverse.python.object_model import list_object_model
-from rebsync.reverse.python.py_bindings import Binding
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Instance as Object
 from rebsync.reverse.python.py_worth import Value
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import field, text_of
 from rebsync.reverse.unknowns import Open
 
 ENDLESS = "what this goes through may have no end"

@@ -9,8 +9,8 @@ from tree_sitter import Node
 from rebsync.reverse.libraries.tables.standard import LOCKS
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import Frame
-from rebsync.reverse.python.py_tree import field, named
 from rebsync.reverse.python.py_worth import Made
+from rebsync.reverse.syntax.py_tree import field, named
 
 _LOCK = re.compile(LOCKS)
 

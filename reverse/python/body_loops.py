@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -15,13 +14,12 @@ from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import body_variables
 from rebsync.reverse.python.body_effects import is_log
 from rebsync.reverse.python.body_node_loops import EndlessLoop, forever
-from rebsync.reverse.python.py_index import last_name
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import last_name
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.static.types import BOOLEAN
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 _APART = frozenset({"while_statement", "for_statement", "function_definition", "lambda"})
 
@@ -110,14 +108,9 @@ def _may_end(node: Node) -> bool:
     if not _follows(node):
         return False
     condition = "".join(text_of(field(node, "condition")).split())
-    waiting = named(field(node, "body"))
-    while waiting:
-        inner = waiting.pop()
-        if inner.type == "break_statement":
-            return True
-        if inner.type not in _APART:
-            waiting += inner.named_children
-    return libraries.only_running().fullmatch(condition) is None
+    inside = (n for s in named(field(node, "body")) for n in nodes_in(s, *_APART))
+    breaks = any(n.type == "break_statement" for n in inside)
+    return breaks or libraries.only_running().fullmatch(condition) is None
 
 
 def goes_on(node: Node) -> bool:

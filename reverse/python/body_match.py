@@ -7,21 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary, is_calm
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import binary, is_calm
 from rebsync.reverse.python.body_scope import TRUTH, Value, Var
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_together import is_object, kept
 from rebsync.reverse.python.body_variables import forget, give, outside
-from rebsync.reverse.python.py_tree import field, named, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 # What is stored before a branch is chosen, and what is asked; None: nothing, it is taken.
 Asked: TypeAlias = "tuple[list[m.Statement], m.Expression | None]"

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import cast, is_calm
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.build.message_types import Fields
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.models.building import cast, is_calm
+from rebsync.reverse.models.texts import TEXT, any_text
 from rebsync.reverse.python import body_containers, body_methods
 from rebsync.reverse.python.body_effects import is_harmless
+from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_reading import Reading, field_key, zero
 from rebsync.reverse.python.body_scope import (
     OTHER,
@@ -34,15 +35,11 @@ from rebsync.reverse.python.body_scope import (
     field_kind,
     unknown,
 )
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_variables import store
-from rebsync.reverse.python.py_index import arguments_of
-from rebsync.reverse.python.py_tree import field, named, text_of
-from rebsync.reverse.texts import TEXT, any_text
+from rebsync.reverse.syntax.py_index import arguments_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.source import NOWHERE
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 _BEYOND = "a number that the field of the message may not hold, which Python refuses"
 PROBE = "probe"  # of statements that are only looked at: they are not in the model

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from tree_sitter import Node
 
@@ -16,13 +16,12 @@ from rebsync.reverse.python.body_effects import HARMLESS_DECORATORS
 from rebsync.reverse.python.body_node_loops import forever
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import Frame, Message, Nobody, Own, Var
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_variables import give
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import FUNCTION, PyParameter, Scope, has_splat
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import FUNCTION, PyParameter, Scope, has_splat
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _DEEPEST = 12
 # What a function does, and what it returns, with who reads that.
@@ -82,7 +81,7 @@ def _entered(
     if has_splat(call):
         raise Unread(span, "what stars unpack into the arguments is not read")
     first: list[m.Statement] = []
-    for parameter, node, given in arguments(own, call, span):
+    for parameter, node, given in arguments(own, call):
         first += _bound(reader, inner, parameter, node, given)
     return first, inner
 

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.python.body_scope import Frame
-from rebsync.reverse.python.py_tree import field, text_of
-
-if TYPE_CHECKING:
-    pass
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 
 @dataclass(frozen=True, eq=False, slots=True)

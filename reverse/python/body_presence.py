@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary, is_calm
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import binary, is_calm
 from rebsync.reverse.python import body_texts
+from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_scope import STRING, TRUTH, Key, Message, Value, Var
 from rebsync.reverse.python.body_timers import is_timer
-from rebsync.reverse.python.py_tree import text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
+from rebsync.reverse.syntax.py_tree import text_of
 
 
 def presence_key(key: Key) -> Key:

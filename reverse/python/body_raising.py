@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 from tree_sitter import Node
 
 from rebsync.reverse.analysis.unset_names import LACKS, UNSET
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import named, nodes_in
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import named
 from rebsync.source import Span
 
 if TYPE_CHECKING:

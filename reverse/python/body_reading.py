@@ -15,6 +15,7 @@ from rebsync.reverse.analysis.needs import Need
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import Fact
+from rebsync.reverse.models.texts import MEMBER, is_text, text_literal
 from rebsync.reverse.nodes.node_names import model_word
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_values import Instance
@@ -41,13 +42,13 @@ from rebsync.reverse.python.body_scope import (
 )
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.node_effects import NodeEffects
-from rebsync.reverse.python.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
 from rebsync.reverse.python.py_lookup import attribute, bound
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import EnumMember, External, Function, Made, Module, Ways
 from rebsync.reverse.python.py_worth import Instance as Object
-from rebsync.reverse.texts import MEMBER, is_text, text_literal
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import CLASS, FUNCTION, MODULE, PyCode, Scope
+from rebsync.reverse.syntax.py_tree import SCOPES, field, text_of
 from rebsync.source import Source, Span
 
 
@@ -122,7 +123,7 @@ class Reading:
             if text in around.names and text not in [p.name for p in around.parameters]:
                 return self._variable(("local", around.node.id, text), text)
             around = around.parent
-        return self._of_module(text, node, scope)
+        return self._of_module(text, scope)
 
     def _local(self, text: str, scope: Scope, frame: Frame) -> Meaning:
         if text in frame.kept:
@@ -132,7 +133,7 @@ class Reading:
             frame.names[text] = self.fresh(text, key)
         return self._typed(key, frame.names[text], False)
 
-    def _of_module(self, text: str, node: Node, scope: Scope) -> Meaning:
+    def _of_module(self, text: str, scope: Scope) -> Meaning:
         module = scope.module
         bindings = module.names.get(text, [])
         if not bindings or any(b.how in ("import", "scope") for b in bindings):
@@ -336,15 +337,10 @@ def nonlocals(scope: Scope) -> set[str]:
     """The names that a function declares to be of the one around it."""
     if not has_nonlocals(scope):
         return set()
-    found: set[str] = set()
-    waiting = list(scope.node.named_children)
-    while waiting:
-        node = waiting.pop()
-        if node.type == "nonlocal_statement":
-            found |= {text_of(c) for c in node.named_children}
-        elif node.type not in ("function_definition", "lambda", "class_definition"):
-            waiting += node.named_children  # those inside say it of names of this one
-    return found
+    # Functions inside say it of names of this one.
+    inside = (n for c in scope.node.named_children for n in nodes_in(c, *SCOPES))
+    said = (n for n in inside if n.type == "nonlocal_statement")
+    return {text_of(name) for each in said for name in each.named_children}
 
 
 def has_nonlocals(scope: Scope) -> bool:

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync.reverse.python.body_effects import is_harmless, may_be_of_message
 from rebsync.reverse.python.body_scope import Nobody
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_targets import check_target
 from rebsync.reverse.python.body_variables import forget
-from rebsync.reverse.python.py_index import last_name
-from rebsync.reverse.python.py_tree import field, named
 from rebsync.reverse.python.py_worth import Bound, External, Made
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
+from rebsync.reverse.syntax.py_index import last_name
+from rebsync.reverse.syntax.py_tree import field, named
 
 # Calls whose results have an end, and do not wait for what comes.
 _FINITE = frozenset(

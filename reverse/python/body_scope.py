@@ -16,10 +16,10 @@ from rebsync.reverse.bodies.scope import Target
 from rebsync.reverse.build.message_types import Fields
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries.routines import Library
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.nodes.node_units import Unit
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import Py
-from rebsync.reverse.texts import TEXT
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
 from rebsync.static.types import BOOLEAN, DOUBLE, INT
 

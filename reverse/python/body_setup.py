@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import chain
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -17,15 +16,13 @@ from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import body_calls, body_loops, body_methods, body_switches, body_timers
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_expressions import short
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_units import wakes
-from rebsync.reverse.python.py_index import CLASS, arguments_of, last_name
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class
+from rebsync.reverse.syntax.py_index import CLASS, arguments_of, last_name
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _NAMES = frozenset({"identifier", "attribute"})
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 
 
 def asked(reader: BodyStatementReader, call: Node) -> Iterator[m.Statement] | None:

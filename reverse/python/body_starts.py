@@ -8,6 +8,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.literals import exact_literal_of
+from rebsync.reverse.models.texts import no_text
 from rebsync.reverse.python.body_entries import entries
 from rebsync.reverse.python.body_methods import kept_names
 from rebsync.reverse.python.body_node_loops import EndlessLoop
@@ -26,12 +27,12 @@ from rebsync.reverse.python.body_scope import (
 )
 from rebsync.reverse.python.body_statements import PyStatements
 from rebsync.reverse.python.body_units import scope_around
-from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import MODULE, Scope
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.py_worth import Class
-from rebsync.reverse.texts import no_text
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import MODULE, Scope
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 
 def constructor(reading: Reading, loops: list[EndlessLoop]) -> tuple[m.Statement, ...]:

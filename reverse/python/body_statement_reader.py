@@ -16,7 +16,7 @@ from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import (
     Frame,
 )
-from rebsync.reverse.python.py_tree import named
+from rebsync.reverse.syntax.py_tree import named
 
 
 @dataclass(eq=False, slots=True)

@@ -38,7 +38,7 @@ from rebsync.reverse.python.body_scope import (
     Pending,
 )
 from rebsync.reverse.python.body_statement_reader import BodyStatementReader
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.statements import UNREADABLE
 
 _NOTHING = frozenset(

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import chain
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import is_calm
+from rebsync.reverse.models.texts import no_text
 from rebsync.reverse.python import (
     body_copies,
     body_messages,
@@ -29,14 +29,10 @@ from rebsync.reverse.python.body_scope import (
     Value,
     Var,
 )
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_targets import check_target
 from rebsync.reverse.python.body_variables import change, forget, give, outside
-from rebsync.reverse.python.py_tree import field, named, text_of
-from rebsync.reverse.texts import no_text
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
-
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _CONTAINERS = frozenset({"dictionary", "list", "tuple"})
 _PLACES = frozenset({"identifier", "attribute"})

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -12,13 +11,11 @@ from rebsync.reverse.bodies.cpp_timers import again, changed
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import TimerFact
 from rebsync.reverse.python.body_scope import OTHER, TRUTH, WHOLE
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_timers import MADE, alone, key_of, keys_of, switch_for, timer_of
-from rebsync.reverse.python.py_index import arguments_of
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.syntax.ancestors import climb
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
+from rebsync.reverse.syntax.py_index import arguments_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 # Methods that stop a timer, or let it begin anew.
 _SWITCHING = frozenset({"cancel", "reset", "shutdown"})

@@ -40,10 +40,10 @@ from rebsync.reverse.python.body_units import (
 from rebsync.reverse.python.escapes import list_escapes
 from rebsync.reverse.python.handle_stores import list_handle_stores
 from rebsync.reverse.python.node_effects import NodeEffects
-from rebsync.reverse.python.py_index import Scope
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.python.spinning import list_unserved
+from rebsync.reverse.syntax.py_index import Scope
 
 _MOST_ROUNDS = 60
 # Rebecs of a unit that are read alike, by their number.
@@ -101,7 +101,7 @@ class PySystem:
         times = Times.of(self.unit_of_time, joined.wiring.instances)
         round_ = _ReadingRound(self, values, units, joined, served, times)
         read = round_.settled()
-        wanted = [u for u in units if self._is_wanted(u)]
+        wanted = [u for u in units if self.only in (None, u.module.py.source.path)]
         found: list[m.ReactiveClass] = []
         for unit in wanted:
             found += self._classes(unit, round_, read)
@@ -139,9 +139,6 @@ class PySystem:
         found = frozenset(f.site.place.source.path for f in others)
         sources = (module.py.source for module in self.values.code.modules.values())
         return found.union(s.path for s in sources if is_runtime_file(s))
-
-    def _is_wanted(self, unit: PyUnit) -> bool:
-        return self.only in (None, unit.module.py.source.path)
 
 
 def _of(unit: PyUnit, read: Mapping[_Kind, PyClass]) -> list[PyClass]:

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.building import chosen, is_calm
+from rebsync.reverse.models.building import chosen, is_calm
+from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_reading import Reading
-from rebsync.reverse.python.body_scope import STRING, TRUTH, WHOLE, Frame, Value, unknown
-from rebsync.reverse.python.py_index import arguments_of
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.python.body_scope import STRING, TRUTH, WHOLE, Value, unknown
 from rebsync.reverse.python.py_worth import Items, Table
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import arguments_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _LISTS = frozenset({"tuple", "list", "set"})
 # What may store an element, or take it out, if that is a part of it.
@@ -35,7 +33,7 @@ def elements(reader: BodyExpressionReader, node: Node) -> Sequence[Value] | None
     if (pairs := _pairs(reader, node)) is not None:
         return [key for key, _ in pairs]
     match reader.reading.values.ways(node, reader.frame.scope):
-        case (Items(each),) if _is_constant(reader.reading, node, reader.frame):
+        case (Items(each),) if _is_constant(reader.reading, node):
             values = [reader.reading.constant(ways) for ways in each]
             return None if None in values else [v for v in values if v is not None]
         case _:
@@ -98,7 +96,7 @@ def _pairs(reader: BodyExpressionReader, node: Node) -> list[tuple[Value, Value]
             pass
         case _:
             return None
-    if not _is_constant(reader.reading, node, reader.frame):
+    if not _is_constant(reader.reading, node):
         return None
     found: list[tuple[Value, Value]] = []
     for keys, values in pairs:
@@ -112,7 +110,7 @@ def _pairs(reader: BodyExpressionReader, node: Node) -> list[tuple[Value, Value]
     return found if is_plain else None
 
 
-def _is_constant(reading: Reading, node: Node, frame: Frame) -> bool:
+def _is_constant(reading: Reading, node: Node) -> bool:
     """Whether a table is a literal, or has a name that is bound once and only looked into."""
     if node.type in ("dictionary", *_LISTS):
         return True

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import Frame, Var
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_variables import outside
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_worth import Instance
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_reading import Reading
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _SEVERAL = frozenset(
     {"pattern_list", "tuple_pattern", "list_pattern", "list_splat_pattern", "expression_list"}

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare, binary, is_calm, negated
+from rebsync.reverse.models.building import bare, binary, is_calm, negated
+from rebsync.reverse.models.texts import MEMBER, is_constant, is_plain, no_text, same, text_literal
+from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_scope import STRING, Value, Var, unknown
-from rebsync.reverse.python.py_tree import field, is_literal_text, named, text_of
-from rebsync.reverse.texts import MEMBER, is_constant, is_plain, no_text, same, text_literal
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
+from rebsync.reverse.syntax.py_tree import field, is_literal_text, named, text_of
 
 
 def compared(

@@ -14,8 +14,8 @@ from rebsync.reverse.graph import Fact, TimerFact
 from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_scope import TRUTH, Frame, Key
 from rebsync.reverse.python.py_lookup import bound
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Made, NoneValue, Ways
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 MADE = "made"
 

@@ -7,22 +7,19 @@ kept in locals of the model.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence, Set
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python import body_messages
 from rebsync.reverse.python.body_effects import may_be_of_message
 from rebsync.reverse.python.body_scope import OTHER, Message, Nobody, Value, Var
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.body_variables import forget, give, outside
-from rebsync.reverse.python.py_tree import text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
+from rebsync.reverse.syntax.py_tree import text_of
 
 LITERALS = frozenset({"integer", "float", "true", "false", "none"})
 _EMPTY = frozenset({"dictionary", "list", "tuple", "set"})

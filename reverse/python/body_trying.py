@@ -18,7 +18,7 @@ from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python import body_raising
 from rebsync.reverse.python.body_effects import is_log
 from rebsync.reverse.python.body_rounds import leaves_only_unknowns
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
     from rebsync.reverse.python.body_statement_reader import BodyStatementReader

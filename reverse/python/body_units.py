@@ -25,10 +25,10 @@ from rebsync.reverse.nodes.node_servers import Server, beside_topic, topic_of
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import CLASS, LAMBDA, PyCode, Scope
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.syntax.py_index import CLASS, LAMBDA, PyCode, Scope
 
 _GIVES = frozenset({"value", "augmented", "loop", "opaque"})
 _PARALLEL = (b"MultiThreadedExecutor", b"CallbackGroup")
@@ -65,7 +65,7 @@ def units_of(
             continue
         family = families[owner]
         together = [f for o in (family or (owner,)) for f in grouped.get(o, [])]
-        found.append(_unit(values, owner, family, together, facts, names))
+        found.append(_unit(owner, family, together, facts, names))
     return found
 
 
@@ -76,7 +76,6 @@ def _family(values: PyValues, owner: Scope) -> tuple[Scope, ...]:
 
 
 def _unit(
-    values: PyValues,
     owner: Scope,
     family: tuple[Scope, ...],
     together: Sequence[Fact],

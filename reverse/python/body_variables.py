@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.body_effects import is_harmless
 from rebsync.reverse.python.body_expressions import short
 from rebsync.reverse.python.body_reading import field_key
@@ -22,10 +21,8 @@ from rebsync.reverse.python.body_scope import (
     Value,
     Var,
 )
-from rebsync.reverse.python.py_tree import named
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.body_statement_reader import BodyStatementReader
+from rebsync.reverse.python.body_statement_reader import BodyStatementReader
+from rebsync.reverse.syntax.py_tree import named
 
 
 def change(reader: BodyStatementReader, message: Message, path: str) -> None:

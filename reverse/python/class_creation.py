@@ -13,9 +13,9 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.python import clients
 from rebsync.reverse.python.model_plumbing import DECORATORS
 from rebsync.reverse.python.py_evaluator import PyEvaluator
-from rebsync.reverse.python.py_index import FUNCTION, Scope
-from rebsync.reverse.python.py_tree import decorating, field, named, text_of
 from rebsync.reverse.python.py_worth import Class, External, Ways
+from rebsync.reverse.syntax.py_index import FUNCTION, Scope
+from rebsync.reverse.syntax.py_tree import decorating, field, named, text_of
 
 Departure = tuple[Node, str]
 # Where decorators come from that leave a function the one that stands there.

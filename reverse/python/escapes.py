@@ -21,8 +21,6 @@ from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.body_units import scope_around
 from rebsync.reverse.python.node_effects import NodeEffects
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import CLASS, FUNCTION, Scope, last_name
-from rebsync.reverse.python.py_tree import decorating, field, named, nodes_in
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import (
     Bound,
@@ -36,6 +34,9 @@ from rebsync.reverse.python.py_worth import (
     Table,
     Value,
 )
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import CLASS, FUNCTION, Scope, last_name
+from rebsync.reverse.syntax.py_tree import decorating, field, named
 
 _HANDED = "this hands over what acts on the node, to code that is not read"
 _KEPT = "what acts on the node is kept here by an object of another library"

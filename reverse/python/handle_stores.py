@@ -16,11 +16,12 @@ from rebsync.reverse.graph import NodeFact, Unresolved
 from rebsync.reverse.python.body_scope import PyUnit
 from rebsync.reverse.python.body_units import scope_around
 from rebsync.reverse.python.py_asks import is_node
-from rebsync.reverse.python.py_bindings import BINDING, bindings_of
-from rebsync.reverse.python.py_index import Scope, arguments_of
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import Bound, Instance, Made, Value, Ways
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_bindings import BINDING, bindings_of
+from rebsync.reverse.syntax.py_index import Scope, arguments_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _BY_NAME = ("setattr", "delattr", "__setattr__", "__delattr__", "vars")
 # Attributes of handles in rclpy and rospy: of an object of which nothing is known they count.

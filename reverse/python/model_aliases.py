@@ -7,29 +7,27 @@ one. What follows a local that is either of two is read twice: in both branches 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.runtime_files import is_runtime_file
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
 
 _SET_UP = frozenset({"__init__", "_wire"})
-_INNER = frozenset({"lambda", "class_definition", "function_definition"})
 _STORES = frozenset({"assignment", "augmented_assignment", "named_expression"})
-_UNSAFE = _INNER | {"augmented_assignment", "named_expression", "delete_statement"}
+_UNSAFE = SCOPES | {"augmented_assignment", "named_expression", "delete_statement"}
 _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "attribute"})
 
 
 def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m.Statement] | None:
     """The statements behind one that makes a local stand for an array; None if it does not."""
     name, arrays, condition = _declared(node)
-    if not arrays or name in reader.expressions.locals or not _is_alias(reader, node, name):
+    if not arrays or name in reader.expressions.locals or not _is_alias(node, name):
         return None
     if not all(_is_kept(reader, array) for array in arrays):
         return None
@@ -101,10 +99,10 @@ def _is_target(node: Node) -> bool:
     )
 
 
-def _is_alias(reader: ModelStatementReader, node: Node, name: str) -> bool:
+def _is_alias(node: Node, name: str) -> bool:
     """Whether a local is bound once, and else only its elements are looked at or stored."""
     function = node.parent
-    while function is not None and function.type not in _INNER:
+    while function is not None and function.type not in SCOPES:
         function = function.parent
     if function is None:
         return False

@@ -36,8 +36,8 @@ from rebsync.reverse.python.model_types import passed_on, type_of
 from rebsync.reverse.python.model_widths import WidthContext, hint_of, wanted_of
 from rebsync.reverse.python.named_constants import CodeConstants, NamedConstants
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import PyCode, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.source import Source, Span
 
 _HINT = "say its type, as `: int` or `-> int`"

@@ -6,19 +6,16 @@ What goes through an array of the model is said element by element; the array is
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import building
-from rebsync.reverse.bodies.building import binary, chosen, negated, selected
+from rebsync.reverse.models import building
+from rebsync.reverse.models.building import binary, chosen, negated, selected
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_idioms import grouped, is_plain, truth, type_of
 from rebsync.reverse.python.model_types import call_parts
-from rebsync.reverse.python.py_tree import field, named, text_of, whole_number_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
 
 _LARGEST = 24  # parts of what is repeated where values are compared
 _MOST = 16  # elements that are said one by one

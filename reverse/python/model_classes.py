@@ -34,10 +34,10 @@ from rebsync.reverse.python.model_types import (
 )
 from rebsync.reverse.python.named_constants import CodeConstants
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import PyCode, Scope, classes_in
-from rebsync.reverse.python.py_tree import named, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.py_index import PyCode, Scope, classes_in
+from rebsync.reverse.syntax.py_tree import named, text_of
 
 # What the set-up of a server shows, whatever a marker says.
 _SHOWN = frozenset({"priority", "globalPriority"}) | OFFERS

@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from tree_sitter import Node
 
 from rebsync.reverse.python.model_types import call_parts
-from rebsync.reverse.python.py_tree import field, nodes_in, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _CONSTANT = frozenset({"integer", "float", "true", "false", "none"})
 _DEFAULTS = frozenset({"default_parameter", "typed_default_parameter"})

@@ -5,22 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from itertools import chain, count
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python.model_failing import may_fail
+from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.syntax.ancestors import ancestors, climb
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
 
 _LOOPS = frozenset({"for_statement", "while_statement"})
-_FUNCTIONS = frozenset({"function_definition", "lambda", "class_definition"})
 _BINDING = frozenset({"assignment", "augmented_assignment", "named_expression"})
 
 
@@ -107,7 +104,7 @@ def leaves(node: Node, jump: str = "break_statement") -> bool:
     return any(
         child.type == jump
         or (child.type in _LOOPS and _leaves_behind(child, jump))
-        or (child.type not in _LOOPS | _FUNCTIONS and leaves(child, jump))
+        or (child.type not in _LOOPS | SCOPES and leaves(child, jump))
         for child in named(node)
     )
 

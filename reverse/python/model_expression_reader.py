@@ -15,7 +15,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.model_cuts import Cuts
 from rebsync.reverse.python.model_kinds import kind_of
 from rebsync.reverse.python.model_names import Closure, ModelNames
-from rebsync.reverse.python.py_tree import Py
+from rebsync.reverse.syntax.py_tree import Py
 
 
 @dataclass(eq=False, slots=True)

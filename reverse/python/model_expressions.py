@@ -10,7 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.names import original
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import binary, located
+from rebsync.reverse.models.building import binary, located
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_closures as closures
 from rebsync.reverse.python import model_formats as formats
@@ -26,7 +26,7 @@ from rebsync.reverse.python.model_types import (
     only_breaks_lines,
     string_value,
 )
-from rebsync.reverse.python.py_tree import field, named, number_of, text_of, whole_number_of
+from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of, whole_number_of
 from rebsync.terminal import with_escapes
 
 _CASTS = {

@@ -15,7 +15,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_logs import own_method
-from rebsync.reverse.python.py_tree import field, named, number_of, text_of
+from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of
 
 _DIVIDING = frozenset({"/", "//", "%"})
 _TEXTS = frozenset({"string", "concatenated_string"})

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_names import Filling
+from rebsync.reverse.python.model_roles import PyRoles, PySends
 from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_tree import field, named, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
-    from rebsync.reverse.python.model_roles import PyRoles, PySends
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _PUBLISH = "self._mailbox.publish"
 

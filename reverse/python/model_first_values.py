@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_default
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.python.py_index import Scope
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+from rebsync.reverse.models.building import is_default
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+from rebsync.reverse.syntax.py_index import Scope
 
 _SHARED = "descendants start with this value too, and the model runs one constructor of a rebec"
 _HINT = "store it in the constructor of each class"

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary
+from rebsync.reverse.models.building import binary
 from rebsync.reverse.python import model_idioms as idioms
-from rebsync.reverse.python.py_tree import text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+from rebsync.reverse.syntax.py_tree import text_of
 
 FORMATS = {
     "int8": "byte",

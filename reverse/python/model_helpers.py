@@ -7,25 +7,28 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_idioms import in_order
 from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_names import Helper
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_imports import module_named, module_of
-from rebsync.reverse.python.py_index import FUNCTION, PyCode, PyParameter, Scope
-from rebsync.reverse.python.py_tree import calls_in, field, named, text_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.py_index import (
+    FUNCTION,
+    PyCode,
+    PyParameter,
+    Scope,
+    module_named,
+    module_of,
+)
+from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 
 # What stores in an object by a name that is a value, or replaces a module.
 _BY_NAME = re.compile(r"\b(?:setattr|__dict__|vars|globals|reload|sys\.modules)\b")
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
 STATIC, OF_CLASS = "staticmethod", "classmethod"
 

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.writes import array_of, is_own, own
-from rebsync.reverse.bodies.building import binary, is_calm, located
+from rebsync.reverse.models.building import binary, is_calm, located
 from rebsync.reverse.python.model_cuts import other_division
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_kinds import is_floating
-from rebsync.reverse.python.py_tree import calls_in, field, is_asked, named, text_of
 from rebsync.reverse.syntax.ancestors import climb
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+from rebsync.reverse.syntax.py_tree import calls_in, field, is_asked, named, text_of
 
 _COMPARED = frozenset({"<", "<=", ">", ">=", "==", "!="})
 _PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})

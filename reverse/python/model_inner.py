@@ -7,28 +7,24 @@ locals, or stand for the arguments where it only gives a value.
 from __future__ import annotations
 
 from itertools import count
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_closures import arguments_of
 from rebsync.reverse.python.model_names import Closure
+from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts, type_of
-from rebsync.reverse.python.py_tree import calls_in, field, named, nodes_in, text_of
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import SCOPES, calls_in, field, named, text_of
 from rebsync.static.types import INT
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
 _LOOPS = frozenset({"for_statement", "while_statement"})
-_FUNCTIONS = frozenset({"function_definition", "lambda", "class_definition"})
-_STORES = frozenset({"assignment", "augmented_assignment", "named_expression"})
 
 
 def declare(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
@@ -210,6 +206,6 @@ def leaves(node: Node, in_loop: bool = False) -> bool:
     for child in named(node):
         if child.type in _LEAVING and not (in_loop and child.type != "return_statement"):
             return True
-        if child.type not in _FUNCTIONS and leaves(child, in_loop or child.type in _LOOPS):
+        if child.type not in SCOPES and leaves(child, in_loop or child.type in _LOOPS):
             return True
     return False

@@ -11,7 +11,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.writes import is_own, own, variable_of
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.source import NOWHERE, Span
 
 _INT, _DOUBLE, _BOOLEAN = m.Type("int"), m.Type("double"), m.Type("boolean")

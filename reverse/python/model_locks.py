@@ -10,9 +10,9 @@ from collections.abc import Collection, Mapping
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _OBJECTS = frozenset({"self", "super()"})
 

@@ -12,9 +12,10 @@ from rebsync.records import dataclass
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.python.log_words import LEVELS, LOOKS, ON_CLOCKS
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import CLASS, PyCode, Scope, has_splat
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, has_splat
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _DESCRIBES = frozenset({"__repr__", "__str__"})
 _STORING = frozenset({"named_expression", "await", "yield", "lambda"})

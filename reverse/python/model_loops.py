@@ -5,21 +5,19 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from itertools import chain, count
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary, selected
+from rebsync.reverse.models.building import binary, selected
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_endings as endings
 from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts, markers_above
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of, whole_number_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
-    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
 
 _STEP = "step"
 

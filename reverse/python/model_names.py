@@ -13,7 +13,7 @@ from rebsync.reverse.python.model_posts import Post
 from rebsync.reverse.python.model_roles import PySends
 from rebsync.reverse.python.model_silent import NOTHING, Silent
 from rebsync.reverse.python.named_constants import NamedConstants
-from rebsync.reverse.python.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_index import PyCode, Scope
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -17,14 +16,12 @@ from rebsync.reverse.bodies.overloads import HINT, WHY, Served, plain, telling
 from rebsync.reverse.bodies.scope import Called, Variable
 from rebsync.reverse.bodies.scope import Scope as Meanings
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_roles import PyRoles, PySends
 from rebsync.reverse.python.model_types import class_name, type_of
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import field, named
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import field, named
 from rebsync.static.types import is_floating, is_integer
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
 
 def families(lines: Iterable[tuple[Scope, Iterable[PyRoles]]]) -> dict[str, dict[str, str]]:

@@ -18,7 +18,7 @@ from rebsync.reverse.python.model_types import (
     string_value,
     without_parentheses,
 )
-from rebsync.reverse.python.py_tree import field, named, number_of, text_of
+from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of
 
 # Their names say whose a parameter is: `~` in front in ROS 1, `env.` in ROS 2.
 _READS = frozenset({PARAMETER_OF_ROS_1, "declared", "read_array", "declare_array"})

@@ -36,8 +36,9 @@ from rebsync.reverse.python.model_types import (
 )
 from rebsync.reverse.python.named_constants import CodeConstants
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import Py, field, named, nodes_in, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import Py, field, named, text_of
 from rebsync.static.types import PRIMITIVES
 
 _MADE = frozenset({"Mailbox", "Drive", "Sensor"})

@@ -10,9 +10,9 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.model_roles import PyRoles, plain_name, servers_of
 from rebsync.reverse.python.model_types import call_parts, passed_on, string_value
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.static.constants import constant
 
 POST = "self._mailbox.post"

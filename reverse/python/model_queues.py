@@ -7,8 +7,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.named_constants import CodeConstants, NamedConstants
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 PASSED = "queue_length"  # what a class hands on that others extend
 _NAMES = frozenset({PASSED, "capacity"})

@@ -6,19 +6,15 @@ A record may be changed, so that only its fields may be read, and it may be call
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.python.py_index import has_splat
-from rebsync.reverse.python.py_tree import field, is_label, named, nodes_in, text_of
+from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
-
-_SCOPES = frozenset({"function_definition", "lambda", "class_definition"})
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import has_splat
+from rebsync.reverse.syntax.py_tree import SCOPES, field, is_label, named, text_of
 
 
 def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m.Statement] | None:
@@ -54,7 +50,7 @@ def _given(call: Node, fields: Sequence[str]) -> list[tuple[str, Node]] | None:
 
 def _is_only_read(assignment: Node, name: str, fields: Sequence[str]) -> bool:
     """Whether a local is bound once, and else only its fields are read, in the function itself."""
-    function = climb(assignment, lambda n: n.type in _SCOPES)
+    function = climb(assignment, lambda n: n.type in SCOPES)
     if function is None:
         return False
     uses = [n for n in nodes_in(function) if n.type == "identifier" and text_of(n) == name]
@@ -75,7 +71,7 @@ def _is_read(use: Node, function: Node, fields: Sequence[str]) -> bool:
             *outer.children_by_field_name("left"),
             *outer.children_by_field_name("function"),
         )
-    return not is_target and climb(use, lambda n: n.type in _SCOPES) == function
+    return not is_target and climb(use, lambda n: n.type in SCOPES) == function
 
 
 _STORING = frozenset({"assignment", "augmented_assignment", "for_statement", "call"})

@@ -39,8 +39,8 @@ from rebsync.reverse.python.model_types import (
     without_parentheses,
 )
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import FUNCTION, PyCode, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _RUNTIME = {"_mailbox", "_drive", "_state_pub"}
 # What offers a server, and how many arguments that takes.

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync import model as m
@@ -12,13 +10,11 @@ from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_builtins import array_elements
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_overloads import told
+from rebsync.reverse.python.model_roles import PySends
 from rebsync.reverse.python.model_types import string_value
-from rebsync.reverse.python.py_tree import named, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
-    from rebsync.reverse.python.model_roles import PySends
+from rebsync.reverse.syntax.py_tree import named, text_of
 
 _CLOCK = names_in_model(Language.PYTHON)
 

@@ -15,9 +15,10 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_OF_NODE, PUBLISHER_OF_ROS_1
 from rebsync.reverse.python.model_types import call_parts, string_value
-from rebsync.reverse.python.py_index import PyCode, Scope
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of, whole_number_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
 
 _INTEGERS = frozenset({"byte", "int", "short"})
 # By the names of messages, the types of variables that their values can be.

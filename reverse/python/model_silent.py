@@ -31,10 +31,11 @@ from rebsync.reverse.python.module_variables import (
     tables_of,
 )
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import PyCode, Scope
-from rebsync.reverse.python.py_tree import field, is_label, named, nodes_in, text_of
 from rebsync.reverse.python.record_classes import records_in
 from rebsync.reverse.syntax.ancestors import ancestors, climb
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
 
 _SET_UP = ("__init__", "_wire")
 _VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
@@ -42,7 +43,6 @@ _LOCKS = {"threading.Lock": False, "threading.RLock": True}
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
 _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
-_GROWING = frozenset({"append", "clear"})
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -116,7 +116,7 @@ class Silent:
         holder, method = field(function, "object"), text_of(field(function, "attribute"))
         if method == "publish":
             return text_of(holder).removeprefix("self.") in self.publishers
-        return method in _GROWING and self._is_place(holder)
+        return method in ("append", "clear") and self._is_place(holder)
 
     def _is_place(self, node: Node) -> bool:
         """Whether something is a silent member or message, or a part of one."""

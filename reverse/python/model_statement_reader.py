@@ -15,7 +15,7 @@ from rebsync.reverse.analysis.evaluation_order import note_store
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.python.model_expressions import Expressions
 from rebsync.reverse.python.model_names import Closure
-from rebsync.reverse.python.py_tree import named
+from rebsync.reverse.syntax.py_tree import named
 
 _AGAIN = re.compile(r"(.+?)__\d+\Z")
 

@@ -11,8 +11,8 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import bare, cell
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import bare, cell
 from rebsync.reverse.python import model_aliases as aliases
 from rebsync.reverse.python import model_endings as endings
 from rebsync.reverse.python import model_idioms as idioms
@@ -34,7 +34,7 @@ from rebsync.reverse.python.model_types import (
     type_of,
     without_parentheses,
 )
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.statements import UNREADABLE
 
 _HOISTED = "local "

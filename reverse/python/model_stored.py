@@ -4,26 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import count
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_inner import leaves
+from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts, string_value
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
 from rebsync.static.types import INT
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 
 _PLACES = ("identifier", "attribute")
 
-_FUNCTIONS = frozenset({"function_definition", "lambda", "class_definition"})
 _WHOLE = "say what is stored here element by element"
 
 
@@ -182,7 +179,7 @@ def declared_before(
 def _walruses(node: Node) -> Iterator[Node]:
     """The `:=` that a statement evaluates itself, and not one within it."""
     for child in named(node):
-        if child.type in ("block", *_FUNCTIONS) or child.type == "comment":
+        if child.type in ("block", *SCOPES) or child.type == "comment":
             continue
         if child.type == "named_expression" and not text_of(field(child, "name")).endswith("_"):
             yield child

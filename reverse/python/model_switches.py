@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.python import model_endings as endings
+from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import markers_above, without_parentheses
-from rebsync.reverse.python.py_tree import field, named, text_of, whole_number_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
 from rebsync.static.types import is_integer
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 
 _SWITCH = "switch"
 _JUMPS = (m.Break, m.Continue, m.Return)

@@ -17,8 +17,8 @@ from rebsync.reverse.libraries.generated_calls import DURATIONS, TIMER_OF_NODE, 
 from rebsync.reverse.python.model_logs import Looks, only_logs
 from rebsync.reverse.python.model_types import call_parts, without_parentheses
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.py_index import PyCode, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 # What makes timers, and how many arguments these give their callbacks.
 _MAKES = {TIMER_OF_ROS_1: 1, TIMER_OF_NODE: 0}

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import binary, is_calm
+from rebsync.reverse.models.building import binary, is_calm
 from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_kinds import is_floating
 from rebsync.reverse.python.model_types import without_parentheses
-from rebsync.reverse.python.py_tree import field, named, text_of, whole_number_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
 
 _SEQUENCES = frozenset({"tuple", "list"})
 _CUTS = frozenset({"int8", "int16", "int32"})

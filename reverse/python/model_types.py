@@ -12,8 +12,9 @@ from rebsync import model as m
 from rebsync.names import uncarry
 from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.bodies.written import annotation
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import Py, field, named, nodes_in, parse, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import Py, field, named, parse, text_of
 from rebsync.source import Source
 
 _PLAIN = {

@@ -8,18 +8,15 @@ from __future__ import annotations
 import ast
 import re
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.python.import_effects import parsed
 from rebsync.reverse.python.log_words import HARMLESS
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.user_effects import effects_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.source import Source
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 
 _BLOCK = re.compile(r"^[ \t]*#\s*rebsync:\s*(user\s+\S+|end\b)", re.MULTILINE)
 _LEAVING = frozenset(

@@ -18,7 +18,7 @@ from rebsync.intervals import INT32, INTEGERS, Interval
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.needs import Mark, Need
 from rebsync.reverse.analysis.writes import array_of, is_own, own
-from rebsync.reverse.bodies.building import bare
+from rebsync.reverse.models.building import bare
 from rebsync.reverse.python.model_cuts import Cut, other_division
 from rebsync.reverse.python.model_kinds import real_type
 from rebsync.source import NOWHERE, Span

@@ -8,9 +8,10 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.python.py_bindings import Binding
-from rebsync.reverse.python.py_index import PyCode, Scope
-from rebsync.reverse.python.py_tree import field, is_label, named, nodes_in, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
 
 _LITERALS = frozenset({"integer", "float", "string", "none", "true", "false"})
 _TABLE = _LITERALS | {

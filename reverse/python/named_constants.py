@@ -16,13 +16,21 @@ from rebsync import model as m
 from rebsync.literals import literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.python.model_kinds import float_literal
-from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_imports import module_named, module_of
-from rebsync.reverse.python.py_index import CLASS, PyCode, Scope, arguments_of, has_splat
-from rebsync.reverse.python.py_tree import field, named, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import Class, External, Items, Module, Value
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import (
+    CLASS,
+    PyCode,
+    Scope,
+    arguments_of,
+    has_splat,
+    module_named,
+    module_of,
+)
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _INTEGERS = "enum.IntEnum"
 _PLAIN_BASES = frozenset({"builtins.object", "abc.ABC", _INTEGERS})

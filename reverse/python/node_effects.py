@@ -16,8 +16,6 @@ from rebsync.reverse.graph import Unresolved
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.py_evaluator import PyEvaluator, lineage
-from rebsync.reverse.python.py_index import CLASS, Scope, last_name
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import (
     Bound,
     Class,
@@ -29,6 +27,8 @@ from rebsync.reverse.python.py_worth import (
     Value,
     Ways,
 )
+from rebsync.reverse.syntax.py_index import CLASS, Scope, last_name
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _HANDLES = frozenset({Kind.PUBLISHER, Kind.TIMER})
 _STORES = frozenset({"assignment", "augmented_assignment"})

@@ -18,9 +18,9 @@ from rebsync.reverse.python.body_reading import Reading
 from rebsync.reverse.python.body_units import scope_around
 from rebsync.reverse.python.class_creation import PLAIN_BASES, class_departures
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import CLASS, FUNCTION, Scope
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import Class, External, Instance
+from rebsync.reverse.syntax.py_index import CLASS, FUNCTION, Scope
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _HOOKS = frozenset(
     {"__setattr__", "__getattr__", "__getattribute__", "__delattr__", "__new__", "__del__"}

@@ -10,8 +10,6 @@ from rebsync.records import dataclass
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind, Routine
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import Scope, arguments_of, last_name
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import (
     Bound,
@@ -22,6 +20,8 @@ from rebsync.reverse.python.py_worth import (
     Made,
     Value,
 )
+from rebsync.reverse.syntax.py_index import Scope, arguments_of, last_name
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -59,7 +59,7 @@ def roles(ask: Routine, call: Node) -> dict[str, Node]:
 def _ask(values: PyValues, name: str, call: Node, scope: Scope) -> Routine | None:
     if name == "__init__":
         return _constructor(values, call, scope)
-    if name not in libraries.asking_names() and not _may_be_renamed(values, name, scope):
+    if name not in libraries.asking_names() and not _may_be_renamed(name, scope):
         return None
     for value in values.ways(field(call, "function"), scope):
         ask = _of(values, value, call)
@@ -68,7 +68,7 @@ def _ask(values: PyValues, name: str, call: Node, scope: Scope) -> Routine | Non
     return _by_shape(values, name, call, scope)
 
 
-def _may_be_renamed(values: PyValues, name: str, scope: Scope) -> bool:
+def _may_be_renamed(name: str, scope: Scope) -> bool:
     """Whether a name is bound in its module otherwise than by a definition: `Pub = rospy.X`."""
     bindings = scope.module.names.get(name, ())
     return any(b.how in ("import", "value") for b in bindings)

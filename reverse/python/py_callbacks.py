@@ -9,8 +9,6 @@ from tree_sitter import Node
 from rebsync.reverse.graph import Callback, Callbacks, Place, Unresolved
 from rebsync.reverse.python.py_asks import PyRosCall
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import LAMBDA, Scope, arguments_of, last_name
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import (
     Bound,
@@ -22,6 +20,8 @@ from rebsync.reverse.python.py_worth import (
     NoneValue,
     Value,
 )
+from rebsync.reverse.syntax.py_index import LAMBDA, Scope, arguments_of, last_name
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 # Filters that get others: several, or one.
 _FED = ("TimeSynchronizer", "ApproximateTimeSynchronizer", "Cache")

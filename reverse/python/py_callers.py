@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import LAMBDA, PyParameter, Scope, arguments_of, classes_in
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_evaluator import PyEvaluator, lineage
 from rebsync.reverse.python.py_worth import Class, Function, Instance, Ways, distinct
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.py_evaluator import PyEvaluator
+from rebsync.reverse.syntax.py_index import LAMBDA, PyParameter, Scope, arguments_of, classes_in
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _MANY = 40
 # Of objects with which somebody else makes an object of a class nothing is known.

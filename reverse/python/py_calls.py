@@ -32,10 +32,8 @@ from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.interfaces import interface_of
 from rebsync.reverse.python.py_asks import PyRosCall, asked_in
 from rebsync.reverse.python.py_callbacks import callbacks_of, filtered
-from rebsync.reverse.python.py_index import CLASS, FUNCTION, PyCode, Scope, arguments_of
 from rebsync.reverse.python.py_quality import depth_of, latched_of, policies_of
 from rebsync.reverse.python.py_results import declared_together
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import (
     Duration,
@@ -47,6 +45,8 @@ from rebsync.reverse.python.py_worth import (
     distinct,
     resolved,
 )
+from rebsync.reverse.syntax.py_index import CLASS, FUNCTION, PyCode, Scope, arguments_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _AROUND = frozenset({"parenthesized_expression", "await"})
 _CONTAINERS = frozenset({"dictionary", "pair", "list", "tuple"})

@@ -12,9 +12,6 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import Place, Resolved, Unresolved
-from rebsync.reverse.python.py_bindings import Binding
-from rebsync.reverse.python.py_index import PyCode, Scope
-from rebsync.reverse.python.py_tree import named
 from rebsync.reverse.python.py_worth import (
     MOST,
     Class,
@@ -28,6 +25,9 @@ from rebsync.reverse.python.py_worth import (
     joined,
     resolved,
 )
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_tree import named
 
 _Key = tuple[str, int]
 # What may have a name that others read: of all other objects it is known that they do not.

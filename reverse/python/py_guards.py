@@ -8,18 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Plain, Unresolved
-from rebsync.reverse.python.py_bindings import Binding
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.python.py_evaluator import PyEvaluator
 from rebsync.reverse.python.py_worth import Value, Ways, distinct
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.py_evaluator import PyEvaluator
-    from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.syntax.ancestors import holds
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 
 def together(values: PyEvaluator, found: Sequence[tuple[Binding, Ways]], scope: Scope) -> Ways:
@@ -115,7 +113,7 @@ def _with_handlers(found: Sequence[tuple[Binding, Ways]]) -> list[tuple[Binding,
             continue
         default = given[0]
         body = field(attempt, "body")
-        inside = [b for b, _ in kept if _is_in(b.node, body)]
+        inside = [b for b, _ in kept if holds(body, b.node)]
         changed = [
             (b, tuple(_standing_in(w, default) for w in ways) if b in inside else ways)
             for b, ways in kept
@@ -142,7 +140,3 @@ def _try_of_handler(node: Node) -> Node | None:
     block = _block(node)
     clause = block.parent if block is not None else None
     return clause.parent if clause is not None and clause.type == "except_clause" else None
-
-
-def _is_in(node: Node, outer: Node) -> bool:
-    return outer.start_byte <= node.start_byte and node.end_byte <= outer.end_byte

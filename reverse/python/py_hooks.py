@@ -15,10 +15,10 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Routine
 from rebsync.reverse.python.py_callbacks import callback_name, callbacks_of
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import CLASS, Scope, arguments_of
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import Class, External, Function, Module
+from rebsync.reverse.syntax.py_index import CLASS, Scope, arguments_of
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 # What a node with managed states has that its library calls when its state changes.
 _CHANGES = tuple(

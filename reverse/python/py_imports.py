@@ -2,23 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import PurePosixPath
-from typing import TYPE_CHECKING
-
-from tree_sitter import Node
-
 from rebsync.reverse.build.common_messages import COMMON
-from rebsync.reverse.python.py_bindings import Binding
-from rebsync.reverse.python.py_index import PyCode, Scope
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.python.py_evaluator import PyEvaluator
 from rebsync.reverse.python.py_worth import External, Module, Ways
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
+from rebsync.reverse.syntax.py_tree import field, text_of
 
-if TYPE_CHECKING:
-    from rebsync.reverse.python.py_evaluator import PyEvaluator
 
-
-def imported(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Ways:
+def imported(values: PyEvaluator, binding: Binding, scope: Scope) -> Ways:
     """What an import binds to a name."""
     item = binding.value
     wanted = text_of(field(item, "name") if item.type == "aliased_import" else item)
@@ -52,40 +44,3 @@ def star_imported(code: PyCode, module: Scope, name: str) -> Module | External |
     known = [s for s in interfaces if f"{s.rpartition('.')[0]}/{name}" in COMMON]
     chosen = known or (interfaces if len(interfaces) == 1 else [])
     return External(f"{chosen[0]}.{name}") if chosen else None
-
-
-def module_of(node: Node) -> str:
-    """The module that names are imported from, with its dots."""
-    return text_of(field(node, "module_name")).replace(" ", "")
-
-
-def module_named(code: PyCode, dotted: str, of: Scope) -> Scope | None:
-    """The file that a module's name stands for, seen from another file."""
-    key = dotted, of.py.source.path
-    if key not in code.found:
-        code.found[key] = _module_named(code, dotted, of)
-    return code.found[key]
-
-
-def _module_named(code: PyCode, dotted: str, of: Scope) -> Scope | None:
-    here = PurePosixPath(of.py.source.path).parent
-    if dotted.startswith("."):
-        rest = dotted.lstrip(".")
-        for _ in range(len(dotted) - len(rest) - 1):
-            here = here.parent
-        base = here.joinpath(*rest.split(".")) if rest else here
-        return next((code.modules[p] for p in _files(base) if p in code.modules), None)
-    parts = dotted.split(".")
-    for path in _files(here.joinpath(*parts)):
-        if path in code.modules:
-            return code.modules[path]
-    if len(parts) == 1:
-        return None
-    tails = tuple(_files(PurePosixPath("/").joinpath(*parts)))
-    found = [m for p, m in code.modules.items() if f"/{p}".endswith(tails)]
-    return found[0] if len(found) == 1 else None
-
-
-def _files(base: PurePosixPath) -> Iterator[str]:
-    yield f"{base}.py"
-    yield f"{base}/__init__.py"

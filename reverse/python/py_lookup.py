@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
-from rebsync.reverse.python.py_bindings import Binding, reaching
-from rebsync.reverse.python.py_evaluator import each_of, lineage
+from rebsync.reverse.python.py_evaluator import PyEvaluator, each_of, lineage
 from rebsync.reverse.python.py_guards import together
 from rebsync.reverse.python.py_imports import imported, star_imported
-from rebsync.reverse.python.py_index import CLASS, Scope
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_worth import (
     Bound,
     Class,
@@ -32,9 +28,9 @@ from rebsync.reverse.python.py_worth import (
     distinct,
 )
 from rebsync.reverse.syntax.ancestors import climb
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.py_evaluator import PyEvaluator
+from rebsync.reverse.syntax.py_bindings import Binding, reaching
+from rebsync.reverse.syntax.py_index import CLASS, Scope
+from rebsync.reverse.syntax.py_tree import SCOPES, field, text_of
 
 _ENUMERATIONS = frozenset({"enum.Enum", "enum.Flag"})
 _MIXED = frozenset({"builtins.str", "builtins.int", "builtins.float"})
@@ -113,7 +109,7 @@ def bound(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Way
                 values, values.ways(binding.value, scope_at(values, binding, scope)), binding, scope
             )
         case "augmented":
-            return _augmented(values, binding, name, scope)
+            return _augmented(values, binding, scope)
         case "loop":
             inner = scope_at(values, binding, scope)
             rounds = each_of(values, binding.value, inner)
@@ -123,15 +119,14 @@ def bound(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Way
         case "parameter":
             return argument(values, scope, binding.path[0])
         case "import":
-            return imported(values, binding, name, scope)
+            return imported(values, binding, scope)
         case _:
             return (values.unknown("a name that a statement sets", binding.node, scope),)
 
 
 def scope_at(values: PyEvaluator, binding: Binding, scope: Scope) -> Scope:
     """The scope in which the value of a binding stands: a method may set a global or attribute."""
-    scopes = ("function_definition", "class_definition", "lambda")
-    above = climb(binding.node, lambda n: n.type in scopes)
+    above = climb(binding.node, lambda n: n.type in SCOPES)
     if above is None:
         return scope.module
     return values.code.scopes.get((scope.py.source.path, above.id), scope)
@@ -156,7 +151,7 @@ def _unpacked(values: PyEvaluator, ways: Ways, binding: Binding, scope: Scope) -
     return ways
 
 
-def _augmented(values: PyEvaluator, binding: Binding, name: str, scope: Scope) -> Ways:
+def _augmented(values: PyEvaluator, binding: Binding, scope: Scope) -> Ways:
     left = values.ways(field(binding.node, "left"), scope_at(values, binding, scope))
     right = values.ways(binding.value, scope_at(values, binding, scope))
     operator = text_of(field(binding.node, "operator")).rstrip("=")

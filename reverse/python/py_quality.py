@@ -20,10 +20,7 @@ from rebsync.reverse.policies import (
     policy_of,
 )
 from rebsync.reverse.python.py_asks import PyRosCall
-from rebsync.reverse.python.py_bindings import reaching
-from rebsync.reverse.python.py_index import Scope, arguments_of
 from rebsync.reverse.python.py_lookup import bound
-from rebsync.reverse.python.py_tree import text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import (
     Duration,
@@ -36,6 +33,9 @@ from rebsync.reverse.python.py_worth import (
     resolved,
 )
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.py_bindings import reaching
+from rebsync.reverse.syntax.py_index import Scope, arguments_of
+from rebsync.reverse.syntax.py_tree import text_of
 
 _NO_BOUND = "without `queue_size` there is no bound that the code gives"
 _KEPT = ("TRANSIENT_LOCAL", "RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL")

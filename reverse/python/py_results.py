@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Access, Kind
-from rebsync.reverse.python.py_evaluator import each_of, lineage
-from rebsync.reverse.python.py_index import LAMBDA, Scope, arguments_of
+from rebsync.reverse.python.py_evaluator import PyEvaluator, each_of, lineage
 from rebsync.reverse.python.py_texts import filled
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.python.py_worth import (
     Bound,
     Class,
@@ -31,9 +28,8 @@ from rebsync.reverse.python.py_worth import (
     distinct,
     resolved,
 )
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.py_evaluator import PyEvaluator
+from rebsync.reverse.syntax.py_index import LAMBDA, Scope, arguments_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _SAME = frozenset({"str", "int", "float", "bool", "list", "tuple", "unicode", "sorted", "set"})
 _PARTIAL = frozenset({"functools.partial", "partial"})

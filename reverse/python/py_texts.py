@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.py_index import Scope, arguments_of
+from rebsync.reverse.python.py_evaluator import PyEvaluator
 from rebsync.reverse.python.py_worth import Items, Table, Value, Ways
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.py_evaluator import PyEvaluator
+from rebsync.reverse.syntax.py_index import Scope, arguments_of
 
 _PERCENT = re.compile(r"%(?:\((\w+)\))?([-+# 0]*)(\d*)(?:\.(\d+))?([%a-zA-Z])")
 _BRACES = re.compile(r"\{\{|\}\}|\{(\w*)((?:\.\w+|\[\w+\])*)(![rsa])?(:[^{}]*)?\}")

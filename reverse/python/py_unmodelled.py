@@ -11,10 +11,10 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind, Routine
 from rebsync.reverse.python.py_asks import PyRosCall, roles
 from rebsync.reverse.python.py_calls import facts_of, graph_with, site_of
-from rebsync.reverse.python.py_index import last_name
-from rebsync.reverse.python.py_tree import field, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import External
+from rebsync.reverse.syntax.py_index import last_name
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _AS_SERVICE = {Kind.ACTION_SERVER: Kind.SERVICE, Kind.ACTION_CLIENT: Kind.CLIENT}
 

@@ -8,10 +8,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import FromParameter, Plain, Unresolved
-from rebsync.reverse.python.py_bindings import Binding
 from rebsync.reverse.python.py_evaluator import PyEvaluator
-from rebsync.reverse.python.py_index import Scope
-from rebsync.reverse.python.py_tree import field, named, number_of, string_parts, text_of
 from rebsync.reverse.python.py_worth import (
     MOST,
     Duration,
@@ -25,6 +22,9 @@ from rebsync.reverse.python.py_worth import (
     joined,
     used,
 )
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import field, named, number_of, string_parts, text_of
 
 _DEEPEST = 60
 _MOST_STEPS = 4000  # expressions that are followed for one value

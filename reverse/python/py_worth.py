@@ -11,7 +11,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.graph import FromParameter, OneOf, Plain, Resolved, Unresolved
-from rebsync.reverse.python.py_index import Scope
+from rebsync.reverse.syntax.py_index import Scope
 
 # More ways than these to go are not followed one by one.
 MOST = 24

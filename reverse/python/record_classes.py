@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from tree_sitter import Node
 
 from rebsync.reverse.python.model_types import type_of
-from rebsync.reverse.python.py_index import CLASS, PyCode, Scope
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _DATACLASS = re.compile(
     r"(?:dataclasses\.)?dataclass(?:\((?:\s*(?:frozen|order|eq)\s*=\s*(?:True|False)\s*,?)*\))?\Z"

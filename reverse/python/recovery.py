@@ -42,12 +42,12 @@ from rebsync.reverse.python.model_parameters import constant, parameter_read
 from rebsync.reverse.python.model_types import class_name
 from rebsync.reverse.python.py_calls import owner_of
 from rebsync.reverse.python.py_hooks import hooks_in
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import field, named, parse, text_of, unparsed
 from rebsync.reverse.python.py_unmodelled import whole_graph
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.python.sensor_effects import list_sensor_effects
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import field, named, parse, text_of, unparsed
 from rebsync.source import Source
 
 _WHY = "what this belongs to is no node of the model: only what it asks of ROS is read"

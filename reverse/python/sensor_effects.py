@@ -19,8 +19,8 @@ from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.python.import_effects import parsed
-from rebsync.reverse.python.py_index import PyCode
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.py_index import PyCode
 from rebsync.source import Source, Span
 
 _ASKED = "this runs when it is asked what a sensor saw"
@@ -38,7 +38,7 @@ def list_sensor_effects(code: PyCode, generated: Collection[str], findings: Find
         if source.path in generated and ".choose(" in source.text
         for given in _given(source)
     ]
-    if not asked or all(_is_plain(texts, path, given) for path, given in asked):
+    if not asked or all(_is_plain(texts, given) for path, given in asked):
         return
     sensors = _SensorModules(code, frozenset(generated))
     for path, given in asked:
@@ -71,7 +71,7 @@ def _looked(given: ast.expr) -> ast.expr | None:
             return None
 
 
-def _is_plain(texts: dict[str, Source], path: str, given: ast.expr) -> bool:
+def _is_plain(texts: dict[str, Source], given: ast.expr) -> bool:
     """Whether all functions of a name only give a field of what they get, as generated ones do."""
     looked = _looked(given)
     if not isinstance(looked, ast.Name):

@@ -22,15 +22,15 @@ from rebsync.reverse.python.body_started import is_module
 from rebsync.reverse.python.body_units import scope_around
 from rebsync.reverse.python.py_asks import is_node
 from rebsync.reverse.python.py_evaluator import lineage
-from rebsync.reverse.python.py_index import CLASS, LAMBDA, MODULE, Scope, arguments_of, last_name
-from rebsync.reverse.python.py_tree import field, nodes_in, text_of
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.python.py_worth import Class, External, Function, Instance, Made, Module, Value
 from rebsync.reverse.syntax.ancestors import ancestors, climb
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import CLASS, LAMBDA, MODULE, Scope, arguments_of, last_name
+from rebsync.reverse.syntax.py_tree import SCOPES, field, text_of
 
 _SERVED = (SubscriptionFact, TimerFact, ServiceFact)
 _LOOPS = frozenset({"while_statement", "for_statement"})
-_APART = frozenset({"function_definition", "lambda", "class_definition"})
 # What keeps a program of rospy alive beside `spin` and loops: windows, other threads, people.
 _LIVING = frozenset(
     {"mainloop", "exec_", "exec", "pause", "join", "serve_forever", "input", "raw_input"}
@@ -164,12 +164,12 @@ def _spin(values: PyValues, function: Node, call: Node, scope: Scope) -> Iterato
 
 def _goes_round(values: PyValues, call: Node, scope: Scope) -> bool:
     """Whether a call stands in a loop, or in a function that a loop calls."""
-    if any(n.type in _LOOPS for n in ancestors(call, lambda n: n.type in _APART)):
+    if any(n.type in _LOOPS for n in ancestors(call, lambda n: n.type in SCOPES)):
         return True
     above = scope.function
     calls = values.code.by_callee.get(above.name, ()) if above is not None else ()
     return any(
-        n.type in _LOOPS for other, _ in calls for n in ancestors(other, lambda n: n.type in _APART)
+        n.type in _LOOPS for other, _ in calls for n in ancestors(other, lambda n: n.type in SCOPES)
     )
 
 
@@ -223,7 +223,7 @@ def _is_optional(node: Node) -> bool:
         above.type == "if_statement"
         and "__name__" not in text_of(field(above, "condition"))
         and above.child_by_field_name("alternative") is None
-        for above in ancestors(node, lambda n: n.type in _APART)
+        for above in ancestors(node, lambda n: n.type in SCOPES)
     )
 
 
@@ -329,8 +329,5 @@ def own_nodes(scope: Scope) -> Iterator[Node]:
     waiting = list(scope.node.named_children)
     if scope.kind not in (MODULE, LAMBDA):
         waiting = [c for c in waiting if c != scope.node.child_by_field_name("name")]
-    while waiting:
-        node = waiting.pop()
-        yield node
-        if node.type not in _APART:
-            waiting += node.named_children
+    for node in waiting:
+        yield from nodes_in(node, *SCOPES)

@@ -15,8 +15,8 @@ from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import Py
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
 
 _FILES = "builtins.OSError"

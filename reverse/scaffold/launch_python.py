@@ -8,6 +8,7 @@ from pathlib import Path
 
 from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch
 from rebsync.reverse.launch.launch_python import bound_once
+from rebsync.reverse.launch.launch_python_values import called
 from rebsync.reverse.scaffold.fact import (
     CLOCK,
     NOT_GIVEN,
@@ -73,11 +74,11 @@ def _actions(source: Source) -> Iterator[Fact]:
         yield Fact("setting", "", "launch-prefix", "given", source, _span(source, each))
     for call in (n for n in ast.walk(tree) if isinstance(n, ast.Call)):
         given = {k.arg: k.value for k in call.keywords if k.arg is not None}
-        if _called(call) == "GroupAction" and "condition" in given:
+        if called(call) == "GroupAction" and "condition" in given:
             value = ast.unparse(given["condition"])
             yield Fact("group of nodes", "", value, "there", source, _span(source, call))
         yield from _around(source, call)
-        if _called(call) not in _ACTIONS:
+        if called(call) not in _ACTIONS:
             continue
         name = given.get("name")
         if isinstance(name, ast.Name):
@@ -98,9 +99,9 @@ def _around(source: Source, call: ast.Call) -> Iterator[Fact]:
     """Commands that act on what the nodes hear, and what is set in their environment."""
     texts = [n.value for n in ast.walk(call) if isinstance(n, ast.Constant)]
     words = [word for text in texts if isinstance(text, str) for word in text.split()]
-    if _called(call) in _PROCESSES and speaks(words):
+    if called(call) in _PROCESSES and speaks(words):
         yield Fact("command", "", " ".join(words), "started", source, _span(source, call))
-    if _called(call) in _SETTING_ENVIRONMENT:
+    if called(call) in _SETTING_ENVIRONMENT:
         name = words[0] if words else ""
         if not name.startswith(SHOWN):
             yield Fact("environment", "", name, ast.unparse(call), source, _span(source, call))
@@ -111,7 +112,7 @@ def _prefixes(tree: ast.Module) -> Iterator[ast.expr]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Constant) and _is_text(node, "launch-prefix"):
             yield node
-        if isinstance(node, ast.Call) and _called(node) in _CONFIGURING:
+        if isinstance(node, ast.Call) and called(node) in _CONFIGURING:
             given = (*node.args[:1], *(k.value for k in node.keywords if k.arg in ("name", None)))
             yield from (each for each in given if not isinstance(each, ast.Constant))
 
@@ -177,15 +178,7 @@ def _resolved(value: ast.expr | None, names: Mapping[str, ast.expr]) -> ast.expr
     return value
 
 
-def _called(call: ast.Call) -> str:
-    match call.func:
-        case ast.Name(id=name) | ast.Attribute(attr=name):
-            return name
-        case _:
-            return ""
-
-
 def _span(source: Source, node: ast.expr) -> Span:
     start = source.start_of(node.lineno) + node.col_offset
-    told = _called(node) if isinstance(node, ast.Call) else ast.unparse(node)
+    told = called(node) if isinstance(node, ast.Call) else ast.unparse(node)
     return Span(start, start + len(told))

@@ -19,6 +19,11 @@ def ancestors(node: Node, stop: Callable[[Node], bool] = _never) -> Iterator[Nod
         above = above.parent
 
 
+def holds(outer: Node, inner: Node) -> bool:
+    """Whether a node of a tree is in another one, or is that."""
+    return outer.start_byte <= inner.start_byte and inner.end_byte <= outer.end_byte
+
+
 def climb(node: Node, stop: Callable[[Node], bool]) -> Node | None:
     """The nearest node around for which `stop` holds."""
     return next((above for above in ancestors(node) if stop(above)), None)

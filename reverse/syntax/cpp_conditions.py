@@ -314,8 +314,3 @@ def _and(left: bool | None, right: bool | None) -> bool | None:
 
 def _or(left: bool | None, right: bool | None) -> bool | None:
     return _not(_and(_not(left), _not(right)))
-
-
-def undecided(text: str) -> Iterator[IfSection]:
-    """The conditionals of a text of which it is not known what is taken."""
-    yield from (c for c in conditionals(text) if not c.decided)

@@ -293,6 +293,21 @@ def parameters_in(node: Node) -> Iterator[CppParameter]:
         yield CppParameter(text_of(name) if name else "", part(parameter, "type"), parameter)
 
 
+def lambda_parameters(lambda_: Node) -> list[Node]:
+    """The parameters of a lambda, as they are declared; none where it has no list of them."""
+    declarator = lambda_.child_by_field_name("declarator")
+    listed = declarator.child_by_field_name("parameters") if declarator is not None else None
+    return named(listed) if listed is not None else []
+
+
+def name_of_parameter(parameter: Node) -> str:
+    """The name of a parameter; empty for one that has none."""
+    at = parameter.child_by_field_name("declarator")
+    while at is not None and at.type != "identifier":
+        at = at.named_children[-1] if at.named_children else None
+    return text_of(at) if at is not None else ""
+
+
 def is_constant(cpp: Cpp, node: Node) -> bool:
     """Whether a declaration is of constants: `const` or `constexpr`, and of no pointer."""
     if cpp.words.isdisjoint(_CONSTANT):

@@ -320,15 +320,19 @@ class Code:
             self.enumerators.setdefault(own, []).append(read)
             next_ = next_ + 1 if next_ is not None else None
 
+    def _add_type(self, cpp: Cpp, type_: Node) -> None:
+        """A type that is defined where it is named."""
+        if type_.type in ("class_specifier", "struct_specifier"):
+            self._add_class(cpp, type_)
+        elif type_.type == "enum_specifier":
+            self._add_enum(cpp, type_, "")
+
     def _add_aliases(self, cpp: Cpp, node: Node) -> None:
         type_ = node.child_by_field_name("type")
         names = node.children_by_field_name("declarator") + node.children_by_field_name("name")
         if type_ is None:
             return
-        if type_.type in ("class_specifier", "struct_specifier"):
-            self._add_class(cpp, type_)
-        elif type_.type == "enum_specifier":
-            self._add_enum(cpp, type_, "")
+        self._add_type(cpp, type_)
         for name in names:
             if name.type == "type_identifier":
                 read = CppAlias(text_of(name), type_, cpp)
@@ -338,10 +342,7 @@ class Code:
         type_ = node.child_by_field_name("type")
         if type_ is None:
             return
-        if type_.type in ("class_specifier", "struct_specifier"):
-            self._add_class(cpp, type_)
-        elif type_.type == "enum_specifier":
-            self._add_enum(cpp, type_, "")
+        self._add_type(cpp, type_)
         constant = is_constant(cpp, node)
         for declarator in node.children_by_field_name("declarator"):
             value = None

@@ -15,6 +15,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.syntax.cpp_depth import deep_parts, may_be_deep, without
 from rebsync.reverse.syntax.cpp_text import readable
 from rebsync.reverse.syntax.cpp_words import Plain
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.source import Source, SourceSpan, Span
 
 _MOST_COMMENTS = 60  # each is looked for from the start of what is around it
@@ -225,6 +226,11 @@ def text_of(node: Node) -> str:
         return text.decode("utf-8", "replace")
 
 
+def squeezed(node: Node) -> str:
+    """The text of a node without its layout."""
+    return "".join(text_of(node).split())
+
+
 def last_name(node: Node) -> str:
     """The last part of a qualified name, however it is laid out."""
     return text_of(node).rpartition("::")[2].strip()
@@ -249,6 +255,12 @@ def inside(node: Node | None, *types: str) -> list[Node]:
         if current.named_child_count:
             waiting += reversed(current.named_children)
     return found
+
+
+def returns_in(body: Node | None) -> Iterator[Node]:
+    """The `return` statements of a body, not those of lambdas in it."""
+    inner = nodes_in(body, "lambda_expression") if body is not None else ()
+    return (n for n in inner if n.type == "return_statement")
 
 
 def by_types(node: Node, types: tuple[str, ...]) -> dict[str, list[Node]]:
@@ -280,6 +292,12 @@ def part(node: Node, name: str) -> Node:
     if child is None:
         raise ValueError(f"{node.type} without {name}")
     return child
+
+
+def operator_of(node: Node) -> str:
+    """The operator of an expression; empty where it has none."""
+    operator = node.child_by_field_name("operator")
+    return text_of(operator) if operator is not None else ""
 
 
 def markers_above(node: Node) -> tuple[str, ...]:

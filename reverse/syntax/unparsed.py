@@ -79,14 +79,14 @@ def errors_in(cpp: Cpp) -> Iterator[Node]:
     while waiting:
         node = waiting.pop()
         if node.is_error or node.is_missing:
-            if not _harmless(cpp, node) and node.start_point.row not in lines:
+            if not _harmless(node) and node.start_point.row not in lines:
                 lines.add(node.start_point.row)
                 yield node
         elif node.has_error:
             waiting += reversed(node.children)
 
 
-def _harmless(cpp: Cpp, node: Node) -> bool:
+def _harmless(node: Node) -> bool:
     """Whether what is missing says nothing.
 
     The `;` after a macro or after `void f() { {} }`, the name of an instantiation.

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import field
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 from rebsync.reverse.values.cpp_flow_types import Variable
 from rebsync.reverse.values.cpp_flow_writes import (
     Writes,
@@ -17,9 +17,6 @@ from rebsync.reverse.values.cpp_values_plain import (
     Frame,
     Value,
 )
-
-if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 
 @dataclass(slots=True)

@@ -202,12 +202,12 @@ class Calls:
             for name in self.texts.names(class_):
                 for cpp, place in self.texts.everywhere(name):
                     if self.texts.class_near(name, cpp) is class_:
-                        found += self._makes(cpp, place, class_)
+                        found += self._makes(cpp, place)
             same = {(u.node.id, *(a.id for a in u.arguments)): u for u in found}
             self._made[key] = list(same.values())
         return self._made[key]
 
-    def _makes(self, cpp: Cpp, place: Node, class_: CppClass) -> Iterator[Use]:
+    def _makes(self, cpp: Cpp, place: Node) -> Iterator[Use]:
         node, above = place, place.parent
         while above is not None and above.type in _TYPE_PARTS:
             if above.type == "template_argument_list":
@@ -241,7 +241,7 @@ class Calls:
             case "field_declaration":
                 for declarator in above.children_by_field_name("declarator"):
                     if declarator.type == "field_identifier":
-                        yield from self._as_member(cpp, declarator)
+                        yield from self._as_member(declarator)
             case _:
                 return
 
@@ -254,7 +254,7 @@ class Calls:
         if call.type == "call_expression" and text_of(part(function, "name")).startswith("make_"):
             yield self._use(cpp, call, tuple(named(part(call, "arguments"))))
 
-    def _as_member(self, cpp: Cpp, declarator: Node) -> Iterator[Use]:
+    def _as_member(self, declarator: Node) -> Iterator[Use]:
         """A member that is an object of the class: made by the initialisers of constructors."""
         for other, place in self.texts.everywhere(text_of(declarator)):
             above = place.parent

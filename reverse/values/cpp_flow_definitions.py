@@ -51,7 +51,7 @@ def _definition(place: Node, variable: Variable, path: str) -> Definition | None
         if variable.kind == "member" or place != variable.name:
             return None
         return _declared(place, declaration)
-    left = _left_value(place, variable, path)
+    left = _left_value(place, path)
     above = left.parent if left is not None else None
     if left is None or above is None:
         return None
@@ -84,7 +84,7 @@ def _holds_value(node: Node) -> bool:
 _LISTS = ("argument_list", "initializer_list")
 
 
-def _left_value(place: Node, variable: Variable, path: str) -> Node | None:
+def _left_value(place: Node, path: str) -> Node | None:
     """The whole expression of which a name is the start, if it is the variable's (field)."""
     left, above = place, place.parent
     if above is not None and above.type == "field_expression" and part(above, "field") == place:

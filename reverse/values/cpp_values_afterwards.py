@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from dataclasses import field
 from functools import partial
-from typing import TYPE_CHECKING
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import CppFunction
+from rebsync.reverse.values.cpp_assignments import CppAssignments
 from rebsync.reverse.values.cpp_flow_types import Variable
 from rebsync.reverse.values.cpp_flow_writes import Key, key_of
 from rebsync.reverse.values.cpp_values_plain import Frame, Nothing, Value, choice
-
-if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_assignments import CppAssignments
 
 # Where functions read parameters into one variable, what stands in for a parameter is what the
 # others left in it, and so on: so many of them one within the other say all that is known.

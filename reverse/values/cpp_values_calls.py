@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -13,6 +12,7 @@ from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 from rebsync.reverse.values.cpp_flow_reach import taken
 from rebsync.reverse.values.cpp_flow_types import HOLDERS, unscoped_member
 from rebsync.reverse.values.cpp_values_made import constructed
@@ -41,9 +41,6 @@ from rebsync.reverse.values.cpp_values_ros2 import (
     span,
 )
 from rebsync.reverse.values.cpp_values_texts import is_stream, streamed
-
-if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 _LIMITS: dict[tuple[str, str], float] = {
     ("double", "max"): sys.float_info.max,

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, OneOf
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 from rebsync.reverse.values.cpp_flow_definitions import Definition
 from rebsync.reverse.values.cpp_flow_types import Variable
 from rebsync.reverse.values.cpp_values_names import name_under, resolved
@@ -25,9 +25,6 @@ from rebsync.reverse.values.cpp_values_plain import (
     each,
     ways,
 )
-
-if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 
 def listed(values: CppEvaluator, type_: str, definition: Definition, frame: Frame) -> Value:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from tree_sitter import Node
 
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.cpp_declarations import lambda_parameters
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts, scope_of
 from rebsync.reverse.values.cpp_flow_types import Variable
@@ -38,9 +39,7 @@ def arguments_of(texts: Texts, variable: Variable) -> list[Node] | None:
 
 def _index(lambda_: Node, variable: Variable) -> int | None:
     """Which parameter of a lambda a variable is."""
-    declarator = lambda_.child_by_field_name("declarator")
-    listed = declarator.child_by_field_name("parameters") if declarator is not None else None
-    for index, parameter in enumerate(named(listed) if listed is not None else ()):
+    for index, parameter in enumerate(lambda_parameters(lambda_)):
         if parameter.start_byte <= variable.name.start_byte < parameter.end_byte:
             return index
     return None

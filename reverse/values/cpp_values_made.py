@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Under, Unresolved
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 from rebsync.reverse.values.cpp_values_names import name_under, spoken, tidy
 from rebsync.reverse.values.cpp_values_numbers import converted, used
 from rebsync.reverse.values.cpp_values_plain import (
@@ -25,9 +24,6 @@ from rebsync.reverse.values.cpp_values_plain import (
     pairs,
 )
 from rebsync.reverse.values.cpp_values_ros2 import made, unset
-
-if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 _TEXTS = frozenset({"string", "String"})
 

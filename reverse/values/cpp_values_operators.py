@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.syntax.cpp_tree import part, text_of
+from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 from rebsync.reverse.values.cpp_values_numbers import added, computed, used
 from rebsync.reverse.values.cpp_values_plain import Frame, Length, Value, each, pairs, same
-
-if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 
 def unary(values: CppEvaluator, node: Node, frame: Frame) -> Value:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
+from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 from rebsync.reverse.values.cpp_values_names import name_under, resolved
 from rebsync.reverse.values.cpp_values_plain import (
     Found,
@@ -15,9 +14,6 @@ from rebsync.reverse.values.cpp_values_plain import (
     Value,
     each,
 )
-
-if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 
 def from_parameter(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from functools import partial, reduce
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
@@ -17,6 +16,7 @@ from rebsync.reverse.policies import NOT_KNOWN, UNKNOWN, USUAL, Period, either, 
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 from rebsync.reverse.values.cpp_flow_definitions import Definition
 from rebsync.reverse.values.cpp_values_names import resolved
 from rebsync.reverse.values.cpp_values_numbers import used
@@ -33,9 +33,6 @@ from rebsync.reverse.values.cpp_values_plain import (
     each,
     ways,
 )
-
-if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 _KEPT = re.compile(r"(?:TransientLocal|TRANSIENT_LOCAL)\Z")
 _LOST = re.compile(r"(?:Volatile|VOLATILE)\Z")

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 from rebsync.reverse.values.cpp_flow_definitions import Definition
 from rebsync.reverse.values.cpp_flow_reach import located, reaching
 from rebsync.reverse.values.cpp_flow_types import Variable
 from rebsync.reverse.values.cpp_values_numbers import added
 from rebsync.reverse.values.cpp_values_plain import Frame, Value, pairs
-
-if TYPE_CHECKING:
-    from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 
 _STREAMS = frozenset({"stringstream", "ostringstream"})
 _CONVERSION = re.compile(r"%[-+ #0]*\d*(?:\.\d+)?(?:hh|h|ll|l|z)?([diufFeEgGxXcs%])")

@@ -16,8 +16,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Literal, TypeAlias
 
 from rebsync.diagnostics import Edit
-from rebsync.model import Assign, Binary, Choice, Conditional, Expression, IntLiteral, Paren
+from rebsync.model import Assign, Binary, Choice, Conditional, Expression, IntLiteral
 from rebsync.records import dataclass
+from rebsync.reverse.models.building import bare
 from rebsync.roundtrip.calibration.times import Measured, RunTimes, Sample
 
 MOST = 64  # values of one choice
@@ -105,7 +106,7 @@ def _is_slow(times: RunTimes, sample: Sample) -> bool:
 
 def _allowing(expression: Expression, text: str, needed: dict[int, int]) -> str | None:
     """The expression with more values; None where it has them."""
-    inner = _bare(expression)
+    inner = bare(expression)
     values = _literals(inner)
     if values is not None:
         wanted = {v for value, extra in needed.items() for v in range(value, value + extra + 1)}
@@ -113,8 +114,8 @@ def _allowing(expression: Expression, text: str, needed: dict[int, int]) -> str 
         return None if set(values) >= wanted else f"?({', '.join(map(str, every))})"
     extra = max(needed.values())
     if isinstance(inner, Binary) and inner.operator == "+":
-        choice = _literals(_bare(inner.right))
-        if isinstance(_bare(inner.right), Choice) and choice is not None and 0 in choice:
+        choice = _literals(bare(inner.right))
+        if isinstance(bare(inner.right), Choice) and choice is not None and 0 in choice:
             if set(range(extra + 1)) <= set(choice):
                 return None
             start = expression.span.start
@@ -135,20 +136,10 @@ def _literals(expression: Expression) -> list[int] | None:
         case IntLiteral(value):
             return [value]
         case Choice(options):
-            bare = [_bare(option) for option in options]
-            return (
-                [o.value for o in bare if isinstance(o, IntLiteral)]
-                if all(isinstance(o, IntLiteral) for o in bare)
-                else None
-            )
+            found = [o.value for o in map(bare, options) if isinstance(o, IntLiteral)]
+            return found if len(found) == len(options) else None
         case _:
             return None
-
-
-def _bare(expression: Expression) -> Expression:
-    while isinstance(expression, Paren):
-        expression = expression.inner
-    return expression
 
 
 def _is_low(expression: Expression) -> bool:

@@ -24,7 +24,6 @@ from rebsync.roundtrip.conform.topics import Topic
 
 _NANO = 1e-9
 INSTALL = "pip install 'rebsync[bags]'"
-_CLOCK = "builtin_interfaces/Time clock"
 
 Decode = Callable[[Any], object]
 Make = Callable[[Any, float, Place, str], Event]

@@ -124,11 +124,11 @@ class Diagnosis:
         same = [a for a in allowed if _is_message(a, served)]
         point = dead.config.node.state[rebec].point
         if (same and served.start == dead.time) or (point is not None and served.start < dead.time):
-            return self._of_body(dead, rebec, served, same)
+            return self._of_body(dead, rebec, served)
         return self._of_message(dead, rebec, served, allowed)
 
     def _of_body(
-        self, dead: Dead, rebec: int, served: Served, same: list[Allowed]
+        self, dead: Dead, rebec: int, served: Served
     ) -> tuple[Kind, str, tuple[Difference, ...]]:
         """The message is the right one; what the body did is not."""
         moves = self.graph.all_of(dead.config.node, rebec).moves

@@ -83,13 +83,13 @@ class Clocks:
         """What was seen, counted from time 0."""
         if self._least is None or self._most is None:
             return Lateness()
-        basis, zero = self._zero(self._least[2], self._most[2])
+        basis, zero = self._zero(self._least[2])
         points = [(now, node, offset - zero) for now, node, offset in self._points]
         ends = [(p[0], p[1], p[2] - zero) for p in (self._least, self._most)]
         greatest = max(ends, key=lambda p: abs(p[2]))
         return Lateness(basis, zero, greatest, tuple(points), self._goes_back)
 
-    def _zero(self, least: float, most: float) -> tuple[Literal["announced", "first"], float]:
+    def _zero(self, least: float) -> tuple[Literal["announced", "first"], float]:
         """Time 0 as announced; the earliest that fits where it was not, or on another clock."""
         if self._zeros:
             zero = max(self._zeros, key=lambda z: (self._zeros[z], z))

@@ -79,7 +79,7 @@ class Observable:
 
     def _shown(self, slot: Slot, cells: Sequence[Cell]) -> str:
         texts = [self.value(c, slot.kind) for c in cells[slot.offset : slot.offset + slot.size]]
-        return _nested(texts, slot.type.dimensions)
+        return nested(texts, slot.type.dimensions)
 
     def value(self, cell: Cell, kind: Kind) -> str:
         """A value as nodes write it."""
@@ -135,9 +135,10 @@ def _elements(slot: Slot) -> list[tuple[str, int]]:
     ]
 
 
-def _nested(texts: Sequence[str], dimensions: Sequence[int]) -> str:
+def nested(texts: Sequence[str], dimensions: Sequence[int]) -> str:
+    """The texts of the elements of an array as nodes write the whole."""
     if not dimensions:
         return texts[0]
     step = len(texts) // dimensions[0]
     parts = (texts[i * step : (i + 1) * step] for i in range(dimensions[0]))
-    return "[" + ", ".join(_nested(part, dimensions[1:]) for part in parts) + "]"
+    return "[" + ", ".join(nested(part, dimensions[1:]) for part in parts) + "]"

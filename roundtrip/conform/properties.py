@@ -6,14 +6,12 @@ from typing import Literal, TypeAlias
 
 from rebsync.checker.formulas import (
     And,
-    Atom,
     Formula,
     NamedFormula,
-    Not,
-    Or,
     Temporal,
     Timed,
     atoms,
+    parts,
 )
 from rebsync.checker.machine import Failed
 from rebsync.checker.program import Program
@@ -196,19 +194,8 @@ def _is_invariant(formula: Formula) -> bool:
 
 def greatest_bound(formula: Formula) -> int | None:
     """The greatest number that bounds a time in it; None without any."""
-    match formula:
-        case Atom():
-            return None
-        case Not(operand):
-            return greatest_bound(operand)
-        case And(left, right) | Or(left, right):
-            found = [greatest_bound(left), greatest_bound(right)]
-        case Temporal(_, operands):
-            found = [greatest_bound(o) for o in operands]
-        case Timed(_, bound, operands):
-            found = [greatest_bound(o) for o in operands]
-            found.append(bound[1] if bound is not None else None)
-    return max((b for b in found if b is not None), default=None)
+    timed = (f for f in parts(formula) if isinstance(f, Timed))
+    return max((f.bound[1] for f in timed if f.bound is not None), default=None)
 
 
 def holds_at_the_end(rest: Rest) -> bool:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import NamedTuple, Protocol, TypeAlias
-
-Number: TypeAlias = "int | float | bool | str"
-Fields: TypeAlias = Mapping[str, object]
 
 
 class Place(NamedTuple):

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 from rebsync.model import Type
 from rebsync.package import MessageType
 from rebsync.records import dataclass
-from rebsync.roundtrip.conform.observable import Observable
+from rebsync.roundtrip.conform.observable import Observable, nested
 from rebsync.roundtrip.conform.recording import (
     Announced,
     Driven,
@@ -168,7 +168,7 @@ def _sent(rebec: int, server: str, type_: MessageType) -> Convert:
 def _text(value: Any, type_: Type) -> str:  # noqa: ANN401
     """A value as nodes write it."""
     if type_.dimensions:
-        return _nested([_text(v, Type(type_.name)) for v in value], type_.dimensions)
+        return nested([_text(v, Type(type_.name)) for v in value], type_.dimensions)
     match type_.name:
         case "boolean":
             return "true" if value else "false"
@@ -176,11 +176,3 @@ def _text(value: Any, type_: Type) -> str:  # noqa: ANN401
             return f"{float(value):g}"
         case _:
             return str(value)
-
-
-def _nested(texts: Sequence[str], dimensions: Sequence[int]) -> str:
-    if not dimensions:
-        return texts[0]
-    step = len(texts) // dimensions[0]
-    parts = (texts[i * step : (i + 1) * step] for i in range(dimensions[0]))
-    return "[" + ", ".join(_nested(part, dimensions[1:]) for part in parts) + "]"

@@ -8,6 +8,7 @@ from rebsync import model as m
 from rebsync.printing import print_statement
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.alignment import aligned
+from rebsync.roundtrip.diff.bodies.similarity import head_of
 from rebsync.roundtrip.diff.difference import Depth, Place
 from rebsync.roundtrip.diff.matching import matched
 from rebsync.roundtrip.diff.operands import Operand, SourcedModel, two_sides
@@ -110,18 +111,8 @@ def _statements(body: m.Block | None) -> Iterator[_Step]:
 
 
 def _head(statement: m.Statement) -> str:
-    empty = m.Block(())
-    match statement:
-        case m.If(condition):
-            return f"if {print_statement(m.If(condition, empty))}"
-        case m.While(condition):
-            return print_statement(m.While(condition, empty))
-        case m.For(initial, condition, updates):
-            return print_statement(m.For(initial, condition, updates, empty))
-        case m.Switch(subject):
-            return print_statement(m.Switch(subject, ()))
-        case _:
-            return print_statement(statement)
+    text = print_statement(head_of(statement))
+    return f"if {text}" if isinstance(statement, m.If) else text
 
 
 def _similarity(one: _Step, other: _Step) -> float:

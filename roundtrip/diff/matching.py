@@ -64,7 +64,7 @@ def matched(left: Operand, right: Operand) -> Matching:
     _match_classes(matching)
     classes = {r.name: x.name for x, r in matching.pairs}
     _match_named(matching, classes)
-    _match_marked(matching, classes)
+    _match_marked(matching)
     _match_alike(matching, left, right, classes)
     matching.by(_moving, _moving)
     order = {id(item): i for i, item in enumerate(left.items)}
@@ -124,7 +124,7 @@ def _moving(item: Item) -> object:
 # --- by marker ----------------------------------------------------------------------------------
 
 
-def _match_marked(matching: Matching, classes: dict[str, str]) -> None:
+def _match_marked(matching: Matching) -> None:
     """Those of which the marker in the code names the other one."""
     _match_markers(matching, lambda item: item.kind in (*_MOVABLE, "env"))
 

@@ -86,14 +86,14 @@ class _FormulaNames:
     def _edit(self, node: object) -> Iterator[Edit]:
         match node:
             case m.Member(target=m.Name(name=rebec) as target, name=name):
-                yield from self._given(target, "rebec", "", rebec)
+                yield from self._given(target, "rebec", rebec)
                 yield from self._variable(node, rebec, name)
             case m.Name(name=name) if name not in self.defined:
                 kind = "env" if name in self.analysis.env else "rebec"
-                yield from self._given(node, kind, "", name)
+                yield from self._given(node, kind, name)
 
-    def _given(self, node: m.Name, kind: str, owner: str, name: str) -> Iterator[Edit]:
-        if (new := self.renames.get((kind, owner, name))) is not None:
+    def _given(self, node: m.Name, kind: str, name: str) -> Iterator[Edit]:
+        if (new := self.renames.get((kind, "", name))) is not None:
             yield Edit(node.span, new)
 
     def _variable(self, node: m.Member, rebec: str, name: str) -> Iterator[Edit]:

@@ -229,14 +229,14 @@ def _method(context: Context, function: Node, nodes: Sequence[Node], place: Span
     receiver = object_of(context, function)
     owner = class_of(context, receiver.type)
     if owner is None:
-        return library_method(context, receiver, name, nodes, types, place)
+        return library_method(context, receiver, name, nodes, place)
     candidates = methods_named(context.world, owner.name, name)
     if candidates:
         chosen = resolve(context, candidates, argument_values(context, nodes))
         return call_function(context, chosen, nodes, place, receiver, "::" in qualified)
     if find_member(context.world, owner.name, name) is not None:
         return call_value(context, field_of(context, receiver, name, place), nodes, place)
-    return library_method(context, receiver, name, nodes, types, place)
+    return library_method(context, receiver, name, nodes, place)
 
 
 def call_value(context: Context, value: Value, nodes: Sequence[Node], place: Span) -> Value:

@@ -183,7 +183,7 @@ def is_copy(owner: ClassSymbol, function: FunctionSymbol) -> bool:
     return "".join(text.split()).rpartition("::")[2] == owner.simple
 
 
-def is_aggregate(world: World, owner: ClassSymbol) -> bool:
+def is_aggregate(owner: ClassSymbol) -> bool:
     """Whether braces give its fields their values ([dcl.init.aggr])."""
     written = [f for f in owner.constructors if not f.is_default and not f.is_deleted]
     is_virtual = any(f.is_virtual for f in owner.functions)

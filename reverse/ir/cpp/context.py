@@ -21,7 +21,7 @@ from rebsync.reverse.ir.cpp.symbol_table import SymbolTable
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol
 from rebsync.reverse.ir.cpp.types import Declared, TypeReader
 from rebsync.reverse.ir.program import Function
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
 from rebsync.source import Span
 
 
@@ -308,14 +308,10 @@ def unsupported(
     found: dict[e.Expression, None] = {}
     if context.this is not None:
         found[context.this] = None
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        waiting += reversed(named(current))
-        if current.type == "identifier":
-            value = context.local(text_of(current))
-            if value is not None:
-                found[value.expression] = None
+    for name in inside(node, "identifier"):
+        value = context.local(text_of(name))
+        if value is not None:
+            found[value.expression] = None
     names = tuple(found)
     written = tuple(n for n in names if isinstance(n, e.Lvalue))
     return s.Unsupported(reason, names, written, target, context.place(node))

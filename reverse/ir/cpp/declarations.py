@@ -194,14 +194,14 @@ def _reference(
     """`T& x = value;`; a temporary lives as long as the reference ([class.temporary])."""
     if value is None:
         raise Unlowered("a reference to nothing")
-    found = _initial(context, declared, value)
+    found = _initial(context, value)
     same = found.type == declared.type or is_base(context.world, declared.type, found.type)
     if not same:
         found = implicitly(context, found, declared.type, place)
     _refer(context, name, local, Declared(declared.type, declared.reference), found, place)
 
 
-def _initial(context: Context, declared: Declared, value: Node) -> Value:
+def _initial(context: Context, value: Node) -> Value:
     if value.type in ("initializer_list", "argument_list"):
         inner = named(value)
         if len(inner) != 1 or inner[0].type == "initializer_list":
@@ -245,7 +245,7 @@ def _deduced(
     """`auto x = value;` and `auto& x = value;`."""
     if value is None:
         raise Unlowered("auto without a value")
-    found = _initial(context, declared, value)
+    found = _initial(context, value)
     if declared.reference is not ReferenceKind.NONE:
         reference = declared.reference
         if reference is ReferenceKind.RVALUE and found.is_lvalue:

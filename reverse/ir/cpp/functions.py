@@ -38,7 +38,7 @@ from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.ir.program import Function, FunctionKind, Parameter
 from rebsync.reverse.syntax.cpp_declarations import is_noexcept
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 from rebsync.source import NOWHERE, Span
 
 _THIS = "this"
@@ -56,13 +56,9 @@ def names_of_lambdas(around: str, nodes: Iterable[Node | None]) -> dict[int, str
     """The names of the lambdas in some code, by their nodes."""
     found: dict[int, str] = {}
     # A text is searched faster than its tree.
-    waiting = [n for n in nodes if n is not None and b"[" in (n.text or b"")]
-    waiting.reverse()
-    while waiting:
-        node = waiting.pop()
-        if node.type == "lambda_expression":
-            found[node.id] = f"{around}::lambda{len(found) + 1}"
-        waiting += reversed(named(node))
+    for node in (n for n in nodes if n is not None and b"[" in (n.text or b"")):
+        for each in inside(node, "lambda_expression"):
+            found[each.id] = f"{around}::lambda{len(found) + 1}"
     return found
 
 
@@ -160,15 +156,7 @@ def body_of(context: Context, body: Node) -> s.Body:
 
 
 def _jumps(cpp: Cpp, body: Node) -> bool:
-    if b"goto" not in cpp.words:
-        return False
-    waiting = [body]
-    while waiting:
-        node = waiting.pop()
-        if node.type == "goto_statement":
-            return True
-        waiting += named(node)
-    return False
+    return b"goto" in cpp.words and bool(inside(body, "goto_statement"))
 
 
 # --- bases and members ----------------------------------------------------------------------------

@@ -194,7 +194,7 @@ def braced(context: Context, target: e.Lvalue, type_: t.Type, node: Node) -> Non
                 s.Assign(target, _mapping(context, type_, key, value, nodes, place), place)
             )
         case t.Container(_, (element, *_)):
-            built = _elements(context, type_, element, nodes, place)
+            built = _elements(context, element, nodes, place)
             context.emit(s.Assign(target, e.Build(type_, built, place), place))
         case t.Array(element, length):
             _array(context, target, type_, element, length, nodes, place)
@@ -235,7 +235,7 @@ def element_value(context: Context, type_: t.Type, node: Node) -> e.Expression:
 
 
 def _elements(
-    context: Context, type_: t.Type, element: t.Type, nodes: Sequence[Node], place: Span
+    context: Context, element: t.Type, nodes: Sequence[Node], place: Span
 ) -> tuple[e.Expression, ...]:
     return tuple(in_order(context, [_operand(context, element, n) for n in nodes], place))
 
@@ -274,7 +274,7 @@ def _array(
         nodes = named(nodes[0])
     if len(nodes) > length or length > 4096:
         raise Unlowered("an array of other length than its braces")
-    given = _elements(context, type_, element, nodes, place)
+    given = _elements(context, element, nodes, place)
     rest = default_value(context, element, place)
     if rest is None and len(nodes) < length:
         raise Unlowered("an array with objects that are constructed")
@@ -308,7 +308,7 @@ def _braced_object(
     nodes: list[Node],
     place: Span,
 ) -> None:
-    if not is_aggregate(context.world, owner):
+    if not is_aggregate(owner):
         by_arguments(context, target, type_, nodes, place)
         return
     if len(nodes) == 1 and nodes[0].type != "initializer_list":

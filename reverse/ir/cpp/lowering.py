@@ -37,7 +37,7 @@ from rebsync.reverse.ir.cpp.types import ReferenceKind, TypeReader
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
 from rebsync.reverse.ir.program import Class, Field, Function, FunctionKind, Program
 from rebsync.reverse.syntax.cpp_index import Code
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
 
 # Modules that register lowerings of nodes.
 REGISTERED = (calls, jumps, lambdas, loops)
@@ -263,11 +263,9 @@ def _flags(context: Context, function: FunctionSymbol) -> None:
     """Static locals of a function are not initialised when the program starts."""
     if b"static" not in context.cpp.words or function.code.body is None:
         return
-    waiting, counts = [function.code.body], dict[str, int]()
-    while waiting:
-        node = waiting.pop()
-        waiting += reversed(named(node))
-        if node.type == "declaration" and any(text_of(c) == "static" for c in node.children):
+    counts = dict[str, int]()
+    for node in inside(function.code.body, "declaration"):
+        if any(text_of(c) == "static" for c in node.children):
             for declarator in node.children_by_field_name("declarator"):
                 inner = declarator.child_by_field_name("declarator") or declarator
                 name = text_of(inner)

@@ -24,12 +24,7 @@ _EMPTYING = frozenset({"pop_back", "pop_front", "pop", "clear", "reserve", "shri
 
 
 def library_method(
-    context: Context,
-    of: Value,
-    name: str,
-    nodes: Sequence[Node],
-    types: Sequence[Node],
-    place: Span,
+    context: Context, of: Value, name: str, nodes: Sequence[Node], place: Span
 ) -> Value:
     """A method of an object of a library, or of a class that is not known."""
     match of.type:

@@ -9,10 +9,8 @@ from rebsync.reverse.ir.cpp.classes import (
     copies_trivially,
     ends_silently,
     has_unknown_base,
-    implicit_constructor,
     is_base,
     members,
-    needs_constructor,
 )
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value
 from rebsync.reverse.ir.cpp.conversions import converted
@@ -115,8 +113,8 @@ def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value
     found = converted(value.expression, value.type, to, place)
     if found is not None:
         return Value(found, to, value.is_lvalue and found is value.expression)
-    if isinstance(to, t.Record | t.FunctionType | t.RosHandle | t.RosMessage) or _of_library(
-        value.type
+    if isinstance(to, t.Record | t.FunctionType | t.RosHandle | t.RosMessage) or isinstance(
+        value.type, t.Record | t.RosMessage | t.RosHandle
     ):
         made_value = e.Convert(Conversion.CAST, as_value(context, value, place), to, True, place)
         return Value(made_value, to)
@@ -216,9 +214,7 @@ def _tuple_value(context: Context, type_: t.Record, place: Span) -> e.Expression
     return e.BuildRecord(type_, tuple(fields), place)
 
 
-def default_constructed(
-    context: Context, target: e.Lvalue, type_: t.Type, place: Span, is_local: bool = False
-) -> None:
+def default_constructed(context: Context, target: e.Lvalue, type_: t.Type, place: Span) -> None:
     """`T x;` ([dcl.init] default-initialisation): numbers and pointers hold nothing yet."""
     owner = class_of(context, type_)
     if owner is not None:
@@ -244,11 +240,6 @@ def default_constructed(
         context.emit(s.Assign(target, value, place))
     elif isinstance(type_, t.Record | t.RosMessage):
         context.emit(s.Call(target, s.LibraryCallee(type_.name), (), place))
-
-
-def constructor_name(context: Context, owner: ClassSymbol) -> str | None:
-    """The implicit default constructor, if it runs anything."""
-    return implicit_constructor(owner) if needs_constructor(context.world, owner) else None
 
 
 def assigned_memberwise(

@@ -89,7 +89,7 @@ class TypeReader:
 
     def declared(self, cpp: Cpp, scope: str, type_: Node, declarator: Node | None) -> Declared:
         """The type of what a declarator declares; `const` stands beside the type."""
-        is_constant = _is_constant(type_, declarator)
+        is_constant = _is_constant(type_)
         type_read = self.of(cpp, scope, type_)
         return self._wrapped(cpp, scope, type_read, declarator, is_constant)
 
@@ -230,16 +230,14 @@ class TypeReader:
                 return t.UNKNOWN
             last = inner
         if last.type != "template_type":
-            return self._member_of_template(cpp, scope, template, path, text_of(last))
+            return self._member_of_template(template, path, text_of(last))
         name, arguments = last.child_by_field_name("name"), last.child_by_field_name("arguments")
         if name is None or arguments is None:
             return t.UNKNOWN
         full = self.imported(cpp, "::".join([*filter(None, path), text_of(name)]))
         return self._template(cpp, scope, full, named(arguments))
 
-    def _member_of_template(
-        self, cpp: Cpp, scope: str, template: Node | None, path: list[str], last: str
-    ) -> t.Type:
+    def _member_of_template(self, template: Node | None, path: list[str], last: str) -> t.Type:
         if template is None or last not in _POINTER_ALIASES:
             return t.UNKNOWN
         name = template.child_by_field_name("name")
@@ -335,7 +333,7 @@ def _kind_of(is_double: bool, is_constant: bool) -> ReferenceKind:
     return ReferenceKind.CONSTANT if is_constant else ReferenceKind.LVALUE
 
 
-def _is_constant(type_: Node, declarator: Node | None) -> bool:
+def _is_constant(type_: Node) -> bool:
     """Whether `const` stands beside the type, within the same declaration."""
     parent = type_.parent
     return parent is not None and any(

@@ -11,7 +11,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir.python.context import MAPPING, Lowering, NoLowering, Operand
 from rebsync.reverse.ir.python.references import attribute, element
 from rebsync.reverse.ir.python.symbols import ScopeKind, Symbols
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _SUPER = "builtins.super"
 

@@ -11,7 +11,7 @@ from rebsync.reverse.ir.operators import ImplicitCall, Operator
 from rebsync.reverse.ir.program import Class, Field, Property
 from rebsync.reverse.ir.python.names import NameLookup
 from rebsync.reverse.ir.python.symbols import Binder, ScopeKind, Symbols
-from rebsync.reverse.python.py_tree import decorators_of, field, named, text_of
+from rebsync.reverse.syntax.py_tree import decorators_of, field, named, text_of
 from rebsync.source import NOWHERE
 
 _ARITHMETIC = {

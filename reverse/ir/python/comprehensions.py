@@ -12,7 +12,7 @@ from rebsync.reverse.ir.python.context import MAPPING, SEQUENCE, SET, Lowering, 
 from rebsync.reverse.ir.python.functions import captures_of
 from rebsync.reverse.ir.python.loops import for_each
 from rebsync.reverse.ir.python.results import has_truth
-from rebsync.reverse.python.py_tree import field, named
+from rebsync.reverse.syntax.py_tree import field, named
 
 FIRST = ".0"  # the parameter of a generator expression: what its first loop iterates
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from tree_sitter import Node
 
@@ -12,14 +12,12 @@ from rebsync.records import dataclass
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.python.names import NameLookup
 from rebsync.reverse.ir.python.results import OPERATORS, type_of
 from rebsync.reverse.ir.python.symbols import Binder, Symbols
 from rebsync.reverse.ir.types import TEXT, UNKNOWN, Container, ContainerKind, Type
-from rebsync.reverse.python.py_tree import Py, field, named, text_of
+from rebsync.reverse.syntax.py_tree import Py, field, named, text_of
 from rebsync.source import Span
-
-if TYPE_CHECKING:
-    from rebsync.reverse.ir.python.names import NameLookup
 
 _STABLE = (
     *(e.Literal, e.Temporary, e.ClassReference, e.ModuleReference, e.LibraryReference),

@@ -10,7 +10,7 @@ from rebsync.reverse.ir.python.context import Lowering, NoLowering
 from rebsync.reverse.ir.python.references import name_target
 from rebsync.reverse.ir.python.results import has_truth
 from rebsync.reverse.ir.python.targets import assign
-from rebsync.reverse.python.py_tree import field, named
+from rebsync.reverse.syntax.py_tree import field, named
 
 
 def branch(ctx: Lowering, node: Node) -> None:

@@ -30,7 +30,7 @@ from rebsync.reverse.ir.types import (
     is_plain,
 )
 from rebsync.reverse.ir.walk import walk
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _COMPARED = {
     "==": Operator.EQUAL,

@@ -12,8 +12,8 @@ from rebsync.reverse.ir.python.names import free_variables
 from rebsync.reverse.ir.python.references import name_target
 from rebsync.reverse.ir.python.symbols import Symbols
 from rebsync.reverse.ir.types import UNKNOWN, Container, ContainerKind, Type
-from rebsync.reverse.python.py_tree import field, named, text_of
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 
 def closure_of(ctx: Lowering, node: Node) -> e.Expression:

@@ -13,7 +13,7 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir.python.context import Lowering, NoLowering
 from rebsync.reverse.ir.types import DOUBLE, NOTHING, TEXT, TRUTH, UNBOUNDED, UNKNOWN, Text, Type
-from rebsync.reverse.python.py_tree import string_parts, text_of
+from rebsync.reverse.syntax.py_tree import string_parts, text_of
 
 _OCTAL_OF_OLD = re.compile(r"0[0-7]+")
 _CONSTANTS: dict[str, tuple[bool | None, Type]] = {

@@ -12,7 +12,7 @@ from rebsync.reverse.ir.python.context import Lowering
 from rebsync.reverse.ir.python.references import name_target
 from rebsync.reverse.ir.python.results import has_truth
 from rebsync.reverse.ir.python.targets import assign
-from rebsync.reverse.python.py_tree import field, named
+from rebsync.reverse.syntax.py_tree import field, named
 
 
 def while_(ctx: Lowering, node: Node) -> None:

@@ -19,8 +19,8 @@ from rebsync.reverse.ir.python.names import NameLookup, captured_locals
 from rebsync.reverse.ir.python.references import unsupported
 from rebsync.reverse.ir.python.statements import lower_statement
 from rebsync.reverse.ir.python.symbols import Binder, ScopeKind, Symbols
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import decorators_of, field, named
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import decorators_of, field, named
 
 
 def python_program(code: PyCode) -> Program:

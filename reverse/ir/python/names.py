@@ -12,9 +12,8 @@ from rebsync.records import dataclass
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir.python.symbols import Binder, ScopeKind, Symbols
 from rebsync.reverse.ir.types import UNKNOWN, FunctionType, Type
-from rebsync.reverse.python.py_imports import module_named, module_of
-from rebsync.reverse.python.py_index import CLASS, FUNCTION, PyCode
-from rebsync.reverse.python.py_tree import field, text_of
+from rebsync.reverse.syntax.py_index import CLASS, FUNCTION, PyCode, module_named, module_of
+from rebsync.reverse.syntax.py_tree import field, text_of
 from rebsync.source import Span
 
 _OLD = {"raw_input", "unicode", "xrange", "long", "basestring", "reduce", "unichr", "execfile"}

@@ -14,7 +14,7 @@ from rebsync.reverse.ir.python.context import Lowering, NoLowering
 from rebsync.reverse.ir.python.references import attribute, name_target
 from rebsync.reverse.ir.python.results import has_truth, result_of, type_of
 from rebsync.reverse.ir.types import TRUTH
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _BY_IDENTITY = frozenset({"true", "false", "none"})
 _VALUES = frozenset({"integer", "float", "string", "concatenated_string"})

@@ -9,7 +9,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.python.context import Lowering, Operand
 from rebsync.reverse.ir.python.names import lookup, module_scope, variable
 from rebsync.reverse.ir.python.symbols import ScopeKind, Symbols
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 
 def attribute(ctx: Lowering, target: e.Expression, name: str, node: Node) -> e.Expression:

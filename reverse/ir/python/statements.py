@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -15,8 +16,8 @@ from rebsync.reverse.ir.python.references import name_target, unsupported
 from rebsync.reverse.ir.python.results import has_truth
 from rebsync.reverse.ir.python.symbols import ScopeKind, imported_name
 from rebsync.reverse.ir.python.targets import assign_all, augment, delete
-from rebsync.reverse.python.py_imports import module_of
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_index import module_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _SILENT = frozenset(
     {"pass_statement", "global_statement", "nonlocal_statement", "future_import_statement"}
@@ -77,19 +78,9 @@ def _evaluate(ctx: Lowering, node: Node) -> None:
     value = ctx.value(node)
     last = ctx.out[-1] if ctx.out else None
     if isinstance(last, s.Call | s.Await | s.Yield) and last.target == value:
-        ctx.out[-1] = _without_target(last)
+        ctx.out[-1] = replace(last, target=None)
     elif not isinstance(value, e.Temporary | e.Literal):
         ctx.emit(s.Evaluate(value, ctx.place(node)))
-
-
-def _without_target(statement: s.Call | s.Await | s.Yield) -> s.Statement:
-    match statement:
-        case s.Call(_, callee, arguments):
-            return s.Call(None, callee, arguments, statement.place)
-        case s.Await(_, value):
-            return s.Await(None, value, statement.place)
-        case s.Yield(_, value, delegates):
-            return s.Yield(None, value, delegates, statement.place)
 
 
 def _assignment(ctx: Lowering, node: Node) -> None:
@@ -126,17 +117,7 @@ def _store_directly(ctx: Lowering, mark: int) -> None:
         return
     is_variable = isinstance(store.target, e.Local | e.Global | e.Captured)
     if is_variable and call.target is not None and call.target == store.value:
-        ctx.out[-2:] = [_with_target(call, store.target)]
-
-
-def _with_target(statement: s.Call | s.Await | s.Yield, target: e.Lvalue) -> s.Statement:
-    match statement:
-        case s.Call(_, callee, arguments):
-            return s.Call(target, callee, arguments, statement.place)
-        case s.Await(_, value):
-            return s.Await(target, value, statement.place)
-        case s.Yield(_, value, delegates):
-            return s.Yield(target, value, delegates, statement.place)
+        ctx.out[-2:] = [replace(call, target=store.target)]
 
 
 def _return(ctx: Lowering, node: Node) -> None:

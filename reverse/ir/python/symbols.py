@@ -13,7 +13,7 @@ from enum import Enum
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.python.py_tree import Py, field, named, text_of
+from rebsync.reverse.syntax.py_tree import Py, field, named, text_of
 
 
 class ScopeKind(Enum):

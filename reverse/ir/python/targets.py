@@ -11,7 +11,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.python.context import Lowering, NoLowering
 from rebsync.reverse.ir.python.references import name_target, unsupported_value
 from rebsync.reverse.ir.python.results import result_of, type_of
-from rebsync.reverse.python.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _PATTERNS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "tuple", "list"})
 _GROUPS = frozenset({"parenthesized_expression", "as_pattern_target", "expression_list"})

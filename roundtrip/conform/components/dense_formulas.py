@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from math import inf
 
-from rebsync.checker.formulas import And, Atom, Bound, Formula, Not, Or, Temporal, Timed
+from rebsync.checker.formulas import And, Atom, Bound, Formula, Not, Or, Temporal, Timed, parts
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.components.signals import Signal
 
@@ -82,18 +82,18 @@ def _window(bound: Bound | None, unit: float, stricter: float) -> tuple[float, f
 
 def is_dense(formula: Formula) -> bool:
     """Whether it can be evaluated here."""
+    return all(map(_is_evaluated, parts(formula)))
+
+
+def _is_evaluated(formula: Formula) -> bool:
     match formula:
-        case Atom():
-            return True
-        case Not(operand):
-            return is_dense(operand)
-        case And(left, right) | Or(left, right):
-            return is_dense(left) and is_dense(right)
-        case Temporal(operator, operands):
-            return operator != "X" and all(map(is_dense, operands))
-        case Timed(operator, bound, operands):
+        case Temporal(operator):
+            return operator != "X"
+        case Timed(operator, bound):
             later = bound is not None and bound[0] in (">", ">=", "==")
-            return not (later and operator[1] == "U") and all(map(is_dense, operands))
+            return not (later and operator[1] == "U")
+        case _:
+            return True
 
 
 def says_always(formula: Formula) -> bool:
@@ -128,15 +128,7 @@ def conditions_of(formula: Formula) -> Iterator[Formula]:
 
 
 def _is_condition(formula: Formula) -> bool:
-    match formula:
-        case Atom():
-            return True
-        case Not(operand):
-            return _is_condition(operand)
-        case And(left, right) | Or(left, right):
-            return _is_condition(left) and _is_condition(right)
-        case _:
-            return False
+    return not any(isinstance(f, Temporal | Timed) for f in parts(formula))
 
 
 def is_true(condition: Formula, truth: Mapping[int, bool]) -> bool:

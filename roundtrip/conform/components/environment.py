@@ -20,8 +20,8 @@ from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.files.reading import Chosen
 from rebsync.reverse.graph import Graph, PublisherFact, SubscriptionFact
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.recovery import Extracted, extract
-from rebsync.reverse.texts import TEXT
 from rebsync.roundtrip.conform.bags import OwnTypes
 from rebsync.source import Source
 

@@ -10,7 +10,7 @@ from rebsync import model as m
 from rebsync.checker.program import Cell, Kind, Program
 from rebsync.checker.values import cell_of, real
 from rebsync.records import dataclass
-from rebsync.reverse.texts import OTHER
+from rebsync.reverse.models.texts import OTHER
 from rebsync.roundtrip.conform.components.environment import CLASS, Link
 from rebsync.roundtrip.conform.observable import is_close
 

@@ -11,7 +11,9 @@ from rebsync import model as m
 from rebsync.precedence import LOWEST, binding
 from rebsync.printing import print_expression, print_statement
 from rebsync.records import dataclass
+from rebsync.reverse.models.building import bare
 from rebsync.roundtrip.diff.alignment import aligned, overlap
+from rebsync.roundtrip.diff.bodies.similarity import head_of
 from rebsync.roundtrip.diff.normal_form import joined_starts, with_starts
 from rebsync.roundtrip.diff.tokens import Tokens
 from rebsync.roundtrip.merge.patch.text import TextPatch, dedented
@@ -213,9 +215,9 @@ class BodyPatch:
         if self.same(x, r):
             return True
         if isinstance(x, m.Paren):
-            return self.expression(x.inner, _bare(r))
+            return self.expression(x.inner, bare(r))
         mark = len(self.out.edits)
-        inner = _bare(r)
+        inner = bare(r)
         if type(x) is type(inner) and self._parts(x, inner):
             return True
         self.out.take_back(mark)
@@ -296,12 +298,6 @@ def _only(block: m.Statement) -> m.Statement:
     return block.statements[-1] if isinstance(block, m.Block) else block
 
 
-def _bare(expression: m.Expression) -> m.Expression:
-    while isinstance(expression, m.Paren):
-        expression = expression.inner
-    return expression
-
-
 _Pair = tuple["m.Statement | None", "m.Statement | None"]
 
 
@@ -323,22 +319,10 @@ def _runs(pairs: Sequence[_Pair]) -> Iterator[Sequence[_Pair]]:
 def _similarity(x: m.Statement, r: m.Statement) -> float:
     if type(x) is not type(r):
         return 0.0
-    heads = [_words(_head(s)) for s in (x, r)]
+    heads = [_words(head_of(s)) for s in (x, r)]
     inside = overlap(_words(x), _words(r))
     return max(inside, 0.95 * overlap(*heads)) if isinstance(x, _STATEMENTS) else inside
 
 
 def _words(statement: m.Statement) -> Counter[str]:
     return Counter(_WORD.findall(print_statement(statement)))
-
-
-def _head(statement: m.Statement) -> m.Statement:
-    match statement:
-        case m.If(condition) | m.While(condition):
-            return m.While(condition, m.Block(()))
-        case m.For(initial, condition, updates):
-            return m.For(initial, condition, updates, m.Block(()))
-        case m.Switch(subject):
-            return m.Switch(subject, ())
-        case _:
-            return statement

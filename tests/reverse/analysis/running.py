@@ -7,7 +7,7 @@ from contextlib import suppress
 from random import Random
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import bare
+from rebsync.reverse.models.building import bare
 from tests.reverse.analysis.drawing import BITS, LENGTH, type_of
 
 _INT = 31

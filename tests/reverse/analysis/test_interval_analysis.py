@@ -19,7 +19,7 @@ from rebsync.printing import print_expression, print_statement
 from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
 from rebsync.reverse.analysis.invariants import Body, BodyStart, unbounded
 from rebsync.reverse.analysis.needs import Need
-from rebsync.reverse.bodies.rewriting import rewritten
+from rebsync.reverse.models.rewriting import rewritten
 from tests.reverse.analysis.drawing import BITS, LENGTH, STATE, bodies, type_of, widths
 from tests.reverse.analysis.running import Run, Stop, bits_of, is_int
 

@@ -14,10 +14,10 @@ from rebsync.reverse.ir.cpp.lowering import program_of
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import parse as parse_python
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse as parse_cpp
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import parse as parse_python
 from rebsync.source import Source
 
 if sys.version_info >= (3, 11):

@@ -23,9 +23,9 @@ from rebsync.reverse.bodies.scope import (
     Variable,
 )
 from rebsync.reverse.findings import Findings
+from rebsync.reverse.models.texts import enumerated
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, parse, text_of
-from rebsync.reverse.texts import enumerated
 from rebsync.source import Source
 from rebsync.static import analyse
 from rebsync.static.types import BOOLEAN, DOUBLE, INT

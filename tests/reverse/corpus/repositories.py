@@ -15,10 +15,10 @@ from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.files.reading import Chosen, packages
 from rebsync.reverse.graph_json import graph_data
 from rebsync.reverse.python.py_calls import graph_of as python_graph
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import parse as parse_python
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import parse as parse_python
 from tests.reverse.corpus.compare import Comparison, answers_of, compare
 from tests.reverse.corpus.packages import PACKAGES, PYTHON, ROS2, facts_of
 from tests.reverse.corpus.values import Json

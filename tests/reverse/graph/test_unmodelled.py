@@ -9,12 +9,12 @@ import pytest
 
 from rebsync.reverse.calls.ros_calls import graph_of
 from rebsync.reverse.graph import Graph, UnmodelledFact
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import parse as parse_python
 from rebsync.reverse.python.py_unmodelled import whole_graph
 from rebsync.reverse.python.py_values import PyValues
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import parse as parse_python
 from rebsync.source import Source
 
 CASES = sorted((Path(__file__).parent / "unmodelled_cases").iterdir())

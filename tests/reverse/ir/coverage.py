@@ -9,8 +9,8 @@ from pathlib import Path
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.ir.walk import statements
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import parse
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import parse
 from rebsync.source import Source
 
 

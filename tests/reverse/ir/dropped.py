@@ -24,9 +24,9 @@ from rebsync.reverse.ir.program import Class, Program
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.routines import Language
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import parse
 from rebsync.reverse.recovery import Extracted, extract
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import parse
 from rebsync.source import Source
 from tests.reverse.ir.tracing import KEEPING, Reach
 

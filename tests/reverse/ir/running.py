@@ -11,8 +11,8 @@ from typing import Any
 
 from rebsync.reverse.ir.program import Program
 from rebsync.reverse.ir.python.lowering import python_program
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import parse
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import parse
 from rebsync.source import Source
 from tests.reverse.ir.interpreter import Interpreter
 

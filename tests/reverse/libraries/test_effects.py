@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rebsync.reverse.libraries.effects import UNKNOWN, of_function, of_method
+from rebsync.reverse.libraries.effects import UNKNOWN, of_function
 from rebsync.reverse.libraries.routines import Effect, Language
 
 CPP, PYTHON = Language.CPP, Language.PYTHON
@@ -24,7 +24,6 @@ def test_what_only_gives_its_result_is_pure(language: Language, name: str) -> No
     found = of_function(language, name)
     assert found.is_pure
     assert found.writes == frozenset()
-    assert not found.blocks
 
 
 @pytest.mark.parametrize(
@@ -44,43 +43,19 @@ def test_what_only_gives_its_result_is_pure(language: Language, name: str) -> No
         (PYTHON, "somebody.does", Effect.UNKNOWN),
     ],
 )
-def test_what_takes_time_or_is_not_known_blocks(
+def test_what_takes_time_or_is_not_known_is_not_pure(
     language: Language, name: str, effect: Effect
 ) -> None:
     found = of_function(language, name)
     assert found.effect is effect
-    assert found.blocks
     assert not found.is_pure
 
 
-def test_methods_are_known_by_the_class_of_their_object() -> None:
-    assert of_method(CPP, "ros::Publisher", "publish").effect is Effect.SENDS
-    assert of_method(PYTHON, "rclpy.publisher.Publisher", "publish").effect is Effect.SENDS
-    assert of_method(CPP, "ros::Rate", "sleep").blocks
-    assert of_method(CPP, "rclcpp::Node", "create_subscription").effect is Effect.ASKS
-    assert of_method(CPP, "rclcpp::Node", "now").is_pure
-    assert of_method(CPP, "rclcpp_lifecycle::LifecycleNode", "now").is_pure
-    assert of_method(PYTHON, "rclpy.lifecycle.Node", "create_timer").callbacks == (1,)
-    assert of_method(CPP, "somebody::Node", "now") == UNKNOWN
-    assert of_method(PYTHON, "somebody.Rate", "sleep") == UNKNOWN
-
-
 def test_it_is_known_what_is_written() -> None:
-    read = of_method(CPP, "ros::NodeHandle", "getParam")
-    assert (read.effect, read.writes, read.is_pure) == (Effect.READS, frozenset({1}), False)
-    assert read.may_write(1)
-    assert not read.may_write(-1)
-    for of in ("std::vector", "std::deque"):
-        assert of_method(CPP, of, "push_back").writes == frozenset({-1})
-        assert of_method(CPP, of, "count").is_pure
-    assert of_method(PYTHON, "builtins.list", "append").writes == frozenset({-1})
-    assert of_function(CPP, "close").may_write(0)
-    assert UNKNOWN.may_write(-1)
+    assert of_function(CPP, "close").writes is None
+    assert UNKNOWN.writes is None
 
 
-def test_what_is_called_back_comes_on_top() -> None:
-    assert of_method(CPP, "ros::NodeHandle", "createTimer").callbacks == (1,)
-    assert of_function(PYTHON, "builtins.map").callbacks == (0,)
+def test_what_calls_its_arguments_is_not_pure() -> None:
     assert not of_function(PYTHON, "builtins.map").is_pure
-    assert of_function(PYTHON, "builtins.max").called == {"key"}
-    assert of_method(CPP, "Mailbox", "post").callbacks == (3,)
+    assert not of_function(PYTHON, "builtins.max").is_pure

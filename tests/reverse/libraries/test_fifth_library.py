@@ -14,7 +14,7 @@ import pytest
 from rebsync.printing import print_model
 from rebsync.reverse.files.reading import chosen
 from rebsync.reverse.libraries import registry, tables
-from rebsync.reverse.libraries.effects import of_function, of_method
+from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.registry import beside
 from rebsync.reverse.libraries.routines import Effect, Language
 from rebsync.reverse.recovery import Extracted, extract
@@ -78,6 +78,5 @@ def test_the_table_is_short_and_says_what_calls_do() -> None:
     with beside(*mesh.LIBRARIES):
         for language, pause in ((Language.CPP, "mesh::pause"), (Language.PYTHON, "mesh.pause")):
             assert of_function(language, pause).effect is Effect.TIME
-        assert of_method(Language.CPP, "mesh::Publisher", "put").effect is Effect.SENDS
         assert of_function(Language.PYTHON, "mesh.time").is_pure
     assert of_function(Language.CPP, "mesh::pause").effect is Effect.UNKNOWN

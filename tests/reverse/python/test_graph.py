@@ -8,9 +8,9 @@ import pytest
 
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.python.py_calls import graph_of
-from rebsync.reverse.python.py_index import PyCode
-from rebsync.reverse.python.py_tree import parse, unparsed
 from rebsync.reverse.python.recovery import PythonCode, read_python
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import parse, unparsed
 from rebsync.source import Source
 from tests.reverse.graph.notation import noted
 

@@ -66,6 +66,11 @@ def bare(expression: m.Expression) -> m.Expression:
     return expression
 
 
+def number_literal(value: int) -> m.Expression:
+    """A whole number as an expression."""
+    return m.IntLiteral(value) if value >= 0 else m.Unary("-", m.IntLiteral(-value))
+
+
 def located(expression: m.Expression, span: Span) -> m.Expression:
     """The expression with its place in the code, if it has none yet."""
     if isinstance(expression, m.Paren):

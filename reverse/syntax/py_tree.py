@@ -18,9 +18,12 @@ from rebsync.records import dataclass
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.syntax.cpp_tree import Cpp, byte_places
 from rebsync.reverse.syntax.cpp_words import Plain
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.unparsed import NO_PYTHON
 from rebsync.source import Source
 
+# What has names of its own within a module.
+SCOPES = frozenset({"function_definition", "lambda", "class_definition"})
 _HINT = "mend the syntax, so that the whole file can be read"
 _SHOWN = 3  # places that are listed for one file; a text that is no Python has very many
 _ESCAPE = re.compile(r"\\(\r?\n|x[0-9a-fA-F]{2}|u[0-9a-fA-F]{4}|[0-7]{1,3}|.)", re.DOTALL)
@@ -171,15 +174,6 @@ def whole_number_of(node: Node) -> int | None:
     """The whole number that a literal says; None where it is no such literal, or imaginary."""
     number = number_of(node) if node.type == "integer" else None
     return number if isinstance(number, int) else None
-
-
-def nodes_in(node: Node) -> Iterator[Node]:
-    """A node and all that are in it, in the order of the text."""
-    waiting = [node]
-    while waiting:
-        current = waiting.pop()
-        yield current
-        waiting += reversed(current.named_children)
 
 
 def decorating(definition: Node) -> list[Node]:

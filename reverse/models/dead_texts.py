@@ -10,9 +10,9 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from rebsync import model as m
-from rebsync.reverse.bodies.building import is_calm
-from rebsync.reverse.bodies.rewriting import STATEMENTS, rewritten
-from rebsync.reverse.texts import TEXT
+from rebsync.reverse.models.building import is_calm
+from rebsync.reverse.models.rewriting import STATEMENTS, rewritten
+from rebsync.reverse.models.texts import TEXT
 
 _GONE = m.Block(())  # in the place of a statement, until it is taken out of its block
 _Nodes = tuple[list[m.ReactiveClass], list[m.Rebec]]

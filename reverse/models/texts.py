@@ -14,8 +14,8 @@ from typing import TypeVar
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.building import bare, binary
-from rebsync.reverse.bodies.rewriting import rewritten
+from rebsync.reverse.models.building import bare, binary
+from rebsync.reverse.models.rewriting import rewritten
 from rebsync.source import NOWHERE, Span
 from rebsync.static.types import INT
 

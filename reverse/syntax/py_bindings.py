@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.python.py_tree import field, named, text_of
-from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.ancestors import ancestors, holds
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 # What is in these may run or not; `with` always runs what is in it.
 _BRANCHES = frozenset(
@@ -108,7 +108,7 @@ def reaching(bindings: Sequence[Binding], use: Node) -> list[Binding]:
     before = [b for b in bindings if _is_before(b, use)]
     for binding in reversed(before):
         branch = _branch(binding.node)
-        if branch is None or _holds(branch, use):
+        if branch is None or holds(branch, use):
             found.append(binding)
             break
         if not _leaves(branch):
@@ -124,11 +124,11 @@ def _is_before(binding: Binding, use: Node) -> bool:
     if binding.how == "parameter":
         return True
     if binding.how == "loop":
-        return binding.node.start_byte <= use.start_byte and not _holds(binding.value, use)
+        return binding.node.start_byte <= use.start_byte and not holds(binding.value, use)
     return binding.node.end_byte <= use.start_byte or (
         binding.node.type == "for_in_clause"
         and binding.node.parent is not None
-        and _holds(binding.node.parent, use)
+        and holds(binding.node.parent, use)
     )
 
 
@@ -152,10 +152,6 @@ def _branch(node: Node) -> Node | None:
             return inner if by_blocks else above
         inner, above = above, above.parent
     return None
-
-
-def _holds(outer: Node, inner: Node) -> bool:
-    return outer.start_byte <= inner.start_byte and inner.end_byte <= outer.end_byte
 
 
 def _leaves(branch: Node) -> bool:
@@ -183,4 +179,4 @@ def _all_ways(branch: Node, seen: set[int]) -> bool:
 
 def _in_a_loop_with(binding: Binding, use: Node) -> bool:
     around = ancestors(binding.node, lambda n: n.type in _SCOPES)
-    return any(n.type in _LOOPS and _holds(n, use) for n in around)
+    return any(n.type in _LOOPS and holds(n, use) for n in around)

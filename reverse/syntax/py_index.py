@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import field as with_default
+from pathlib import PurePosixPath
 
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.python.py_bindings import BINDING, Binding, bindings_of
-from rebsync.reverse.python.py_tree import Py, decorators_of, field, named, text_of
+from rebsync.reverse.syntax.py_bindings import BINDING, Binding, bindings_of
+from rebsync.reverse.syntax.py_tree import Py, decorators_of, field, named, text_of
 
 MODULE, CLASS, FUNCTION, LAMBDA = "module", "class", "function", "lambda"
 
@@ -268,3 +269,43 @@ def has_splat(call: Node) -> bool:
 def classes_in(code: PyCode) -> Iterator[Scope]:
     """All classes, in the order of the text."""
     return (s for s in code.scopes.values() if s.kind == CLASS)
+
+
+# --- modules ------------------------------------------------------------------------------------
+
+
+def module_of(node: Node) -> str:
+    """The module that names are imported from, with its dots."""
+    return text_of(field(node, "module_name")).replace(" ", "")
+
+
+def module_named(code: PyCode, dotted: str, of: Scope) -> Scope | None:
+    """The file that a module's name stands for, seen from another file."""
+    key = dotted, of.py.source.path
+    if key not in code.found:
+        code.found[key] = _module_named(code, dotted, of)
+    return code.found[key]
+
+
+def _module_named(code: PyCode, dotted: str, of: Scope) -> Scope | None:
+    here = PurePosixPath(of.py.source.path).parent
+    if dotted.startswith("."):
+        rest = dotted.lstrip(".")
+        for _ in range(len(dotted) - len(rest) - 1):
+            here = here.parent
+        base = here.joinpath(*rest.split(".")) if rest else here
+        return next((code.modules[p] for p in _files(base) if p in code.modules), None)
+    parts = dotted.split(".")
+    for path in _files(here.joinpath(*parts)):
+        if path in code.modules:
+            return code.modules[path]
+    if len(parts) == 1:
+        return None
+    tails = tuple(_files(PurePosixPath("/").joinpath(*parts)))
+    found = [m for p, m in code.modules.items() if f"/{p}".endswith(tails)]
+    return found[0] if len(found) == 1 else None
+
+
+def _files(base: PurePosixPath) -> Iterator[str]:
+    yield f"{base}.py"
+    yield f"{base}/__init__.py"

@@ -1,0 +1,51 @@
+"""Handlers of exceptions: what they are for of what a block raises."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache, partial
+
+from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin
+from rebsync.reverse.analysis.problems import TERMINATES, Called, Problem, ProblemNotes
+from rebsync.reverse.ir import statements as s
+
+
+class Handlers:
+    """The handlers of one function."""
+
+    def __init__(self, notes: ProblemNotes) -> None:
+        self._notes = notes
+
+    def split(
+        self, raised: set[Problem | Called], handler: s.Handler
+    ) -> tuple[set[Problem | Called], set[Problem | Called]]:
+        """What a handler is for of what a block raises, and what it lets through."""
+        catches = cache(partial(self._catches, handler))
+        passes = cache(lambda problem: not catches(problem))
+        caught, passed = set[Problem | Called](), set[Problem | Called]()
+        for each in raised:
+            match each:
+                case Called(name, tests):
+                    caught.add(Called(name, (*tests, catches)))
+                    passed.add(Called(name, (*tests, passes)))
+                case Problem():
+                    (caught if catches(each) else passed).add(each)
+        return caught, passed
+
+    def _catches(self, handler: s.Handler, problem: Problem) -> bool:
+        """Whether a handler is for what a place raises."""
+        if problem.raises in ("", TERMINATES):
+            return False
+        if handler.types is None:
+            return True
+        names = self._above(problem.raises)
+        origins = (self._notes.origins.of(t, self._notes.function.name) for t in handler.types)
+        types = {
+            o.name for held in origins for o in held if isinstance(o, ClassOrigin | LibraryOrigin)
+        }
+        return not types.isdisjoint(names)
+
+    def _above(self, name: str) -> Iterable[str]:
+        """An exception and all classes that it extends."""
+        bases = [name, *self._notes.origins.graph.bases(name)]
+        return [above for base in bases for above in self._notes.table.are_above(base)]

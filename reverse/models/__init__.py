@@ -1,0 +1,1 @@
+"""Pieces of models, whatever they are read from."""
