@@ -10,6 +10,7 @@ from rebsync.reverse.syntax.code_units import CodeUnit
 from rebsync.roundtrip.merge.text import (
     MergedText,
     agreed_lines,
+    both_sides,
     decided,
     merged_text,
     split_comment,
@@ -29,7 +30,8 @@ def merged_source(
     """Both changes of a file, `texts` being ours, the base and theirs; favours as in `merged_text`.
 
     Code that is merged line by line without a conflict stays so, unless it does not parse then or
-    declares twice what neither side does.
+    says twice what neither side does: a statement that each side has moved elsewhere. What cannot
+    be merged by its units either has both sides wherever they differ.
     """
     merged = _merged(path, texts, labels)
     if not merged.conflicts or favour == "markers":
@@ -43,7 +45,7 @@ def _merged(path: str, texts: tuple[str, str, str], labels: tuple[str, str]) -> 
     sides = _sides(texts, reader) if reader is not None else None
     if reader is None or sides is None:
         return by_lines
-    if not by_lines.conflicts and _is_whole(reader(by_lines.text), sides):
+    if not by_lines.conflicts and _is_sound(by_lines, sides, labels, reader):
         return by_lines
     from rebsync.roundtrip.merge.units import merged_unit
 
@@ -51,7 +53,12 @@ def _merged(path: str, texts: tuple[str, str, str], labels: tuple[str, str]) -> 
     agreed = [agreed_lines(merged, labels) for merged in (by_units, by_lines)]
     if by_units.conflicts and by_lines.conflicts and agreed[0] <= agreed[1]:
         return by_lines
-    return by_units if _is_sound(by_units, sides, labels, reader) else by_lines
+    if _is_sound(by_units, sides, labels, reader):
+        return by_units
+    if by_lines.conflicts:
+        return by_lines
+    both = both_sides(texts[0], texts[2], *labels)
+    return MergedText(both, both.count(f"<<<<<<< {labels[0]}\n"))
 
 
 def _sides(texts: tuple[str, str, str], reader: _Reader) -> _Sides | None:
