@@ -220,6 +220,10 @@ def tested(facts: Facts, test: e.Expression, is_true: bool) -> Facts:
             return facts
         case e.Binary(operator, left, right) if operator in _OPPOSITE:
             return _compared(facts, operator if is_true else _OPPOSITE[operator], left, right)
+        case e.Temporary():  # of `a and f()`, which asks `a` first
+            for other in names_of(facts, test) - {test}:
+                facts = tested(facts, other, is_true)
+            return _held(facts, test, is_true)
         case _:
             return _held(facts, test, is_true)
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cached_property
+from weakref import WeakMethod
 
 from tree_sitter import Node
 
@@ -74,7 +75,7 @@ class UnwrittenCalls:
         self._calls = calls
         self._parts = parts
         self._open: Undefined = parts.open
-        self._of_class = of_class
+        self._of_class = WeakMethod(of_class)  # of the object that has this one
 
     def of(self, cpp: Cpp, node: Node) -> str | None:
         """Why an expression may: as it makes an object, or as its value is converted."""
@@ -199,7 +200,9 @@ class UnwrittenCalls:
         if owner is None or self._stays(cpp, node, owner):
             return None
         own = {f.name for c in self._texts.lineage(owner) for f in c.functions}
-        found = (self._of_class(owner, name) for name in sorted(self._conversions & own))
+        of_class = self._of_class()
+        assert of_class is not None, "who has made this asks"
+        found = (of_class(owner, name) for name in sorted(self._conversions & own))
         return next((why for why in found if why is not None), None)
 
     def _stays(self, cpp: Cpp, node: Node, owner: CppClass) -> bool:
