@@ -6,10 +6,13 @@ from collections import Counter
 from dataclasses import field
 from enum import Enum
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
-from rebsync.model import Expression
 from rebsync.records import dataclass
 from rebsync.source import Source, Span
+
+if TYPE_CHECKING:  # a check that finds nothing changed loads this, and no models
+    from rebsync.model import Expression
 
 IN_THREADS = "in threads of their own"  # callbacks, in a finding: the model has fewer runs
 NOT_SENT = "it is not sent in the model"  # a topic, in a finding: nobody gets what is published
