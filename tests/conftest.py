@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import signal
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -27,10 +28,12 @@ _LONG = (
 
 
 def pytest_configure() -> None:
-    """Has signals end what they end at a terminal.
+    """A shell's `&` starts tests that ignore some signals."""
+    heed_signals()
 
-    A shell's `&` starts tests that ignore some, and so would each process that a test starts.
-    """
+
+def heed_signals() -> None:
+    """Has signals end what they end at a terminal; a process ignores what the one above it does."""
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
@@ -60,6 +63,14 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
         terminalreporter.section("fidelity of recorded runs")
         for line in summary_lines(list(runs)):
             terminalreporter.write_line(line)
+
+
+@pytest.fixture(autouse=True)
+def signals_heeded() -> Iterator[None]:
+    """A node that was played here ignores signals at its end; what comes next heeds them again."""
+    heed_signals()
+    yield
+    heed_signals()
 
 
 @pytest.fixture(autouse=True)
