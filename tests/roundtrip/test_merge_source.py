@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from collections import Counter
+from itertools import permutations, product
 from pathlib import Path
 
 import pytest
@@ -66,6 +67,21 @@ def test_merges(language: str, name: str, end: str) -> None:
 def test_what_nests_deep_is_merged_line_by_line(path: str, text: str) -> None:
     texts = (f"a = 1;\n{text}", f"\n{text}", f"a = 2;\n{text}")
     assert merged_source(path, texts, LABELS) == merged_text(*texts, LABELS)
+
+
+_ORDERED = {
+    "python": "class C:\n    def run(self) -> None:\n        {}()\n        {}()\n        {}()\n",
+    "cpp": "void C::run() {{\n  {}();\n  {}();\n  {}();\n}}\n",
+}
+
+
+@pytest.mark.parametrize("language", _ORDERED)
+def test_what_both_sides_have_moved_stands_once(language: str) -> None:
+    """Of a statement that each side has moved elsewhere git makes two, without a conflict."""
+    orders = [_ORDERED[language].format(*order) for order in permutations("xyz")]
+    for ours, theirs in product(orders, repeat=2):
+        found = merged(language, ours, orders[0], theirs)
+        assert found.conflicts or all(found.text.count(f"{name}()") == 1 for name in "xyz")
 
 
 # --- laws ---------------------------------------------------------------------------------------
