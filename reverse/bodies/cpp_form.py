@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property
 
 from tree_sitter import Node
@@ -46,10 +46,14 @@ _FUNCTIONS = frozenset({"function_definition", "lambda_expression"})
 
 
 class CppForm:
-    """The form of some files, of which nothing is lowered before something is asked."""
+    """The form of some files, of which nothing is lowered before something is asked.
 
-    def __init__(self, code: Code) -> None:
+    What the functions of `known` files lock is known by their text: none leaves it locked.
+    """
+
+    def __init__(self, code: Code, known: Collection[Cpp] = ()) -> None:
         self._code = code
+        self._known = known
 
     @cached_property
     def acting_macros(self) -> frozenset[bytes]:
@@ -108,9 +112,11 @@ class CppForm:
     @cached_property
     def _locking(self) -> frozenset[bytes]:
         """The names of functions and classes that leave something locked for who calls them."""
-        if not any(_LOCKS.search(cpp.data) for cpp in self._code.files):
+        files = [cpp for cpp in self._code.files if cpp not in self._known]
+        if not any(_LOCKS.search(cpp.data) for cpp in files):
             return frozenset()
-        texts = [(f, self._text(f)) for f in self._functions.values()]
+        read = (f for f in self._functions.values() if f.code.cpp not in self._known)
+        texts = [(f, self._text(f)) for f in read]
         waiting = [(f, frozenset(_WORD.findall(text))) for f, text in texts]
         asked = [w for w, (_, text) in zip(waiting, texts, strict=True) if _LOCKS.search(text)]
         found = frozenset[bytes]()

@@ -14,6 +14,7 @@ from rebsync.reserved import NO_CLASSES, RESERVED
 from rebsync.reverse.bodies.cpp_form import CppForm
 from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.overloads import Served
+from rebsync.reverse.bodies.runtime_part import runtime_part
 from rebsync.reverse.bodies.scope import (
     Around,
     Called,
@@ -98,18 +99,17 @@ class Classes:
 
     def __post_init__(self) -> None:
         self.types = frozenset(self.code.classes)
-        self.form = CppForm(self.code)
-        if all("Mailbox" not in cpp.source.text for cpp in self.code.files):
+        is_generated = any("Mailbox" in cpp.source.text for cpp in self.code.files)
+        self.code = without_mixins(self.code) if is_generated else self.code
+        self.form = CppForm(self.code, runtime_part(self.code, is_generated))
+        if not is_generated:
             self.roles = {name: Roles() for name in self.code.classes}
             return
-        self.code = without_mixins(self.code)
-        self.form = CppForm(self.code)  # of what is left
         self.meanings = other_meanings(self.code)
         self.shown = shown_only(self.code) if self.alone else frozenset()
-        classes = self.code.classes.values()
+        classes, given = self.code.classes.values(), (self.messages, self.served)
         self.roles |= {owner.name: roles_of(self.code, owner) for owner in classes}
-        ordered = as_handed_on(self.code, self.messages, self.served, self.roles)
-        self.messages, self.served = ordered
+        self.messages, self.served = as_handed_on(self.code, *given, self.roles)
         self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
         self.types |= {carry(name, NO_CLASSES) for name in self.served.classes}  # of Python
         self.served = self.served.joined(families_of(self.code, self.roles))

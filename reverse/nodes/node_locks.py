@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from rebsync.reverse.bodies.runtime_part import runtime_part
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.nodes.node_bodies import Bodies
-from rebsync.reverse.nodes.runtime_part import runtime_part
 
 
 def note_locks(bodies: Bodies, generated: bool) -> None:

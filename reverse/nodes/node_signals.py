@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
+from rebsync.reverse.bodies.runtime_part import runtime_part
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.nodes.node_bodies import Bodies
-from rebsync.reverse.nodes.runtime_part import runtime_part
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, part, text_of

@@ -80,7 +80,8 @@ def _proved_elements(
     proved = _proved(apart.elements, _proofs(first, second, {}), lines)
     if proved != apart.elements:
         # Bounds that the left side keeps, the right one does if nothing is left that is different.
-        bounded = _proved(apart.elements, _proofs(first, second, invariants_of(first)), lines)
+        bounds = invariants_of(first, {e.group for e in apart.elements})
+        bounded = _proved(apart.elements, _proofs(first, second, bounds), lines)
         proved = bounded if bounded == apart.elements else proved
     return proved
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import reduce
 
 from rebsync import model as m
@@ -11,8 +11,8 @@ from rebsync.reverse.analysis.invariants import Body, BodyStart, between_message
 from rebsync.static import Analysis
 
 
-def invariants_of(analysis: Analysis) -> dict[str, Mapping[str, Interval]]:
-    """For each class, what its integer variables hold whenever a message server starts.
+def invariants_of(analysis: Analysis, asked: Collection[str]) -> dict[str, Mapping[str, Interval]]:
+    """For each class `asked` of, what its integer variables hold whenever a message server starts.
 
     Messages and constants (`env`) may be anything; constructors get what `main` says. A class that
     extends another, or is extended, has none.
@@ -21,7 +21,8 @@ def invariants_of(analysis: Analysis) -> dict[str, Mapping[str, Interval]]:
     classes = [c for c in model.classes if isinstance(c, m.ReactiveClass)]
     extended = {c.extends for c in classes}
     plain = [c for c in classes if c.extends is None and c.name not in extended]
-    return {c.name: between_messages([*_bodies(c, analysis)], _state(c)) for c in plain}
+    known = [c for c in plain if c.name in asked]
+    return {c.name: between_messages([*_bodies(c, analysis)], _state(c)) for c in known}
 
 
 def _state(class_: m.ReactiveClass) -> dict[str, m.Type]:

@@ -78,3 +78,14 @@ def test_locks(name: str) -> None:
     assert len(functions) == 1
     found = {why for _, _, why in CppForm(code).odd_locks(functions)}
     assert case["why"] in found if case["why"] else not found, found
+
+
+def test_functions_of_known_files_leave_nothing_locked() -> None:
+    """`begin` leaves a lock for who calls it; of the run-time part `check` compares the text."""
+    helper = "struct Store { void begin() { own_.lock(); } std::mutex own_; };"
+    node = "struct Node { void on() { store_.begin(); store_.begin(); } Store store_; };"
+    files = [parse(Source("store.h", helper)), parse(Source("node.cpp", node))]
+    code = Code.of(files)
+    functions = code.functions_of(code.classes["Node"])
+    assert list(CppForm(code).odd_locks(functions))
+    assert not list(CppForm(code, files[:1]).odd_locks(functions))
