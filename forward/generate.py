@@ -10,6 +10,7 @@ from typing import TypeAlias
 
 from rebsync.config import Config
 from rebsync.forward.headers import headed
+from rebsync.forward.py_layout import formatted
 from rebsync.forward.remarks import Comment, Remarks
 from rebsync.forward.topics import Topics
 from rebsync.forward.view import view
@@ -72,10 +73,10 @@ def generate(
 
         name = f"{stem}.rebeca"
         files = render_mixed(package, analysis, topics, Remarks(comments), name, targets)
-        return headed(files, config)
+        return headed(formatted(files), config)
     render = _renderer(next(iter(of_nodes), config.target))
     files = render(package, analysis, topics, Remarks(comments), f"{stem}.rebeca")
-    return headed(files, config)
+    return headed(formatted(files), config)
 
 
 def _renderer(target: str) -> Renderer:

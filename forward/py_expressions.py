@@ -130,6 +130,8 @@ class PyExpressions(PyExpressionWriter):
                 return atom(f"{self.operand(target, ATOM)}[{self.text(index)}]")
             case m.Call():
                 return atom(call(self, expression))
+            case m.Paren(m.Paren() as inner):
+                return self.raw(inner)
             case m.Paren(inner):
                 found = self.raw(inner)
                 return atom(f"({found.text})")

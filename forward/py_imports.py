@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
-from rebsync.forward.py_layout import INDENT, LINE_LENGTH
-
 _NOT_CODE = re.compile(r'#[^\n]*|"(?:\\.|[^"\\\n])*"')
 _WORD = re.compile(r"(?<![\w.])(?<!def )[^\W\d]\w*")
 
@@ -24,7 +22,7 @@ def imports(
     for module, names in modules.items():
         found = sorted(set(names).intersection(used), key=_order)
         if found:
-            lines += _import(f"{indent}from {module} import", found, indent)
+            lines.append(f"{indent}from {module} import {', '.join(found)}")
     return lines
 
 
@@ -33,10 +31,3 @@ def _order(name: str) -> tuple[int, list[tuple[int, str]]]:
     kind = 0 if name.isupper() and len(name) > 1 else 1 if name[0].isupper() else 2
     parts = re.split(r"(\d+)", name)
     return kind, [(int(p), "") if p.isdigit() else (-1, p.lower()) for p in parts]
-
-
-def _import(head: str, names: list[str], indent: str) -> list[str]:
-    whole = f"{head} {', '.join(names)}"
-    if len(whole) <= LINE_LENGTH:
-        return [whole]
-    return [f"{head} (", *(f"{indent}{INDENT}{n}," for n in names), f"{indent})"]

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_imports import imports, words_of
-from rebsync.forward.py_layout import INDENT, indented, laid_out
+from rebsync.forward.py_layout import INDENT, indented
 from rebsync.forward.py_messages import sends, server_constants, shims
 from rebsync.forward.py_types import py_type, py_value
 from rebsync.forward.py_wiring import PyWords, class_lines, publish_state
@@ -28,10 +28,8 @@ def class_module(
     c: PyClass, words: PyWords, model_name: str, ros: Mapping[str, Iterable[str]]
 ) -> str:
     """`src/<package>/<class>.py`; `ros` are the names of the client library that it may use."""
-    body = list(laid_out(_class(c, words)))
-    constants = list(laid_out(server_constants(c)))
-    code = [*constants, *body]
-    used = words_of(code)
+    body, constants = _class(c, words), server_constants(c)
+    used = words_of([*constants, *body])
     text = [f'"""The {_kind(c)} {c.node.name} of {model_name}{_role(c)}."""']
     text += ["", "from __future__ import annotations", "", *_imports(c, words, used, ros)]
     if constants:
@@ -149,8 +147,8 @@ def sensors_module(c: PyClass, words: PyWords) -> str:
         for index, (draw, name) in enumerate(named):
             type_ = sensor.type.rpartition("/")[2]
             head = f"def {name}(msg: {type_}) -> {py_type(draw.type)}:"
-            functions += [*([""] * 2 if functions else []), *laid_out([head])]
-            functions += laid_out([f"    return {_read(sensor, draw, index)}"])
+            functions += [*([""] * 2 if functions else []), head]
+            functions.append(f"    return {_read(sensor, draw, index)}")
     own = {s.type for s in c.node.sensors if s.stands_in}
     used = words_of(functions)
     modules = {words.messages(c.package.name): own, f"{c.package.name}.values": VALUES}

@@ -6,7 +6,6 @@ from rebsync.forward.message_files import action_names, message_files, message_n
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_classes import classes
 from rebsync.forward.py_imports import imports, words_of
-from rebsync.forward.py_layout import formatted
 from rebsync.forward.py_module import VALUES, class_module, sensors_module
 from rebsync.forward.py_types import from_message, plain_type, py_choices, py_format, py_value
 from rebsync.forward.py_wiring import constructor_of
@@ -131,14 +130,12 @@ def _node(c: PyClass) -> str:
     constructor = constructor_of(c)
     pairs = zip(constructor.keys, constructor.parameters, strict=True)
     arguments = [_argument(key, parameter.type) for key, parameter in pairs]
-    return formatted(
-        fill(
-            f"{_FOLDER}/node.j2",
-            c=c,
-            package=c.package.name,
-            arguments=arguments,
-            formats=imports(words_of(arguments), {f"{c.package.name}.values": VALUES}),
-        )
+    return fill(
+        f"{_FOLDER}/node.j2",
+        c=c,
+        package=c.package.name,
+        arguments=arguments,
+        formats=imports(words_of(arguments), {f"{c.package.name}.values": VALUES}),
     )
 
 
@@ -157,4 +154,4 @@ def _stand_in(package: Package, node: NodeClass) -> str:
     sensors = played_sensors(node, py_choices)
     types = {s.type for s in sensors}
     found = imports(types, {f"{package.name}.msg": types})
-    return formatted(fill(f"{_FOLDER}/stand_in.j2", imports=found, node=node, sensors=sensors))
+    return fill(f"{_FOLDER}/stand_in.j2", imports=found, node=node, sensors=sensors)

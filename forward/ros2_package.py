@@ -5,7 +5,6 @@ from __future__ import annotations
 from rebsync.forward.cpp_class import CppClass
 from rebsync.forward.headers import unchecked
 from rebsync.forward.message_files import action_names, message_names, service_names
-from rebsync.forward.py_layout import formatted
 from rebsync.forward.ros2_constructors import component
 from rebsync.forward.runtime_part import message_packages, odometry_topic
 from rebsync.forward.templating import fill
@@ -75,15 +74,13 @@ def launch_file(package: Package) -> str:
     nodes += [_stand_in(package, s) for s in package.stand_ins]
     system = _system(package)
     values = [value for _, value in system] + [v for n in nodes for _, v in n.parameters]
-    return formatted(
-        fill(
-            "ros2_cpp/package.launch.py.j2",
-            package=package,
-            nodes=nodes,
-            system=system,
-            lifecycle=package.settings.lifecycle,
-            typed=any("ParameterValue(" in value for value in values),
-        )
+    return fill(
+        "ros2_cpp/package.launch.py.j2",
+        package=package,
+        nodes=nodes,
+        system=system,
+        lifecycle=package.settings.lifecycle,
+        typed=any("ParameterValue(" in value for value in values),
     )
 
 

@@ -9,7 +9,6 @@ from rebsync.forward.message_files import action_names, message_files, message_n
 from rebsync.forward.py_class import PyClass
 from rebsync.forward.py_classes import classes
 from rebsync.forward.py_imports import imports
-from rebsync.forward.py_layout import formatted
 from rebsync.forward.py_module import class_module, sensors_module
 from rebsync.forward.py_types import plain_type, py_choices, py_format, py_value
 from rebsync.forward.readme import readme
@@ -106,8 +105,8 @@ def render(
         ),
         f"{name}/setup.cfg": fill(f"{_FOLDER}/setup.cfg.j2", package=name),
         f"{name}/.flake8": fill("py/flake8.j2"),
-        f"{name}/test/test_style.py": formatted(
-            fill(f"{_FOLDER}/test_style.py.j2", unchecked=unchecked(package))
+        f"{name}/test/test_style.py": fill(
+            f"{_FOLDER}/test_style.py.j2", unchecked=unchecked(package)
         ),
         f"{name}/ruff.toml": fill("py/ruff.toml.j2", packages=[name, interfaces(name)]),
         f"{name}/resource/{name}": "\n",
@@ -181,12 +180,10 @@ def _stand_in(package: Package, node: NodeClass) -> str:
     sensors = played_sensors(node, py_choices)
     types = {s.type for s in sensors}
     found = imports(types, {f"{interfaces(package.name)}.msg": types})
-    return formatted(
-        fill(
-            f"{_FOLDER}/stand_in.py.j2",
-            package=package.name,
-            imports=found,
-            node=node,
-            sensors=sensors,
-        )
+    return fill(
+        f"{_FOLDER}/stand_in.py.j2",
+        package=package.name,
+        imports=found,
+        node=node,
+        sensors=sensors,
     )

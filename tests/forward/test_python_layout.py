@@ -59,10 +59,13 @@ def test_examples(target: str, monitored: bool, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("target", ["ros1-py", "ros2-py"])
-def test_models_of_all_the_language(target: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("monitored", [False, True])
+def test_models_of_all_the_language(target: str, monitored: bool, tmp_path: Path) -> None:
+    config = Config(target=target, monitor=monitored)
     for case in _CASES:
         model = parse_model(Source(case.name, case.read_text(encoding="utf-8"))).model
-        assert_formatted(python_files(model, target), tmp_path / case.stem)
+        files = generate(model, (), analyse(model), config, case.stem)
+        assert_formatted(files, tmp_path / case.stem)
     assert_linted(tmp_path)
 
 

@@ -1,7 +1,8 @@
 """The model patrol.rebeca as tables, for the monitor."""
 
-# flake8: noqa: E501
-# ruff: noqa: E501
+# flake8: noqa: E501, F401
+# ruff: noqa: E501, F401
+# fmt: off
 from __future__ import annotations
 
 from patrol.monitor_machine import Body, Model, Rebec, Server, Variable
