@@ -36,10 +36,11 @@ def _is_python(path: str, text: str) -> bool:
 def _formatted(text: str) -> str:
     if not _ASKS.search(text):
         return text
-    import black
+    from black import format_str
+    from black.mode import Mode, TargetVersion
 
-    mode = black.Mode(target_versions={black.TargetVersion.PY38}, line_length=LINE_LENGTH)
-    return black.format_str("\n".join(_above(text.split("\n"))), mode=mode)
+    mode = Mode(target_versions={TargetVersion.PY38}, line_length=LINE_LENGTH)
+    return format_str("\n".join(_above(text.split("\n"))), mode=mode)
 
 
 def _above(lines: Iterable[str]) -> Iterator[str]:
