@@ -79,7 +79,8 @@ class Classes:
 
     `messages` are the fields of message types (`package/Type`), `unit` the seconds of a unit of
     time, `served` what classes in another language serve. `shown` are types with topics that nobody
-    hears, if it is `alone`: no file of another language has to do with them.
+    hears, if it is `alone`: no file of another language has to do with them. `signed` are the types
+    of messages that say who sends them.
     """
 
     code: Code
@@ -93,6 +94,7 @@ class Classes:
     fields: dict[str, Mapping[str, m.Type | None]] = field(default_factory=dict)
     meanings: tuple[Meaning, ...] = ()
     alone: bool = False
+    signed: frozenset[str] = frozenset()
     shown: frozenset[tuple[str, str]] = frozenset()
     form: CppForm = field(init=False)
     _scopes: dict[str, Scope] = field(default_factory=dict)
@@ -119,7 +121,7 @@ class Classes:
         for owner in classes:
             learn_servers(self.code, owner, self.roles, self.types)
         for owner in classes:
-            add_sends(self.code, owner, self.roles, self.fields, self.served)
+            add_sends(self.code, owner, self.roles, self.fields, self.served, self.signed)
         self.timers |= {owner.name: tuple(self._timed(owner)) for owner in classes}
 
     def read(self, wanted: set[str] | None = None) -> tuple[m.ReactiveClass | m.Interface, ...]:

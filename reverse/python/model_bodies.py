@@ -74,7 +74,7 @@ class ModelBodies:
     served: Callable[[Scope, Scope], str | None]
     types: frozenset[str]
     serving: Served
-    fields: Mapping[str, Mapping[str, m.Type]]
+    fields: Mapping[str, Mapping[str, m.Type | None]]
     constants: Mapping[str, Interval]
     named: CodeConstants
     known: dict[int, ModelNames] = with_default(default_factory=dict)
@@ -252,7 +252,8 @@ class ModelBodies:
     def _passed(self, shim: Scope) -> Iterator[m.Type | None]:
         message = named(field(shim.node, "parameters"))[-1]
         type_ = message.child_by_field_name("type")
-        known = self.fields.get(text_of(type_), {}) if type_ is not None else {}
+        fields = self.fields.get(text_of(type_), {}) if type_ is not None else {}
+        known = {name: of for name, of in fields.items() if of is not None and not of.dimensions}
         holder = f"{shim.parameters[-1].name}."
         for call in (s for s in body_of(shim) if "receive(" in text_of(s)):
             arguments = named(field(named(call)[0], "arguments"))

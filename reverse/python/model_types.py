@@ -184,6 +184,18 @@ def call_parts(node: Node | None) -> tuple[str, list[Node]] | None:
     return text_of(field(node, "function")), arguments
 
 
+def expression_in(statement: Node) -> Node | None:
+    """The expression or assignment that a statement is."""
+    if statement.type != "expression_statement" or not named(statement):
+        return None
+    return named(statement)[0]
+
+
+def stored_into(inner: Node | None) -> str:
+    """What an assignment stores into; nothing for what is none."""
+    return text_of(field(inner, "left")) if inner is not None and inner.type == "assignment" else ""
+
+
 def called_late(node: Node) -> Node | None:
     """What a function without a name does when it is called; None for what is none."""
     return without_parentheses(field(node, "body")) if node.type == "lambda" else None
