@@ -22,6 +22,7 @@ from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.sensors import list_unseen
 from rebsync.reverse.python import model_defaults as defaults
+from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.model_expressions import Expressions
 from rebsync.reverse.python.model_filled import fillings_of
 from rebsync.reverse.python.model_helpers import called_in, first_of, own_name, without_object
@@ -68,6 +69,7 @@ class ModelBodies:
     """
 
     code: PyCode
+    form: PyForm
     findings: Findings
     line: Callable[[Scope], list[Scope]]
     roles: Callable[[Scope], PyRoles]
@@ -347,7 +349,9 @@ class ModelBodies:
             imported=imported,
             posts=posts,
             fillings=fillings,
-            silent=silent_in(self.code, self.line(owner), [*map(self.roles, self.line(owner))]),
+            silent=silent_in(
+                self.code, self.form, self.line(owner), [*map(self.roles, self.line(owner))]
+            ),
             code=self.code,
         )
 

@@ -20,6 +20,7 @@ from rebsync.reverse.generated.annotations import of_class, of_server
 from rebsync.reverse.generated.messages import NO_MESSAGES, OwnMessages
 from rebsync.reverse.generated.own_parameters import Stored, with_own
 from rebsync.reverse.python import model_first_values as first_values
+from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.class_creation import list_creation
 from rebsync.reverse.python.model_bodies import ModelBodies
 from rebsync.reverse.python.model_overloads import families
@@ -61,6 +62,7 @@ class ModelClasses:
     def __post_init__(self) -> None:
         self._values = PyValues(self.code)
         self._named = CodeConstants(self._values)
+        self._form = PyForm(self.code, without_runtime=True)
         self._owners = [c for c in classes_in(self.code) if not is_runtime_file(c.py.source)]
         self._lines: dict[int, list[Scope]] = {}
         if not any("Mailbox(" in s.py.source.text for s in self.code.modules.values()):
@@ -79,7 +81,7 @@ class ModelClasses:
                 roles.own.clear()
             elif roles.own:
                 all_roles = [*map(self._of, line)]
-                roles.leave_out(silent_in(self.code, line, all_roles, roles.own).texts)
+                roles.leave_out(silent_in(self.code, self._form, line, all_roles, roles.own).texts)
         for owner in self._owners:
             learn_servers(self.line(owner), self._of)
         own = {o.name for o in self._owners}
@@ -90,6 +92,7 @@ class ModelClasses:
         in_cpp = (carry(name, NO_PYTHON_CLASSES) for name in self.served.classes)
         return ModelBodies(
             self.code,
+            self._form,
             self.findings,
             self.line,
             self._of,
