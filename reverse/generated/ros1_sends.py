@@ -24,7 +24,7 @@ from rebsync.reverse.generated.ros1_roles import Advertised, Roles
 from rebsync.reverse.generated.ros1_shims import Fields
 from rebsync.reverse.generated.send_functions import (
     Filled,
-    Made,
+    MessageMade,
     Posted,
     Published,
     SendFunction,
@@ -205,7 +205,7 @@ def _steps(
         call = _called(statement)
         if statement.type == "declaration" and next(calls_in(statement), None) is None:
             message = _declared(statement)
-            yield statement, Made(last_name(part(statement, "type")))
+            yield statement, MessageMade(last_name(part(statement, "type")))
         elif call is not None and call.name == "post":
             posted = post(call) if _at(call, 1, when) else None
             given = tuple(map(text_of, posted.given)) if posted is not None else None

@@ -18,7 +18,7 @@ from rebsync.static.types import PRIMITIVES
 
 
 @dataclass(frozen=True, slots=True)
-class Made:
+class MessageMade:
     """A message of a type is made, by its name without the package."""
 
     type: str
@@ -52,7 +52,7 @@ class Posted:
 
 
 # What one statement does; None for anything else.
-Step: TypeAlias = Made | Filled | Signed | Published | Posted | None
+Step: TypeAlias = MessageMade | Filled | Signed | Published | Posted | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,7 @@ class SendFunction:
         is_signed = is_sent = False
         for node, step in steps:
             match step:
-                case Made(type_):
+                case MessageMade(type_):
                     is_right = made is None and type_ == (self.message or type_)
                     made = made or node
                 case Filled(field, value):

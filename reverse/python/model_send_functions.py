@@ -10,7 +10,7 @@ from rebsync import model as m
 from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.generated.send_functions import (
     Filled,
-    Made,
+    MessageMade,
     Posted,
     Published,
     SendFunction,
@@ -124,7 +124,7 @@ def _receiver(publisher: Node) -> list[str]:
 def _made(value: Node | None, types: Mapping[str, m.Type | None]) -> Iterator[Step]:
     """A message that is made, with what it is filled with at once."""
     type_, fields = made_of(value)
-    yield Made(type_)
+    yield MessageMade(type_)
     for name, each in fields.items():
         yield _filled(name, each, types)
 
