@@ -25,8 +25,8 @@ from rebsync.reverse.generated.ros1_shims import Fields
 from rebsync.reverse.generated.send_functions import (
     Filled,
     MessageMade,
-    Posted,
-    Published,
+    MessagePosted,
+    MessagePublished,
     SendFunction,
     Signed,
     Step,
@@ -209,11 +209,14 @@ def _steps(
         elif call is not None and call.name == "post":
             posted = post(call) if _at(call, 1, when) else None
             given = tuple(map(text_of, posted.given)) if posted is not None else None
-            yield statement, Posted(given)
+            yield statement, MessagePosted(given)
         elif call is not None and call.name == "publish":
             to = call_of(call.arguments[0])
             is_to = to is None or (bool(names) and _at(to, 1, names[0]))
-            yield statement, Published(is_to and _at(call, 1, message) and _at(call, 2, when))
+            yield (
+                statement,
+                MessagePublished(is_to and _at(call, 1, message) and _at(call, 2, when)),
+            )
         elif message and squeezed(statement) == f"{message}.sender=mailbox_.self();":
             yield statement, Signed()
         else:

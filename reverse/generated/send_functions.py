@@ -38,21 +38,21 @@ class Signed:
 
 
 @dataclass(frozen=True, slots=True)
-class Published:
+class MessagePublished:
     """A message is published; `as_asked`: that one, to whom and when the function is told."""
 
     as_asked: bool
 
 
 @dataclass(frozen=True, slots=True)
-class Posted:
+class MessagePosted:
     """A message is posted to the rebec itself with these values; None: otherwise than generated."""
 
     given: tuple[str, ...] | None
 
 
 # What one statement does; None for anything else.
-Step: TypeAlias = MessageMade | Filled | Signed | Published | Posted | None
+Step: TypeAlias = MessageMade | Filled | Signed | MessagePublished | MessagePosted | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,15 +87,15 @@ class SendFunction:
                 case Signed():
                     is_right = made is not None
                     is_signed = True
-                case Published(as_asked):
+                case MessagePublished(as_asked):
                     is_right = as_asked and not waiting
-                case Posted(given):
+                case MessagePosted(given):
                     is_right = given is not None and list(given) == waiting
                 case None:
                     is_right = False
             if is_sent or not is_right:
                 odd.setdefault(node.id, node)
-            if isinstance(step, Published | Posted):
+            if isinstance(step, MessagePublished | MessagePosted):
                 is_sent, waiting = True, []
         if made is not None and self.is_signed and not is_signed:
             odd.setdefault(made.id, made)

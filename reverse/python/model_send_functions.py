@@ -11,8 +11,8 @@ from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.generated.send_functions import (
     Filled,
     MessageMade,
-    Posted,
-    Published,
+    MessagePosted,
+    MessagePublished,
     SendFunction,
     Signed,
     Step,
@@ -105,12 +105,12 @@ def _steps(
                 yield from ((statement, step) for step in _made(what, types))
             is_what = not message or text_of(what) == message
             is_to = sends.known is not None or _receiver(to) == names[:1]
-            yield statement, Published(is_to and is_what and text_of(when) == _TIME)
+            yield statement, MessagePublished(is_to and is_what and text_of(when) == _TIME)
         elif called == POST:
             post = posts.get(inner.id)
             held = post is not None and post.is_held and text_of(post.when) == _TIME
             passed = tuple(map(text_of, post.given)) if post is not None and held else None
-            yield statement, Posted(passed)
+            yield statement, MessagePosted(passed)
         else:
             yield statement, None
 
