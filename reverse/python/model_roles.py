@@ -33,6 +33,7 @@ from rebsync.reverse.python.model_queues import PASSED, queue_in
 from rebsync.reverse.python.model_timers import called_back
 from rebsync.reverse.python.model_types import (
     call_parts,
+    field_read,
     handed_over,
     is_unset,
     literal_type,
@@ -353,10 +354,9 @@ def _received(
     roles.by_shim[function.name] = server
     roles.handler_names[function.name] = handler
     roles.handlers[handler] = server
-    port = roles.topics.get(function.name, "").startswith("port/")
     offer = roles.offers.get(function.name)
     roles.shown[handler] = (
-        *((m.Annotation("Port"),) if port else ()),
+        *((m.Annotation("Port"),) if roles.topics.get(function.name, "")[:5] == "port/" else ()),
         *((offer,) if offer is not None else ()),
         *annotations,
     )
@@ -364,19 +364,12 @@ def _received(
     message = parameter.child_by_field_name("type")
     if message is not None:
         roles.messages[text_of(message)] = server
-        if text_of(arguments[2]) == f"{function.parameters[-1].name}.sender":
-            roles.signed.add(text_of(message))
         given, serves = function.parameters[-1].name, roles.functions.get(handler)
+        if text_of(arguments[2]) == f"{given}.sender":
+            roles.signed.add(text_of(message))
         fields = tuple(field_read(v, given) for v in values)
         if serves is not None and are_named(fields, [p.name for p in serves.parameters[1:]]):
             roles.orders.append((text_of(message), fields))
-
-
-def field_read(node: Node, message: str) -> str:
-    """The field of a message that a value is: as it is, as a rebec's name, or as an array."""
-    inside = call_parts(node)
-    plain = inside[1][0] if inside is not None and inside[1] else node
-    return text_of(plain).removeprefix(f"{message}.")
 
 
 def _published(roles: PyRoles, function: Scope, publisher: Node, passed: list[str]) -> None:

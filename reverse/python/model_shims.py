@@ -15,8 +15,14 @@ from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.generated.send_functions import is_kept
 from rebsync.reverse.python.model_formats import FORMATS
 from rebsync.reverse.python.model_posts import is_told, tells_arguments
-from rebsync.reverse.python.model_roles import PyRoles, field_read
-from rebsync.reverse.python.model_types import call_parts, expression_in, passed_on, type_of
+from rebsync.reverse.python.model_roles import PyRoles
+from rebsync.reverse.python.model_types import (
+    call_parts,
+    expression_in,
+    field_read,
+    passed_on,
+    type_of,
+)
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 from rebsync.static.types import PRIMITIVES

@@ -48,7 +48,6 @@ _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
 @dataclass(frozen=True, eq=False, slots=True)
 class Silent:
     """The silent members of a class: `texts` are told to people only, `locks` are only held.
-
     `ticking` are timers that only log, as `timers` tells them. `locals` are what a function makes
     or measures for people, by the function's node, and `counters` variables of the module; `form`
     tells who may wait for a lock.
@@ -261,8 +260,7 @@ def _is_lock(module: Scope, node: Node) -> bool:
     """Whether a value is a lock of Python's library."""
     called, arguments = call_parts(node) or ("", [])
     head, _, rest = called.partition(".")
-    of = imported_as(module, head)
-    whole = ".".join(filter(None, (of, rest)))
+    whole = ".".join(filter(None, (imported_as(module, head), rest)))
     return whole in _LOCKS and not arguments
 
 

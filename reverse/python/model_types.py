@@ -150,6 +150,13 @@ def passed_on(node: Node) -> tuple[str, list[Node]] | None:
     return None if called else (text_of(node), [])
 
 
+def field_read(node: Node, message: str) -> str:
+    """The field of a message that a value is: as it is, as a rebec's name, or as an array."""
+    inside = call_parts(node)
+    plain = inside[1][0] if inside is not None and inside[1] else node
+    return text_of(plain).removeprefix(f"{message}.")
+
+
 def handed_over(node: Node) -> str:
     """The function that takes a message: `f`, or `lambda msg: f(msg)`."""
     if node.type == "lambda":
