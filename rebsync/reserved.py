@@ -36,7 +36,8 @@ NO_CLASSES = (
     | {"rcl_interfaces", "rclcpp", "rclcpp_action", "reportLine", "srv"}
 )
 RUNTIME_TOPICS = frozenset({"cmd_vel", "state"})
-RUNTIME_FIELDS = ("timing", "sender")
+SENDER_FIELD = "sender"
+RUNTIME_FIELDS = ("timing", SENDER_FIELD)
 # The annotations that offer a message server to clients from outside.
 OFFERS = frozenset({"Action", "Service"})
 # That of a message server that gets messages from outside of the model, which is then open.

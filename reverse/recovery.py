@@ -20,12 +20,12 @@ from rebsync.reverse.files.packages import BESIDE, CODE
 from rebsync.reverse.files.python_files import SETUP, is_launch, is_python
 from rebsync.reverse.findings import Finding, Findings, Grade
 from rebsync.reverse.generated.before_main import at_the_end, beside_main
+from rebsync.reverse.generated.messages import OwnMessages, own_messages
 from rebsync.reverse.generated.noexcept_functions import ending_the_node
 from rebsync.reverse.generated.one_definition import defined_again
 from rebsync.reverse.generated.parameters import odd_arguments
 from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.generated.ros1_kept import Memory, read_with
-from rebsync.reverse.generated.ros1_messages import own_messages
 from rebsync.reverse.generated_system import GeneratedSystem, unit_of_time
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch
@@ -196,17 +196,23 @@ class _Reading:
 
             list_launch_effects(source, self.findings)
 
-    def classes(
-        self, declared: Mapping[str, Mapping[str, m.Type | None]], in_python: PythonCode | None
-    ) -> Classes:
+    def classes(self, declared: OwnMessages, in_python: PythonCode | None) -> Classes:
         """The classes of C++ that may be generated; `declared` are the package's own messages."""
         orders = in_python.orders() if in_python is not None else ()
         families = in_python.classes.families() if in_python is not None else {}
-        messages = in_order(declared, orders)
+        messages = in_order(declared.fields, orders)
         types = {t.rpartition("/")[2]: tuple(f.values()) for t, f in messages.items()}
         unit, served = unit_of_time(self.launch), Served(families, types)
         alone = in_python is None or not in_python.hears_others()
-        return Classes(self.code, self.findings, messages, unit, served, alone=alone)
+        return Classes(
+            self.code,
+            self.findings,
+            messages,
+            unit,
+            served,
+            alone=alone,
+            signed=declared.signed,
+        )
 
     def generated(
         self, classes: Classes, memory: Memory | None
@@ -251,11 +257,11 @@ class _Reading:
         self, code: PythonCode, findings: Findings, beside: Part, in_cpp: Classes
     ) -> PythonPart:
         """What the files of Python say; what of them is not in the model is listed."""
-        from rebsync.reverse.python.recovery import fields_by_name, read_python
+        from rebsync.reverse.python.recovery import by_name, read_python
 
         names = {name for p in self.programs for name in (p.name, p.stem)}
         names = names.union(*executables(self.files).values())
-        code.classes.messages, served = fields_by_name(in_cpp.messages), in_cpp.served
+        code.classes.messages = by_name(in_cpp.messages, in_cpp.signed)
         return read_python(
             code,
             findings,
@@ -265,7 +271,7 @@ class _Reading:
             self.launch,
             beside,
             names,
-            served,
+            in_cpp.served,
         )
 
     def note_launch(self, python: PythonPart | None, *, is_by_hand: bool) -> None:
@@ -312,7 +318,7 @@ def _in_cpp(files: Mapping[str, Source], findings: Findings) -> Code:
 def _in_python(
     files: Mapping[str, Source],
     findings: Findings,
-    messages: Mapping[str, Mapping[str, m.Type | None]],
+    messages: OwnMessages,
 ) -> PythonCode | None:
     """The files of Python, if there are any, and what of them is generated."""
     code = ((path, source) for path, source in files.items() if path != SETUP)

@@ -14,8 +14,8 @@ from rebsync.printing import print_model
 from rebsync.reverse.build.field_order import in_order
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.findings import Findings
+from rebsync.reverse.generated.messages import own_messages
 from rebsync.reverse.generated.ros1_classes import Classes
-from rebsync.reverse.generated.ros1_messages import own_messages
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.recovery import extract
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
@@ -61,7 +61,7 @@ def stages() -> Iterator[str]:
     functions = {function.name: function for function in code.functions_of(owner)}
     yield _tree(functions[_SERVER])
     yield "".join(f"{f.name}({', '.join(map(str, f.types))})\n" for f in functions.values())
-    classes = Classes(code, Findings(), in_order(own_messages(files), ()))
+    classes = Classes(code, Findings(), in_order(own_messages(files).fields, ()))
     roles = classes.roles[_CLASS]
     yield f"handlers {roles.handlers}\nshims {sorted(roles.shims)}\nsends {sorted(roles.sends)}\n"
     (read,) = classes.read({_CLASS})

@@ -1,8 +1,4 @@
-"""The annotations of classes and servers of generated code: from markers, and from the set-up.
-
-What a set-up does counts, whatever a marker says: the priority of a server, and as what it
-is offered.
-"""
+"""The annotations that markers and the set-up of a class of generated C++ show."""
 
 from __future__ import annotations
 
@@ -11,12 +7,10 @@ from collections.abc import Collection, Iterator, Mapping
 from rebsync import model as m
 from rebsync.reserved import OFFERS
 from rebsync.reverse.bodies.written import annotation
+from rebsync.reverse.generated.annotations import of_class, of_server
 from rebsync.reverse.generated.ros1_roles import Roles
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import text_of
-
-PRIORITIES = frozenset({"priority", "globalPriority"})
-_SHOWN = PRIORITIES | OFFERS
 
 
 def annotations_in(markers: Collection[str], owner: CppClass) -> tuple[m.Annotation, ...]:
@@ -26,37 +20,25 @@ def annotations_in(markers: Collection[str], owner: CppClass) -> tuple[m.Annotat
 
 
 def class_annotations(all_roles: Mapping[str, Roles], owner: CppClass) -> Iterator[m.Annotation]:
-    """Those of the markers; without markers, those that the set-up shows."""
-    if any(x.startswith("reactiveclass ") for x in owner.markers):
-        yield from annotations_in(owner.markers, owner)
-        return
-    if any(text_of(f.type) == "Drive" for f in owner.fields):
-        yield m.Annotation("Robot")
-    if all_roles[owner.name].on_bridge:
-        yield m.Annotation("Controller")
+    """Those of a class."""
+    is_marked = any(x.startswith("reactiveclass ") for x in owner.markers)
+    return of_class(
+        annotations_in(owner.markers, owner) if is_marked else None,
+        has_drive=any(text_of(f.type) == "Drive" for f in owner.fields),
+        on_bridge=all_roles[owner.name].on_bridge,
+    )
 
 
 def server_annotations(
     code: Code, all_roles: Mapping[str, Roles], owner: CppClass, function: CppFunction, name: str
 ) -> Iterator[m.Annotation]:
-    """Those of the markers, and those that the set-up shows."""
-    shown = set_up_of(code, all_roles, owner, function, name)
-    if not any(x.startswith("msgsrv ") for x in function.markers):
-        if name in all_roles[owner.name].sensors:
-            yield m.Annotation("Sensor")
-        yield from shown or ()
-        return
-    marked = annotations_in(function.markers, owner)
-    if shown is None:
-        yield from marked
-        return
-    said = {a.name: a for a in shown if a.name in _SHOWN}
-    for each in marked:
-        if each.name not in _SHOWN:
-            yield each
-        elif (own := said.pop(each.name, None)) is not None:
-            yield each if each.arguments == own.arguments else own
-    yield from said.values()
+    """Those of a server, by the function that serves it."""
+    is_marked = any(x.startswith("msgsrv ") for x in function.markers)
+    return of_server(
+        annotations_in(function.markers, owner) if is_marked else None,
+        set_up_of(code, all_roles, owner, function, name),
+        is_sensor=name in all_roles[owner.name].sensors,
+    )
 
 
 def set_up_of(

@@ -77,9 +77,9 @@ _PLUMBING = frozenset({"mailbox", "publishState"})
 class Classes:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
-    `messages` are the fields of message types (`package/Type`), `unit` the seconds of a unit of
-    time, `served` what classes in another language serve. `shown` are types with topics that nobody
-    hears, if it is `alone`: no file of another language has to do with them.
+    `messages` are the fields of message types (`package/Type`), `signed` those that say who sends
+    them, `unit` the seconds of a unit of time, `served` what classes in another language serve.
+    `shown` are types with topics that nobody hears, if no other language has to do with them.
     """
 
     code: Code
@@ -93,6 +93,7 @@ class Classes:
     fields: dict[str, Mapping[str, m.Type | None]] = field(default_factory=dict)
     meanings: tuple[Meaning, ...] = ()
     alone: bool = False
+    signed: frozenset[str] = frozenset()
     shown: frozenset[tuple[str, str]] = frozenset()
     form: CppForm = field(init=False)
     _scopes: dict[str, Scope] = field(default_factory=dict)
@@ -119,7 +120,7 @@ class Classes:
         for owner in classes:
             learn_servers(self.code, owner, self.roles, self.types)
         for owner in classes:
-            add_sends(self.code, owner, self.roles, self.fields, self.served)
+            add_sends(self.code, owner, self.roles, self.fields, self.served, self.signed)
         self.timers |= {owner.name: tuple(self._timed(owner)) for owner in classes}
 
     def read(self, wanted: set[str] | None = None) -> tuple[m.ReactiveClass | m.Interface, ...]:
@@ -155,9 +156,9 @@ class Classes:
             for f in self.code.functions_of(owner)
             if f.pure
         )
-        extends = tuple(class_name(b) for b in owner.bases)
-        name, span = class_name(owner.name), owner.cpp.span(owner.node)
-        return m.Interface(name, servers, extends, annotations_in(owner.markers, owner), span)
+        extends, notes = map(class_name, owner.bases), annotations_in(owner.markers, owner)
+        span = owner.cpp.span(owner.node)
+        return m.Interface(class_name(owner.name), servers, tuple(extends), notes, span)
 
     def _reactive(self, owner: CppClass) -> m.ReactiveClass:
         roles = self.roles[owner.name]
@@ -168,7 +169,7 @@ class Classes:
                 self.findings.unreadable(meaning.cpp.source, unread, owner.name)
         for timer in self.timers[owner.name]:
             checked(timer, f"{owner.name}.{timer.function.name}", self.findings)
-        functions = [f for f in self.code.functions_of(owner) if self._is_of_model(owner, f)]
+        functions = (f for f in self.code.functions_of(owner) if self._is_of_model(owner, f))
         known, state = self._variables(owner)
         members: list[m.ClassMember] = [m.KnownRebecs(tuple(known))] if known else []
         members += [m.StateVars(tuple(state))] if state else []
@@ -179,7 +180,8 @@ class Classes:
         members += self._lambdas(owner)
         members += [self._method(owner, f) for f, by in served if by is None]
         members += [self._method(owner, f) for f in functions_beside(self.code, owner)]
-        extends = [b for b in owner.bases if self._is_reactive(b)]
+        classes = self.code.classes
+        extends = [b for b in owner.bases if b in classes and has_mailbox(self.code, classes[b])]
         return m.ReactiveClass(
             name,
             (roles.queue_length or 1) + ticking(self.timers[owner.name]),
@@ -191,9 +193,6 @@ class Classes:
             owner.cpp.span(owner.node),
         )
 
-    def _is_reactive(self, name: str) -> bool:
-        return name in self.code.classes and has_mailbox(self.code, self.code.classes[name])
-
     def _is_abstract(self, owner: CppClass) -> bool:
         """Whether no node is of this class: then it does not say what its state is."""
         return not any(f.name == "publishState" and not f.pure for f in owner.functions)
@@ -204,9 +203,9 @@ class Classes:
         roles = self.roles[owner.name]
         known: list[m.Declaration] = []
         state: list[m.Declaration] = []
+        others = roles.globals.keys() | roles.odd_globals | roles.silent
         for member in owner.fields:
-            odd = roles.odd_globals | roles.silent
-            if runtime_of(member) or member.name in roles.globals.keys() | odd:
+            if runtime_of(member) or member.name in others:
                 continue
             type_ = declared_type(self.code, member.type)
             if type_ is None:
@@ -216,10 +215,10 @@ class Classes:
                     self.findings.unreadable(member.cpp.source, unread, owner.name)
                 continue
             span = member.cpp.span(member.node)
-            declarator = m.Declarator(variable_name(self.roles[owner.name], member), None, span)
+            declarator = m.Declarator(variable_name(roles, member), None, span)
             notes = annotations_in(member.markers, owner)
-            declaration = m.Declaration(type_, (declarator,), notes, span)
-            (known if member.name in roles.known else state).append(declaration)
+            kind = known if member.name in roles.known else state
+            kind.append(m.Declaration(type_, (declarator,), notes, span))
         return known, state
 
     # --- functions ------------------------------------------------------------------------------

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.generated.annotations import PRIORITIES, priority
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, string_of
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_numerals import whole_number
@@ -38,8 +39,7 @@ def priority_of(code: Code, cpp: Cpp, descriptor: str) -> Iterator[m.Annotation]
     given = _given_priority(code, cpp, descriptor)
     called = call_of(given) if given is not None else None
     if called is not None and (number := _priority_in(code, cpp, called)) is not None:
-        value = m.IntLiteral(abs(number))
-        yield m.Annotation(called.name, (value if number >= 0 else m.Unary("-", value),))
+        yield priority(called.name, number)
 
 
 def _given_priority(code: Code, cpp: Cpp, descriptor: str) -> Node | None:
@@ -53,7 +53,7 @@ def _given_priority(code: Code, cpp: Cpp, descriptor: str) -> Node | None:
 
 
 def _priority_in(code: Code, cpp: Cpp, call: CppCall) -> int | None:
-    if call.name not in ("priority", "globalPriority") or len(call.arguments) != 1:
+    if call.name not in PRIORITIES or len(call.arguments) != 1:
         return None
     return number_of(code, cpp, call.arguments[0])
 

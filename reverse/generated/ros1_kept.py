@@ -199,7 +199,14 @@ def _common(classes: Classes) -> Iterator[str]:
     told = _Told({})
     for each in (classes.roles, classes.timers, classes.meanings, classes.messages):
         yield from told.of(each)
-    every = (classes.unit, classes.types, classes.fields, classes.served, classes.shown)
+    every = (
+        classes.unit,
+        classes.types,
+        classes.fields,
+        classes.served,
+        classes.shown,
+        classes.signed,
+    )
     yield from told.of(every)
 
 

@@ -13,6 +13,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_form import CppForm
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.annotations import best_priority
 from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros1_descriptors import number_of
 from rebsync.reverse.generated.ros1_idle import working
@@ -21,7 +22,6 @@ from rebsync.reverse.generated.ros1_queues import odd_queue
 from rebsync.reverse.generated.ros1_roles import (
     OFFERING,
     Roles,
-    best_priority,
     call_in,
     odd_priorities,
 )
@@ -134,7 +134,8 @@ def _odd_in(
 
 def _odd_priority(code: Code, function: CppFunction, lineage: Sequence[Roles]) -> Node | None:
     """The initialiser that tells the mailbox another best priority than that of its servers."""
-    best = best_priority(lineage)
+    overloads = (each for roles in lineage for each in roles.annotations.values())
+    best = best_priority(shown for each in overloads for shown in each)
     for initialiser in named(function.initialisers) if function.initialisers is not None else ():
         name, *_, values = named(initialiser)
         given = named(values)

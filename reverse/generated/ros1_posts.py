@@ -15,7 +15,8 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.overloads import Served, Signature, plain
 from rebsync.reverse.bodies.scope import Sends
-from rebsync.reverse.generated.ros1_annotations import PRIORITIES, set_up_of
+from rebsync.reverse.generated.annotations import PRIORITIES
+from rebsync.reverse.generated.ros1_annotations import set_up_of
 from rebsync.reverse.generated.ros1_descriptors import priority_of, server_of, tells_priority
 from rebsync.reverse.generated.ros1_names import declared_type, has_mailbox, plain_name
 from rebsync.reverse.generated.ros1_roles import Roles, call_in, parameters_of

@@ -6,7 +6,7 @@ that publishes or posts is a send. Names and markers decide nothing here.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field
 from typing import TypeAlias
 
@@ -37,7 +37,6 @@ from rebsync.reverse.syntax.cpp_declarations import parameters_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, CppParameter
 from rebsync.reverse.syntax.cpp_numerals import whole_number
 from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
-from rebsync.static.constants import constant
 
 _DEEP = 100
 # The calls that offer a server, and how many arguments each takes.
@@ -189,14 +188,6 @@ def odd_priorities(code: Code, roles: Roles) -> Iterator[tuple[Cpp, Node]]:
             continue
         if not tells_priority(code, taken.function.cpp, descriptor):
             yield found
-
-
-def best_priority(lineage: Iterable[Roles]) -> int | None:
-    """The priority of the most urgent server of a class; None if no server has any."""
-    overloads = (each for roles in lineage for each in roles.annotations.values())
-    given = (a.arguments or () for each in overloads for shown in each for a in shown)
-    found = [constant(argument) for arguments in given for argument in arguments]
-    return min((int(n) for n in found if n is not None), default=None)
 
 
 # --- set up by constructors ---------------------------------------------------------------------

@@ -5,7 +5,7 @@ Whatever else a function does makes it a function of the model, whose body shows
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -21,10 +21,20 @@ from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_posts import CppPost, own_post, rivals_of
 from rebsync.reverse.generated.ros1_roles import Advertised, Roles
-from rebsync.reverse.generated.ros1_shims import Fields, is_kept
+from rebsync.reverse.generated.ros1_shims import Fields
+from rebsync.reverse.generated.send_functions import (
+    Filled,
+    MessageMade,
+    MessagePosted,
+    MessagePublished,
+    SendFunction,
+    Signed,
+    Step,
+    is_kept,
+)
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, squeezed, text_of
 
 _AT_ONCE = frozenset({"When()", "When{}", "{}"})
 
@@ -35,16 +45,19 @@ def add_sends(
     all_roles: dict[str, Roles],
     fields: Fields,
     served: Served,
+    signed: frozenset[str],
 ) -> None:
     """Reads which functions of a class send what to whom, and which do more than that.
 
-    `fields` are those of each message type, in their order, `served` what all classes serve.
+    `fields` are those of each message type, in their order, `served` what all classes serve,
+    `signed` those that have a field for who sends them.
     """
     lineage = [all_roles[c.name] for c in code.lineage(owner.name)]
     publishers = {n: p for roles in reversed(lineage) for n, p in roles.publishers.items()}
     rivals = partial(rivals_of, code, owner, all_roles, served)
     servers = served.servers
-    senders = {t.type for roles in all_roles.values() for t in roles.taken if t.tells_sender}
+    taken = (t for roles in all_roles.values() for t in roles.taken)
+    signed = signed.union(t.type for t in taken if t.tells_sender)
     roles = all_roles[owner.name]
     posted = {server for each in all_roles.values() for server in each.posted}
     sending = [f for f in code.functions_of(owner) if _takes_times(f)]
@@ -55,7 +68,7 @@ def add_sends(
                 continue
             message = publishers[_publisher(call)].message if call.name == "publish" else ""
             post = partial(own_post, code, owner, all_roles, function)
-            odd = _odd_send(function, sends, message, post, fields, senders)
+            odd = _odd_send(function, sends, message, post, fields, signed)
             odd = odd or [*_misfits(code, function, message, fields), *_rival(sending, function)]
             if message and message not in served.servers and sends.server in posted:
                 odd.append(call.node)
@@ -120,7 +133,7 @@ def _usual(owner: CppClass, function: CppFunction) -> tuple[Cpp, Node] | None:
     for declared in (function, *(f for f in owner.functions if f.types == function.types)):
         if declared.name == function.name:
             default = declared.parameters[-1].node.child_by_field_name("default_value")
-            if default is not None and "".join(text_of(default).split()) not in _AT_ONCE:
+            if default is not None and squeezed(default) not in _AT_ONCE:
                 return declared.cpp, default
     return None
 
@@ -168,64 +181,48 @@ def _odd_send(
     sends: Sends,
     message: str,
     post: Callable[[CppCall], CppPost | None],
-    fields: Mapping[str, Collection[str]],
-    senders: Collection[str],
+    fields: Fields,
+    signed: Container[str],
 ) -> list[Node]:
     """What a function does besides sending the `message` that its publisher is for.
 
-    `post` tells what a call posts, `senders` are the messages that say who sends them.
+    `post` tells what a call posts, `signed` are the messages that say who sends them.
     """
-    made = next((s for s in working(function.body) if s.type == "declaration"), None)
-    type_ = last_name(part(made, "type")) if made is not None else ""
-    order = list(fields[type_]) if type_ in fields else None
-    odd = list(_odd_in_send(function, sends, post, order))
-    if made is not None and message and type_ != message and order is not None:
-        return [made, *odd]
-    if made is not None and type_ in senders and not _tells_sender(function, _declared(made)):
-        return [*odd, made]
-    # What is left out is told by itself only: it follows from what stands there instead.
-    return odd[:-1] if len(odd) > 1 and odd[-1] == function.body else odd
+    *given, _ = [p.name for p in function.parameters]
+    known = list(fields[message]) if message in fields else None
+    wanted = SendFunction(tuple(given[sends.known is None :]), message, known, message in signed)
+    assert function.body is not None
+    return wanted.odd(_steps(function, post), function.body)
 
 
-def _odd_in_send(
-    function: CppFunction,
-    sends: Sends,
-    post: Callable[[CppCall], CppPost | None],
-    fields: Sequence[str] | None,
-) -> Iterator[Node]:
-    """Statements that do not put each parameter into its field of the message, or send it once.
-
-    `post` tells what a call posts, `fields` are those of the message in their order, if they are
-    known.
-    """
+def _steps(
+    function: CppFunction, post: Callable[[CppCall], CppPost | None]
+) -> Iterator[tuple[Node, Step]]:
+    """What the statements of a function do; `post` tells what a call posts."""
     *names, when = [p.name for p in function.parameters]
-    given = names[sends.known is None :]
-    waiting, sent, message = list(given), 0, ""
-    into = dict(zip(given, fields, strict=True)) if fields and len(fields) == len(given) else {}
+    message = ""
     for statement in working(function.body):
         call = _called(statement)
         if statement.type == "declaration" and next(calls_in(statement), None) is None:
             message = _declared(statement)
+            yield statement, MessageMade(last_name(part(statement, "type")))
         elif call is not None and call.name == "post":
-            posted = post(call)
-            right = posted is not None and [text_of(a) for a in posted.given] == waiting
-            if sent or not right or not _at(call, 1, when):
-                yield statement
-            waiting, sent = [], sent + 1
+            posted = post(call) if _at(call, 1, when) else None
+            given = tuple(map(text_of, posted.given)) if posted is not None else None
+            yield statement, MessagePosted(given)
         elif call is not None and call.name == "publish":
             to = call_of(call.arguments[0])
-            right = to is None or _at(to, 1, names[0])
-            if sent or waiting or not right or not _at(call, 1, message) or not _at(call, 2, when):
-                yield statement
-            sent += 1
-        elif not _is_sender(statement, message):
-            field, parameter = _stored(statement)
-            own = f"{message}.{into[parameter]}" if parameter in into else field
-            if sent or parameter not in waiting or field != own or not _is_in(field, message):
-                yield statement
-            waiting = [name for name in waiting if name != parameter]
-    if (waiting or not sent) and function.body is not None:
-        yield function.body
+            is_to = to is None or (bool(names) and _at(to, 1, names[0]))
+            yield (
+                statement,
+                MessagePublished(is_to and _at(call, 1, message) and _at(call, 2, when)),
+            )
+        elif message and squeezed(statement) == f"{message}.sender=mailbox_.self();":
+            yield statement, Signed()
+        else:
+            field, value = _stored(statement)
+            is_own = bool(message) and field.startswith(f"{message}.")
+            yield statement, Filled(field.removeprefix(f"{message}."), value) if is_own else None
 
 
 def _called(statement: Node) -> CppCall | None:
@@ -259,16 +256,4 @@ def _stored(statement: Node) -> tuple[str, str]:
         value, target = call.arguments
     else:
         return "", ""
-    return "".join(text_of(target).split()), text_of(value)
-
-
-def _is_in(field: str, message: str) -> bool:
-    return bool(message) and field.startswith(f"{message}.")
-
-
-def _tells_sender(function: CppFunction, message: str) -> bool:
-    return any(_is_sender(s, message) for s in working(function.body))
-
-
-def _is_sender(statement: Node, message: str) -> bool:
-    return "".join(text_of(statement).split()) == f"{message}.sender=mailbox_.self();"
+    return squeezed(target), text_of(value)

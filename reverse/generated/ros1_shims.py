@@ -7,7 +7,6 @@ with the message's own times and sender.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from math import prod
 from typing import TypeAlias
 
 from tree_sitter import Node
@@ -18,10 +17,10 @@ from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_posts import tells_arguments
 from rebsync.reverse.generated.ros1_roles import Roles, Taken, call_in
+from rebsync.reverse.generated.send_functions import is_kept
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
-from rebsync.static.types import PRIMITIVES
 
 _CHANGES = ("assignment_expression", "update_expression")
 
@@ -72,13 +71,6 @@ def _handlers(code: Code, owner: CppClass, taken: Taken, count: int) -> list[Cpp
 def _takes_in(code: Code, function: CppFunction, fields: Mapping[str, Type | None]) -> bool:
     types = (declared_type(code, p.type) for p in function.parameters)
     return all(map(is_kept, fields.values(), types))
-
-
-def is_kept(field: Type | None, type_: Type | None) -> bool:
-    """Whether a field has all values of a parameter; a rebec's name is a string."""
-    if field is None or type_ is None:
-        return type_ is None or type_.name not in PRIMITIVES
-    return field.name == type_.name and prod(field.dimensions) == prod(type_.dimensions)
 
 
 def _tells_of_message(

@@ -17,6 +17,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.generated.ros1_meanings import is_runtime_header
 from rebsync.reverse.generated.ros1_names import has_mailbox
 from rebsync.reverse.generated.sensors import sensor_of
+from rebsync.reverse.generated.user_blocks import user_blocks
 from rebsync.reverse.ir.cpp.functions import lambda_names
 from rebsync.reverse.ir.cpp.lowering import CppLowering
 from rebsync.reverse.ir.cpp.symbols import FunctionSymbol
@@ -30,7 +31,6 @@ from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.source import Source, Span
 
 _ASKED = "this runs when it is asked what a sensor saw"
-_BLOCK = re.compile(r"^[ \t]*//[ \t]*rebsync:[ \t]*(user[ \t]+\S+|end\b)", re.MULTILINE)
 _UNKNOWN = "only a function of the package says what a sensor saw"
 _DEFINED = re.compile(rb"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
 # What a function is made of that only gives a field of what it gets, as generated ones do.
@@ -59,21 +59,12 @@ def acting_in_blocks(
 
     Blocks with places that are `listed` already are left out.
     """
-    blocks = _blocks(cpp, body)
+    around = cpp.span(body)
+    every = user_blocks(cpp.source.text)
+    blocks = [b for b in every if around.start <= b.start and b.end <= around.end]
     spans = [b for b in blocks if not any(b.start <= at.start <= b.end for at in listed)]
     if spans:
         yield from _SensorProgram(code).acting_in(body, spans)
-
-
-def _blocks(cpp: Cpp, body: Node) -> Iterator[Span]:
-    """What stands between `rebsync: user NAME` and `rebsync: end`."""
-    around, start = cpp.span(body), None
-    for marker in _BLOCK.finditer(cpp.source.text, around.start, around.end):
-        if marker[1] != "end":
-            start = marker.end()
-        elif start is not None:
-            yield Span(start, marker.start())
-            start = None
 
 
 class _SensorProgram:

@@ -23,6 +23,7 @@ from rebsync.reverse.libraries.endless import FINITE
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.size_effects import CHANGING_OBJECT
+from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import NOWHERE, Source, Span
@@ -37,15 +38,28 @@ _IMPORTS = re.compile(rb"^\s*(?:import|from)\s+(\w+)", re.MULTILINE)
 
 
 class PyForm:
-    """The form of some modules, of which nothing is lowered before something is asked."""
+    """The form of some modules, of which nothing is lowered before something is asked.
 
-    def __init__(self, code: PyCode) -> None:
+    `without_runtime`: what the run-time part of generated code does is left out.
+    """
+
+    def __init__(self, code: PyCode, *, without_runtime: bool = False) -> None:
         self._code = code
+        self._without_runtime = without_runtime
 
     @cached_property
     def program(self) -> Program:
         """The functions and classes of the modules."""
-        return python_program(self._code)
+        whole = python_program(self._code)
+        if not self._without_runtime:
+            return whole
+        own = [name for name in whole.functions if not self._is_of_runtime(name)]
+        classes = [c for c in whole.classes.values() if not self._is_of_runtime(c.name)]
+        return Program(own, classes, whole.function, whole.modules.items())
+
+    def _is_of_runtime(self, name: str) -> bool:
+        module = self._code.modules.get(name.partition(":")[0])
+        return module is not None and is_runtime_file(module.py.source)
 
     @cached_property
     def _origins(self) -> Origins:

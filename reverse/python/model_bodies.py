@@ -22,6 +22,7 @@ from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.sensors import list_unseen
 from rebsync.reverse.python import model_defaults as defaults
+from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.model_expressions import Expressions
 from rebsync.reverse.python.model_filled import fillings_of
 from rebsync.reverse.python.model_helpers import called_in, first_of, own_name, without_object
@@ -68,13 +69,14 @@ class ModelBodies:
     """
 
     code: PyCode
+    form: PyForm
     findings: Findings
     line: Callable[[Scope], list[Scope]]
     roles: Callable[[Scope], PyRoles]
     served: Callable[[Scope, Scope], str | None]
     types: frozenset[str]
     serving: Served
-    fields: Mapping[str, Mapping[str, m.Type]]
+    fields: Mapping[str, Mapping[str, m.Type | None]]
     constants: Mapping[str, Interval]
     named: CodeConstants
     known: dict[int, ModelNames] = with_default(default_factory=dict)
@@ -252,7 +254,8 @@ class ModelBodies:
     def _passed(self, shim: Scope) -> Iterator[m.Type | None]:
         message = named(field(shim.node, "parameters"))[-1]
         type_ = message.child_by_field_name("type")
-        known = self.fields.get(text_of(type_), {}) if type_ is not None else {}
+        fields = self.fields.get(text_of(type_), {}) if type_ is not None else {}
+        known = {name: of for name, of in fields.items() if of is not None and not of.dimensions}
         holder = f"{shim.parameters[-1].name}."
         for call in (s for s in body_of(shim) if "receive(" in text_of(s)):
             arguments = named(field(named(call)[0], "arguments"))
@@ -346,7 +349,9 @@ class ModelBodies:
             imported=imported,
             posts=posts,
             fillings=fillings,
-            silent=silent_in(self.code, self.line(owner), [*map(self.roles, self.line(owner))]),
+            silent=silent_in(
+                self.code, self.form, self.line(owner), [*map(self.roles, self.line(owner))]
+            ),
             code=self.code,
         )
 

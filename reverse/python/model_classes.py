@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import field as with_default
 from dataclasses import replace
 from functools import cached_property
@@ -16,8 +16,11 @@ from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES, OFFERS, RUNTIME_TOPICS
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.annotations import of_class, of_server
+from rebsync.reverse.generated.messages import NO_MESSAGES, OwnMessages
 from rebsync.reverse.generated.own_parameters import Stored, with_own
 from rebsync.reverse.python import model_first_values as first_values
+from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.class_creation import list_creation
 from rebsync.reverse.python.model_bodies import ModelBodies
 from rebsync.reverse.python.model_overloads import families
@@ -39,30 +42,27 @@ from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import PyCode, Scope, classes_in
 from rebsync.reverse.syntax.py_tree import named, text_of
 
-# What the set-up of a server shows, whatever a marker says.
-_SHOWN = frozenset({"priority", "globalPriority"}) | OFFERS
-
 
 @dataclass(eq=False)
 class ModelClasses:
     """Reads the classes of some code that have a mailbox, and the interfaces of these.
 
-    `messages` are the fields of the package's message types, by the names of these, `served`
-    what classes serve, those in another language among them, and `fields` the types of fields.
+    `messages` are the package's message types, by their names alone, `served` what classes serve,
+    those in another language among them.
     `constants` are the integers that some names of the model always stand for.
     """
 
     code: PyCode
     findings: Findings
-    messages: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
+    messages: OwnMessages = NO_MESSAGES
     served: Served = with_default(default_factory=Served)
-    fields: Mapping[str, Mapping[str, m.Type]] = with_default(default_factory=dict)
     constants: Mapping[str, Interval] = with_default(default_factory=dict)
     roles: dict[int, PyRoles] = with_default(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._values = PyValues(self.code)
         self._named = CodeConstants(self._values)
+        self._form = PyForm(self.code, without_runtime=True)
         self._owners = [c for c in classes_in(self.code) if not is_runtime_file(c.py.source)]
         self._lines: dict[int, list[Scope]] = {}
         if not any("Mailbox(" in s.py.source.text for s in self.code.modules.values()):
@@ -81,27 +81,34 @@ class ModelClasses:
                 roles.own.clear()
             elif roles.own:
                 all_roles = [*map(self._of, line)]
-                roles.leave_out(silent_in(self.code, line, all_roles, roles.own).texts)
+                roles.leave_out(silent_in(self.code, self._form, line, all_roles, roles.own).texts)
         for owner in self._owners:
             learn_servers(self.line(owner), self._of)
         own = {o.name for o in self._owners}
-        self._types = frozenset({*self.messages, *messages_of(self._owners), *own})
+        self._types = frozenset({*self.messages.fields, *messages_of(self._owners), *own})
 
     @cached_property
     def _bodies(self) -> ModelBodies:
         in_cpp = (carry(name, NO_PYTHON_CLASSES) for name in self.served.classes)
         return ModelBodies(
             self.code,
+            self._form,
             self.findings,
             self.line,
             self._of,
             self._served,
             self._types.union(in_cpp),
             self.served,
-            self.fields,
+            self.messages.fields,
             self.constants,
             self._named,
         )
+
+    @cached_property
+    def _signed(self) -> OwnMessages:
+        """The message types, of which shims may tell as well that they say who sends them."""
+        told = (type_ for roles in self.roles.values() for type_ in roles.signed)
+        return replace(self.messages, signed=self.messages.signed.union(told))
 
     def families(self) -> dict[str, dict[str, str]]:
         """By class the servers, those above included, by the types of their messages."""
@@ -213,8 +220,8 @@ class ModelClasses:
         names, lineage = self._bodies.names(owner), self.line(owner)[1:]
         before = len(self.findings.all)
         Plumbing(
-            *(roles, self.messages, self.findings, self._named, names.silent, lineage),
-            *(names.posts, self.fields, self._is_lost),
+            *(roles, self._signed, self.findings, self._named, names.silent, lineage),
+            *(names.posts, self._is_lost),
         ).check()
         members: list[m.ClassMember] = []
         known = [self._variable(owner, *v) for v in roles.known.values()]
@@ -262,15 +269,11 @@ class ModelClasses:
         return bool(functions) and is_plain and not any(map(_is_abstract, functions.values()))
 
     def _shown(self, owner: Scope) -> Iterator[m.Annotation]:
-        """The annotations of the markers; without markers, those that the set-up shows."""
         markers = markers_above(owner.py, owner.node)
-        if any(x.startswith("reactiveclass ") for x in markers):
-            yield from annotations_above(owner.py, owner.node)
-            return
-        if self._of(owner).has_drive:
-            yield m.Annotation("Robot")
-        if self._of(owner).on_bridge:
-            yield m.Annotation("Controller")
+        is_marked = any(x.startswith("reactiveclass ") for x in markers)
+        roles = self._of(owner)
+        marked = annotations_above(owner.py, owner.node) if is_marked else None
+        return of_class(marked, has_drive=roles.has_drive, on_bridge=roles.on_bridge)
 
     def _variable(self, owner: Scope, name: str, type_: m.Type, statement: Node) -> m.Declaration:
         span = owner.py.span(statement)
@@ -315,23 +318,13 @@ class ModelClasses:
     def _server_annotations(
         self, owner: Scope, function: Scope, name: str
     ) -> Iterator[m.Annotation]:
-        if any(x.startswith("msgsrv ") for x in markers_above(function.py, function.node)):
-            yield from self._marked(owner, function)
-            return
-        if any(original(s) == name or s == name for s in self._of(owner).sensors):
-            yield m.Annotation("Sensor")
-        yield from self._set_up(owner, function) or ()
-
-    def _marked(self, owner: Scope, function: Scope) -> Iterator[m.Annotation]:
-        """The annotations of the markers; priorities, services and actions the set-up says."""
-        shown = self._set_up(owner, function)
-        said = {a.name: a for a in shown or () if a.name in _SHOWN}
-        for each in annotations_above(function.py, function.node):
-            if each.name not in _SHOWN or shown is None:
-                yield each
-            elif (own := said.pop(each.name, None)) is not None:
-                yield each if each.arguments == own.arguments else own
-        yield from said.values()
+        markers = markers_above(function.py, function.node)
+        is_marked = any(x.startswith("msgsrv ") for x in markers)
+        return of_server(
+            annotations_above(function.py, function.node) if is_marked else None,
+            self._set_up(owner, function),
+            is_sensor=any(name in (s, original(s)) for s in self._of(owner).sensors),
+        )
 
     def _set_up(self, owner: Scope, function: Scope) -> tuple[m.Annotation, ...] | None:
         """The annotations that the set-up of a server shows, here or in a class above."""

@@ -15,7 +15,7 @@ from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
-_PUBLISH = "self._mailbox.publish"
+PUBLISH = "self._mailbox.publish"
 
 
 def fillings_of(roles: PyRoles, sends: Mapping[str, PySends]) -> dict[str, Filling]:
@@ -23,7 +23,7 @@ def fillings_of(roles: PyRoles, sends: Mapping[str, PySends]) -> dict[str, Filli
     found = {}
     for name, own in roles.sends.items():
         statements = [named(s)[0] for s in body_of(roles.functions[name]) if named(s)]
-        published = [c for s in statements if (c := call_parts(s)) and c[0] == _PUBLISH]
+        published = [c for s in statements if (c := call_parts(s)) and c[0] == PUBLISH]
         if len(published) != 1 or own.known is None:
             continue
         member = text_of(published[0][1][0])
@@ -82,7 +82,7 @@ def filled(
         left = text_of(field(inner, "left")) if inner.type == "assignment" else ""
         if left.startswith(f"{name}."):
             given[left.removeprefix(f"{name}.")] = field(inner, "right")
-        elif called == _PUBLISH and len(arguments) == 3 and text_of(arguments[1]) == name:
+        elif called == PUBLISH and len(arguments) == 3 and text_of(arguments[1]) == name:
             _assert_gone(reader, node, name, after[taken:])
             del after[:taken]
             return [_sent(reader, node, message, given, arguments)]

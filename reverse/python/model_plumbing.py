@@ -10,26 +10,27 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
-from rebsync import model as m
 from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
-from rebsync.reverse.python.model_filled import made_of
 from rebsync.reverse.python.model_helpers import is_transparent
 from rebsync.reverse.python.model_logs import is_logger
 from rebsync.reverse.python.model_parameters import only_declares, parameter_read
-from rebsync.reverse.python.model_posts import POST, Post, tells_arguments
-from rebsync.reverse.python.model_roles import OFFERING, PyRoles, PySends, field_read
+from rebsync.reverse.python.model_posts import Post
+from rebsync.reverse.python.model_roles import OFFERING, PyRoles, PySends
+from rebsync.reverse.python.model_send_functions import odd_in_send
+from rebsync.reverse.python.model_shims import odd_in_shim
 from rebsync.reverse.python.model_silent import Silent
 from rebsync.reverse.python.model_types import (
     call_parts,
     called_late,
+    expression_in,
     handed_over,
     is_unset,
     literal_type,
-    passed_on,
     type_made,
     type_of,
     without_parentheses,
@@ -39,7 +40,6 @@ from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import Scope
 from rebsync.reverse.syntax.py_tree import Py, field, named, text_of
-from rebsync.static.types import PRIMITIVES
 
 _MADE = frozenset({"Mailbox", "Drive", "Sensor"})
 _CONNECTING = frozenset(
@@ -69,26 +69,22 @@ _LATE = "this gives a coroutine, and nobody runs it"
 _HINT = "say it in the model, or move it into a user block"
 
 
-_SENDER = "self._mailbox.self()"
-
-
 @dataclass(frozen=True, slots=True)
 class Plumbing:
     """One class with what its functions are for.
 
-    `fields` are those of messages, by their types; of those that another package has, as in ROS 2,
-    only the order of what is passed on can be looked at. `above` are the classes above, `posts`
-    what is posted, by the ids of the calls, `types` those of fields; what is lost nobody takes in.
+    Of `messages` that another package has, as in ROS 2, only the order of what is passed on can be
+    looked at. `above` are the classes above, `posts` what is posted, by the ids of the calls; what
+    is lost nobody takes in.
     """
 
     roles: PyRoles
-    fields: Mapping[str, Sequence[str]]
+    messages: OwnMessages
     findings: Findings
     constants: CodeConstants
     silent: Silent
     above: Sequence[Scope]
     posts: Mapping[int, Post]
-    types: Mapping[str, Mapping[str, m.Type]]
     is_lost: Callable[[PySends], bool]
 
     def check(self) -> None:
@@ -142,9 +138,13 @@ class Plumbing:
         if name in ("__init__", "_wire"):
             yield from self._odd_in_set_up(function, body)
         elif name in self.roles.shims:
-            yield from (s for s in body if not self._receives(function, s))
+            yield from odd_in_shim(self.constants.code, self.roles, function, body, self.messages)
         elif name in self.roles.sends:
-            yield from self._sends(function, body)
+            sends = self.roles.sends[name]
+            if self.is_lost(sends):
+                yield from body[-1:]
+            else:
+                yield from odd_in_send(function, body, sends, self.messages, self.posts)
         elif name == "_publish_state":
             yield from (s for s in body if not _is_of_state(s))
         elif name == "mailbox":
@@ -160,14 +160,14 @@ class Plumbing:
         for statement in body:
             if statement in early:
                 continue
-            is_late = is_constructed and not is_logger(_inner(statement))
+            is_late = is_constructed and not is_logger(expression_in(statement))
             if is_late or not self._sets_up(function, statement):
                 yield statement
-            called, _ = call_parts(_inner(statement)) or ("", [])
+            called, _ = call_parts(expression_in(statement)) or ("", [])
             is_constructed = is_constructed or called == "self._mailbox.construct"
 
     def _sets_up(self, function: Scope, statement: Node) -> bool:
-        inner = _inner(statement)
+        inner = expression_in(statement)
         if inner is None:
             return statement.type == "pass_statement"
         if inner.type == "call":
@@ -220,92 +220,11 @@ class Plumbing:
             return server is not None and key.startswith(graph_name(server))
         return member in self.roles.publishers
 
-    # --- messages -------------------------------------------------------------------------------
-
-    def _receives(self, function: Scope, statement: Node) -> bool:
-        """Whether a shim hands over all fields of a message in their order."""
-        called, arguments = call_parts(_inner(statement)) or ("", [])
-        if called != "self._mailbox.receive" or len(arguments) != 5:
-            return False
-        parameter = field(function.node, "parameters").named_children[-1]
-        type_ = parameter.child_by_field_name("type")
-        message = function.parameters[-1].name
-        _, values = passed_on(arguments[4]) or ("", [])
-        if type_ is None or text_of(arguments[1]) != f"{message}.timing":
-            return False
-        if not tells_arguments(arguments[3], values):
-            return False
-        given = [field_read(v, message) for v in values]
-        wanted, handler = self.fields.get(text_of(type_)), self.roles.handler_of(function.name)
-        if wanted is not None and given != list(wanted):
-            return False
-        if handler is not None and not self._fits(text_of(type_), given, handler, len(given)):
-            return False
-        if wanted is not None:
-            return True
-        count = len(handler.parameters) - 1 if handler is not None else len(given)
-        return len(set(given)) == count == len(given) and all(map(str.isidentifier, given))
-
-    def _sends(self, function: Scope, body: list[Node]) -> Iterator[Node]:
-        """The statements of a function that do more than fill a message and send it."""
-        sends, parameters = self.roles.sends[function.name], _parameters(function)
-        passed = [p for p in parameters if p != "when"][sends.known is None :]
-        wanted = sends.server.partition(" ")[0] if sends.known != "self" else ""
-        filled: dict[str, str] = {}
-        type_, message, is_sent = "", "msg", False
-        for statement in body:
-            inner = _inner(statement)
-            called, arguments = call_parts(inner) or ("", [])
-            left = _left(inner)
-            if is_sent:
-                yield statement
-            elif inner is not None and left.isidentifier() and not type_:
-                message, (type_, first) = left, made_of(field(inner, "right"))
-                filled |= {name: _flat(value) for name, value in first.items()}
-                is_own = filled.pop("sender", _SENDER) == _SENDER
-                if type_ != wanted or left in parameters or not is_own:
-                    yield statement
-            elif inner is not None and left == f"{message}.sender":
-                if text_of(field(inner, "right")) != _SENDER:
-                    yield statement
-            elif inner is not None and left.startswith(f"{message}."):
-                filled[left.removeprefix(f"{message}.")] = _flat(field(inner, "right"))
-            elif called == "self._mailbox.publish":
-                if not type_ and len(arguments) > 1:
-                    type_, first = made_of(arguments[1])
-                    filled |= {name: _flat(value) for name, value in first.items()}
-                is_sent, fields = True, self.fields.get(type_, tuple(filled))
-                in_order = [filled.get(f) for f in fields] == passed and len(filled) == len(passed)
-                fits = in_order and self._fits(type_, fields, function, len(passed))
-                fits = fits and type_ == wanted
-                if not fits or text_of(arguments[-1]) != "when" or self.is_lost(sends):
-                    yield statement
-            elif called == POST:
-                is_sent, post = True, self.posts.get(inner.id) if inner is not None else None
-                held = post is not None and post.is_held and text_of(post.when) == "when"
-                if post is None or not held or [text_of(v) for v in post.given] != passed:
-                    yield statement
-            else:
-                yield statement
-
-    def _fits(self, message: str, fields: Sequence[str], function: Scope, count: int) -> bool:
-        """Whether fields are of the types of the last parameters but for the time."""
-        if message not in self.types:
-            return True
-        nodes = named(field(function.node, "parameters"))
-        given = [n for n in nodes if _name_of(n) != "when"][-count:] if count else []
-        said = [type_of(n.child_by_field_name("type")) for n in given]
-        return all(
-            type_ is None or type_.name not in PRIMITIVES or type_ == self.types[message].get(name)
-            for name, type_ in zip(fields, said, strict=True)
-            if type_ is None or not type_.dimensions
-        )
-
 
 def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
     """The statements of a module of a class that are none of the model's."""
     for statement in named(module.node):
-        inner = _inner(statement)
+        inner = expression_in(statement)
         called, _ = call_parts(inner.child_by_field_name("right") if inner else None) or ("", [])
         definition = statement.child_by_field_name("definition") or statement
         if any(c.type == "wildcard_import" for c in statement.children):
@@ -340,28 +259,8 @@ def _is_before_node(function: Scope, statement: Node) -> bool:
     return is_early and re.search(r"\bself\b(?!\._\w+\s*=)", text_of(statement)) is not None
 
 
-def _parameters(function: Scope) -> list[str]:
-    return [p.name for p in function.parameters[1:]]
-
-
-def _name_of(parameter: Node) -> str:
-    name = parameter.child_by_field_name("name")
-    return text_of(name if name is not None else (named(parameter) or [parameter])[0])
-
-
-def _left(inner: Node | None) -> str:
-    """What an assignment stores into; nothing for what is none."""
-    return text_of(field(inner, "left")) if inner is not None and inner.type == "assignment" else ""
-
-
-def _flat(value: Node) -> str:
-    """What a field of a message is filled with: an array by its elements."""
-    called, arguments = call_parts(value) or ("", [])
-    return text_of(arguments[0] if called == "flatten" and len(arguments) == 1 else value)
-
-
 def _is_of_state(statement: Node) -> bool:
-    inner = _inner(statement)
+    inner = expression_in(statement)
     if inner is None:
         return False
     if inner.type == "assignment":
@@ -381,15 +280,8 @@ def _only_looks(value: Node) -> bool:
     )
 
 
-def _inner(statement: Node) -> Node | None:
-    """The expression or assignment that a statement is."""
-    if statement.type != "expression_statement" or not named(statement):
-        return None
-    return named(statement)[0]
-
-
 def _is_text(statement: Node) -> bool:
-    inner = _inner(statement)
+    inner = expression_in(statement)
     return inner is not None and inner.type in ("string", "concatenated_string")
 
 

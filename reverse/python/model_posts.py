@@ -8,21 +8,18 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.generated.annotations import PRIORITIES, best_priority
 from rebsync.reverse.python.model_roles import PyRoles, plain_name, servers_of
 from rebsync.reverse.python.model_types import call_parts, passed_on, string_value
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.py_index import Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
-from rebsync.static.constants import constant
 
 POST = "self._mailbox.post"
-_PRIORITIES = frozenset({"priority", "globalPriority"})
 _LITERALS = frozenset({"integer", "float", "true", "false"})  # the same whenever it is evaluated
 _EARLY = _LITERALS | {"identifier", "attribute"}
 _LOOPS = frozenset({"for_statement", "while_statement"})
 _INNER = frozenset({"function_definition", "lambda"})
-
-_NONE = 1 << 31  # the rank of what has no priority
 
 RolesOf = Callable[[Scope], PyRoles]
 
@@ -46,7 +43,7 @@ def posts_of(function: Scope) -> Iterator[tuple[Node, Post]]:
     """What a function posts: the calls that post a message, and nothing else."""
     if POST not in text_of(function.node):
         return
-    servers = {n: s for n, s in servers_of(function.module).items() if _is_told(function.module, n)}
+    servers = {n: s for n, s in servers_of(function.module).items() if is_told(function.module, n)}
     for call in _calls_in(function.node):
         post = _post(function, call, servers)
         if post is not None:
@@ -62,9 +59,11 @@ def _calls_in(node: Node) -> Iterator[Node]:
             yield from _calls_in(child)
 
 
-def _is_told(module: Scope, descriptor: str) -> bool:
+def is_told(module: Scope, descriptor: str) -> bool:
     """Whether a descriptor is made once, with a priority that the model can have, or none."""
-    bindings = module.names[descriptor]
+    bindings = module.names.get(descriptor, [])
+    if descriptor not in servers_of(module):
+        return False
     _, arguments = call_parts(bindings[0].value) or ("", [])
     _, annotations = servers_of(module)[descriptor]
     return len(bindings) == 1 and len(arguments) == 1 + len(annotations) < 3
@@ -118,7 +117,7 @@ def own_posts(
         annotations = next((a for a in shown if a is not None), None)
         if handlers.get(post.handler) != post.server or annotations is None:
             continue
-        if tuple(a for a in annotations if a.name in _PRIORITIES) == post.priority:
+        if tuple(a for a in annotations if a.name in PRIORITIES) == post.priority:
             yield call, post
 
 
@@ -137,22 +136,13 @@ def learn_servers(line: Sequence[Scope], roles: RolesOf) -> None:
             handlers = _handlers(line, roles)
             if above is None or post.handler in handlers or post.server in handlers.values():
                 continue
-            if post.priority and _rank(post.priority) < _best(line, roles):
+            own = best_priority([post.priority])
+            best = best_priority(shown for c in line for shown in roles(c).shown.values())
+            if own is not None and (best is None or own < best):
                 continue  # the mailbox does not know that anything is so urgent
             roles(above).handlers[post.handler] = post.server
             roles(above).shown[post.handler] = post.priority
             roles(above).posted.add(post.server)
-
-
-def _best(line: Sequence[Scope], roles: RolesOf) -> int:
-    """The rank of the most urgent server of a class."""
-    return min((_rank(shown) for c in line for shown in roles(c).shown.values()), default=_NONE)
-
-
-def _rank(annotations: Sequence[m.Annotation]) -> int:
-    given = (a.arguments or () for a in annotations if a.name in _PRIORITIES)
-    found = (constant(argument) for arguments in given for argument in arguments)
-    return min((int(number) for number in found if number is not None), default=_NONE)
 
 
 def _declaring(line: Sequence[Scope], roles: RolesOf, post: Post) -> Scope | None:

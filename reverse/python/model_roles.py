@@ -19,14 +19,21 @@ from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS, PYTHON_FUNCTIONS, PYTHON_MEMBERS
 from rebsync.reverse.bodies.overloads import Signature
 from rebsync.reverse.build.field_order import are_named
+from rebsync.reverse.generated.annotations import priority
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
 from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.python.model_logs import only_describes
-from rebsync.reverse.python.model_parameters import ParameterRead, declared_by, parameter_read
+from rebsync.reverse.python.model_parameters import (
+    ParameterRead,
+    constant,
+    declared_by,
+    parameter_read,
+)
 from rebsync.reverse.python.model_queues import PASSED, queue_in
 from rebsync.reverse.python.model_timers import called_back
 from rebsync.reverse.python.model_types import (
     call_parts,
+    field_read,
     handed_over,
     is_unset,
     literal_type,
@@ -48,6 +55,7 @@ OFFERING = {
     **dict.fromkeys(("offer", "offer_on_bridge"), (6,)),
     **dict.fromkeys(("offer_action", "offer_action_on_bridge"), (6, 8)),
 }
+_PRIORITIES = {"priority": "priority", "global_priority": "globalPriority"}
 _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
 
 
@@ -92,6 +100,7 @@ class PyRoles:
     handlers: dict[str, str] = with_default(default_factory=dict)
     shown: dict[str, tuple[m.Annotation, ...]] = with_default(default_factory=dict)
     messages: dict[str, str] = with_default(default_factory=dict)
+    signed: set[str] = with_default(default_factory=set)  # messages whose sender a shim tells
     sends: dict[str, PySends] = with_default(default_factory=dict)
     handler_names: dict[str, str] = with_default(default_factory=dict)
     by_shim: dict[str, str] = with_default(default_factory=dict)
@@ -194,13 +203,10 @@ def servers_of(module: Scope) -> dict[str, tuple[str, tuple[m.Annotation, ...]]]
 
 def _priority(arguments: list[Node]) -> Iterator[m.Annotation]:
     for node in arguments:
-        parts = call_parts(node)
-        kinds = {"priority": "priority", "global_priority": "globalPriority"}
-        if parts is not None and parts[0] in kinds and len(parts[1]) == 1:
-            text = text_of(parts[1][0])
-            value: m.Expression = m.IntLiteral(int(text.lstrip("-")))
-            value = m.Unary("-", value) if text.startswith("-") else value
-            yield m.Annotation(kinds[parts[0]], (value,))
+        kind, given = call_parts(node) or ("", [])
+        number = constant(given[0]) if len(given) == 1 else None
+        if kind in _PRIORITIES and type(number) is int:
+            yield priority(_PRIORITIES[kind], number)
 
 
 # --- set up -------------------------------------------------------------------------------------
@@ -348,10 +354,9 @@ def _received(
     roles.by_shim[function.name] = server
     roles.handler_names[function.name] = handler
     roles.handlers[handler] = server
-    port = roles.topics.get(function.name, "").startswith("port/")
     offer = roles.offers.get(function.name)
     roles.shown[handler] = (
-        *((m.Annotation("Port"),) if port else ()),
+        *((m.Annotation("Port"),) if roles.topics.get(function.name, "")[:5] == "port/" else ()),
         *((offer,) if offer is not None else ()),
         *annotations,
     )
@@ -360,16 +365,11 @@ def _received(
     if message is not None:
         roles.messages[text_of(message)] = server
         given, serves = function.parameters[-1].name, roles.functions.get(handler)
+        if text_of(arguments[2]) == f"{given}.sender":
+            roles.signed.add(text_of(message))
         fields = tuple(field_read(v, given) for v in values)
         if serves is not None and are_named(fields, [p.name for p in serves.parameters[1:]]):
             roles.orders.append((text_of(message), fields))
-
-
-def field_read(node: Node, message: str) -> str:
-    """The field of a message that a value is: as it is, as a rebec's name, or as an array."""
-    inside = call_parts(node)
-    plain = inside[1][0] if inside is not None and inside[1] else node
-    return text_of(plain).removeprefix(f"{message}.")
 
 
 def _published(roles: PyRoles, function: Scope, publisher: Node, passed: list[str]) -> None:

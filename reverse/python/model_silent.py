@@ -15,7 +15,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1, PUBLISHER_METHOD
-from rebsync.reverse.python.model_locks import may_lock, waiting_methods
+from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
 from rebsync.reverse.python.model_roles import PyRoles, is_of_node
 from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
@@ -35,11 +35,11 @@ from rebsync.reverse.python.record_classes import records_in
 from rebsync.reverse.syntax.ancestors import ancestors, climb
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
-from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
+from rebsync.reverse.syntax.py_tree import Py, field, is_label, named, text_of
 
 _SET_UP = ("__init__", "_wire")
 _VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
-_LOCKS = {"threading.Lock": False, "threading.RLock": True}
+_LOCKS = frozenset({"threading.Lock", "threading.RLock"})
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
 _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
@@ -47,22 +47,21 @@ _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Silent:
-    """The silent members of a class: `texts` are told to people only, `locks` whether again.
-
+    """The silent members of a class: `texts` are told to people only, `locks` are only held.
     `ticking` are timers that only log, as `timers` tells them. `locals` are what a function makes
-    or measures for people, by the function's node, and `counters` variables of the module;
-    `waiting` are methods that may lock.
+    or measures for people, by the function's node, and `counters` variables of the module; `form`
+    tells who may wait for a lock.
     """
 
     texts: frozenset[str] = frozenset()
     publishers: frozenset[str] = frozenset()
     ticking: frozenset[str] = frozenset()
-    locks: dict[str, bool] = with_default(default_factory=dict)
+    locks: frozenset[str] = frozenset()
     locals: dict[int, frozenset[str]] = with_default(default_factory=dict)
     timers: Timers = Timers()
     shown: dict[str, Shown] = with_default(default_factory=dict)
-    waiting: frozenset[str] = frozenset()
     counters: frozenset[str] = frozenset()
+    form: PyForm | None = None
 
     @property
     def looks(self) -> Looks:
@@ -137,22 +136,25 @@ class Silent:
 
     # --- locks ----------------------------------------------------------------------------------
 
-    def locked(self, node: Node) -> Node | None:
+    def locked(self, py: Py, node: Node) -> Node | None:
         """What is done while a lock of the object's own is held; None if that may wait for ever."""
         head = next((c for c in named(node) if c.type == "with_clause"), node)
         items = [text_of(i) for i in named(head) if i.type == "with_item"]
         name = items[0].removeprefix("self.") if len(items) == 1 else ""
-        if name not in self.locks or items[0] == name:
+        if name not in self.locks or items[0] == name or self.form is None:
             return None
-        body = field(node, "body")
-        return body if self.locks[name] or not may_lock(body, self.waiting) else None
+        return None if self.form.waits_for_itself(py, node) else field(node, "body")
 
 
 NOTHING = Silent()
 
 
 def silent_in(
-    code: PyCode, line: Sequence[Scope], roles: Sequence[PyRoles], own: Collection[str] = ()
+    code: PyCode,
+    form: PyForm,
+    line: Sequence[Scope],
+    roles: Sequence[PyRoles],
+    own: Collection[str] = (),
 ) -> Silent:
     """The silent members of a class, the first of a line with those above it, and their roles.
 
@@ -183,7 +185,7 @@ def silent_in(
         for name, v in members.items()
         if v.type in _VALUES or _own_parameter(v) or looks.tells_time(v)
     )
-    locks = {n: _LOCKS[lock] for n, v in members.items() if (lock := _lock(owner.module, v))}
+    locks = frozenset(n for n, v in members.items() if _is_lock(owner.module, v))
     found = Silent(
         told,
         frozenset(n for n, v in publishers.items() if _is_publisher(v, makers)),
@@ -192,8 +194,8 @@ def silent_in(
         {f.node.id: _locals(f, makers, looks) for f in functions.values()},
         timers,
         {n: s for n, v in publishers.items() if (s := shown_by(code, owner.module, v, variables))},
-        waiting_methods(code) if locks else frozenset(),
         frozenset(counters_of(code, owner.module)) - hidden,
+        form,
     )
     while members or found.counters or any(found.locals.values()):
         wrong = {n for module in modules for n in _odd(found, module.node)}
@@ -205,9 +207,8 @@ def silent_in(
 
 def _without(silent: Silent, wrong: set[str]) -> Silent:
     locals_ = {f: frozenset(names - wrong) for f, names in silent.locals.items()}
-    locks = {n: again for n, again in silent.locks.items() if n not in wrong}
-    texts, publishers, ticking = (
-        names - wrong for names in (silent.texts, silent.publishers, silent.ticking)
+    texts, publishers, ticking, locks = (
+        names - wrong for names in (silent.texts, silent.publishers, silent.ticking, silent.locks)
     )
     shown = {n: s for n, s in silent.shown.items() if n not in wrong}
     return replace(
@@ -255,13 +256,12 @@ def _own_parameter(node: Node) -> bool:
     return is_plain and section not in ("env", "knownrebecs", "mailbox", "drive")
 
 
-def _lock(module: Scope, node: Node) -> str:
-    """The lock that a value is, by its name in Python's library; empty if it is none."""
+def _is_lock(module: Scope, node: Node) -> bool:
+    """Whether a value is a lock of Python's library."""
     called, arguments = call_parts(node) or ("", [])
     head, _, rest = called.partition(".")
-    of = imported_as(module, head)
-    whole = ".".join(filter(None, (of, rest)))
-    return whole if whole in _LOCKS and not arguments else ""
+    whole = ".".join(filter(None, (imported_as(module, head), rest)))
+    return whole in _LOCKS and not arguments
 
 
 def _is_publisher(node: Node, makers: frozenset[str]) -> bool:

@@ -135,7 +135,9 @@ class Statements(ModelStatementReader):
                 return self._for(node, before)
             case "with_statement" if "block()" in text_of(node).partition(":")[0]:
                 return [self.suite(field(node, "body"))]
-            case "with_statement" if held := self.expressions.names.silent.locked(node):
+            case "with_statement" if held := self.expressions.names.silent.locked(
+                self.expressions.py, node
+            ):
                 return list(self.block(named(held), held).statements)
             case "return_statement":
                 return self._return(node)

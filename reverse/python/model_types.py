@@ -150,6 +150,13 @@ def passed_on(node: Node) -> tuple[str, list[Node]] | None:
     return None if called else (text_of(node), [])
 
 
+def field_read(node: Node, message: str) -> str:
+    """The field of a message that a value is: as it is, as a rebec's name, or as an array."""
+    inside = call_parts(node)
+    plain = inside[1][0] if inside is not None and inside[1] else node
+    return text_of(plain).removeprefix(f"{message}.")
+
+
 def handed_over(node: Node) -> str:
     """The function that takes a message: `f`, or `lambda msg: f(msg)`."""
     if node.type == "lambda":
@@ -182,6 +189,18 @@ def call_parts(node: Node | None) -> tuple[str, list[Node]] | None:
     given = field(node, "arguments")
     arguments = [given] if given.type == "generator_expression" else named(given)
     return text_of(field(node, "function")), arguments
+
+
+def expression_in(statement: Node) -> Node | None:
+    """The expression or assignment that a statement is."""
+    if statement.type != "expression_statement" or not named(statement):
+        return None
+    return named(statement)[0]
+
+
+def stored_into(inner: Node | None) -> str:
+    """What an assignment stores into; nothing for what is none."""
+    return text_of(field(inner, "left")) if inner is not None and inner.type == "assignment" else ""
 
 
 def called_late(node: Node) -> Node | None:

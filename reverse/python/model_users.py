@@ -6,11 +6,11 @@ They may look at what the model has, and do what they like with the rest.
 from __future__ import annotations
 
 import ast
-import re
 from functools import lru_cache
 
 from tree_sitter import Node
 
+from rebsync.reverse.generated.user_blocks import user_blocks
 from rebsync.reverse.python.import_effects import parsed
 from rebsync.reverse.python.log_words import HARMLESS
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
@@ -18,7 +18,6 @@ from rebsync.reverse.python.user_effects import effects_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.source import Source
 
-_BLOCK = re.compile(r"^[ \t]*#\s*rebsync:\s*(user\s+\S+|end\b)", re.MULTILINE)
 _LEAVING = frozenset(
     {"return_statement", "break_statement", "continue_statement", "raise_statement", "yield"}
 )
@@ -37,19 +36,9 @@ _STORING = {
 def is_users(reader: ModelExpressionReader, node: Node) -> bool:
     """Whether a statement stands between `rebsync: user NAME` and `rebsync: end`."""
     span = reader.py.span(node)
-    return any(a < span.start and span.end <= b for a, b in _blocks(reader.py.source.text))
-
-
-@lru_cache(maxsize=8)
-def _blocks(text: str) -> tuple[tuple[int, int], ...]:
-    found, start = [], None
-    for marker in _BLOCK.finditer(text):
-        if marker[1] != "end":
-            start = marker.end()
-        elif start is not None:
-            found.append((start, marker.start()))
-            start = None
-    return tuple(found)
+    return any(
+        b.start < span.start and span.end <= b.end for b in user_blocks(reader.py.source.text)
+    )
 
 
 def check(reader: ModelExpressionReader, node: Node) -> None:

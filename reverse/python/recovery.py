@@ -16,6 +16,7 @@ from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.messages import NO_MESSAGES, OwnMessages
 from rebsync.reverse.generated.own_parameters import OwnParameter, Stored
 from rebsync.reverse.graph import (
     Callback,
@@ -53,10 +54,6 @@ from rebsync.source import Source
 _WHY = "what this belongs to is no node of the model: only what it asks of ROS is read"
 _HINT = "--format json tells what it asks of ROS"
 _STAND_IN = "_stand_in"
-_FIELDS = {
-    **{"bool": "boolean", "int8": "byte", "int16": "short", "int32": "int"},
-    **{"float32": "float", "float64": "double"},
-}
 
 # The constants that classes read: by key the type, the name in the model, and the default.
 Used = tuple[str, tuple[m.Type, str, "Value | None"]]
@@ -120,9 +117,9 @@ class PythonCode:
     def of(
         sources: Mapping[str, Source],
         findings: Findings,
-        messages: Mapping[str, Collection[str]] | None = None,
+        messages: OwnMessages = NO_MESSAGES,
     ) -> PythonCode:
-        """Parses them; `messages` are the fields of the package's message types."""
+        """Parses them; `messages` are the package's message types."""
         trees = [parse(source, path.startswith(BESIDE)) for path, source in sorted(sources.items())]
         findings.all += [f for py in trees for f in unparsed(py)]
         code = PyCode.of(trees)
@@ -130,7 +127,7 @@ class PythonCode:
             sources,
             code,
             PyValues(code),
-            ModelClasses(code, findings, fields_by_name(messages or {})),
+            ModelClasses(code, findings, by_name(messages.fields, messages.signed)),
         )
 
     def hears_others(self) -> bool:
@@ -144,9 +141,11 @@ class PythonCode:
             yield from roles.orders
 
 
-def fields_by_name(messages: Mapping[str, Collection[str]]) -> dict[str, tuple[str, ...]]:
-    """The fields of message types by their names without the package."""
-    return {type_.rpartition("/")[2]: tuple(fields) for type_, fields in messages.items()}
+def by_name(
+    fields: Mapping[str, Mapping[str, m.Type | None]], signed: frozenset[str]
+) -> OwnMessages:
+    """Message types by their names without the package."""
+    return OwnMessages({t.rpartition("/")[2]: of for t, of in fields.items()}, signed)
 
 
 def read_python(
@@ -172,7 +171,6 @@ def read_python(
     path = asked.path if asked is not None else None
     known, unit = MessageTypes.of(files or {}, package), unit_of_time(files or {})
     classes.served = served if served is not None else Served(classes.families())
-    classes.fields = _types_in(known)
     classes.constants = integer_constants(classes.env(), launch)
     read = classes.read(path) if asked is not None or only is None else ()
     if read and only is None and SETUP in (files or {}):
@@ -204,18 +202,6 @@ def _read_paths(python: PythonCode) -> frozenset[str]:
     """The files of which the statements at the top are read otherwise: of classes and run-time."""
     runtime = {s.path for s in python.sources.values() if is_runtime_file(s)}
     return frozenset(runtime | {o.py.source.path for o in python.classes.owners})
-
-
-def _types_in(known: MessageTypes) -> dict[str, dict[str, m.Type]]:
-    """The model's types of the fields of the package's messages, arrays left out."""
-    return {
-        type_.rpartition("/")[2]: {
-            name: m.Type(_FIELDS[plain])
-            for name, plain, length in fields
-            if length is None and plain in _FIELDS
-        }
-        for type_, fields in known.own.items()
-    }
 
 
 # --- what is not read ---------------------------------------------------------------------------

@@ -1,17 +1,15 @@
 """The facts that join nodes in Python, in the words of those of C++, and what sets nodes up.
 
-Extraction reads the bodies of the model, and which function serves or sends what. All else that a
-class does to that end is a fact here: a function that sends or receives, and each statement of the
-constructor.
+Extraction reads the bodies of the model, and the functions that serve or send. All else that a
+class does to that end is a fact here: each statement of the constructor.
 """
 
 from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
-from itertools import groupby
 from pathlib import Path
 from typing import TypeGuard
 
@@ -23,7 +21,6 @@ from rebsync.reverse.scaffold.python_parameters import as_declared
 from rebsync.reverse.scaffold.python_trees import (
     MODULE,
     bindings,
-    one_by_one,
     plain,
     said,
     span_of,
@@ -35,7 +32,6 @@ from rebsync.source import Source
 _READS = frozenset({"rospy.get_param", "declared", "read_array", "declare_array"})
 _CONNECTING = {"subscribe": "subscribe", "subscribe_on_bridge": "subscribeOnBridge"}
 _UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(|(?:0|0\.0|False)\Z")
-_FILLS = re.compile(r"_local\d+\.\w+ = \w+\Z")
 _OF_ROS = frozenset({"rospy", "rclpy"})
 
 
@@ -71,25 +67,18 @@ def _is_node(node: ast.ClassDef) -> bool:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Class:
-    """A class of nodes; `servers` are the descriptors of its module, `handlers` whom they serve."""
+    """A class of nodes; `servers` are the descriptors of its module."""
 
     source: Source
     owner: str
     node: ast.ClassDef
     servers: Mapping[str, ast.Call]
-    handlers: Mapping[str, str]
 
     @classmethod
     def of(cls, source: Source, tree: ast.Module, node: ast.ClassDef) -> _Class:
         assigned = filter(None, map(_assigned, tree.body))
         servers = {name: value for name, value in assigned if _is_server(value)}
-        named = cls(source, uncarry(node.name, NO_PYTHON_CLASSES), node, servers, {})
-        handlers = {
-            handler: named.server(call.args[0])
-            for call in _calls(node, "self._mailbox.receive")
-            if len(call.args) == 5 and (handler := _handler(call.args[4]))
-        }
-        return cls(source, named.owner, node, servers, handlers)
+        return cls(source, uncarry(node.name, NO_PYTHON_CLASSES), node, servers)
 
     def server(self, node: ast.expr) -> str:
         """The server that a descriptor stands for."""
@@ -109,17 +98,11 @@ class _Class:
         for function in self.node.body:
             if not isinstance(function, ast.FunctionDef):
                 continue
-            function = one_by_one(function)
             if function.name in ("__init__", "_wire"):
                 for statement in said(function.body):
                     yield from self._set_up(function, statement)
             elif function.name == "_publish_state":
                 yield from self._told(function)
-            elif receiving := list(_calls(function, "self._mailbox.receive")):
-                name = self.server(receiving[0].args[0]) if receiving[0].args else ""
-                yield self.fact("receiving", name, self._plain(function), function)
-            elif sent := self._sent(function):
-                yield self.fact("sending", sent, self._plain(function), function)
 
     def _told(self, function: ast.FunctionDef) -> Iterator[Fact]:
         """What it puts into its state message, and by whom it has that published."""
@@ -141,36 +124,6 @@ class _Class:
                     yield named.fact(TOLD, "", f"{plain(statement, names)}{late}", statement)
                 case _:
                     pass  # extraction lists it
-
-    def _sent(self, function: ast.FunctionDef) -> str:
-        """What a function sends, to whom; empty for one that does not send."""
-        if "when" not in [a.arg for a in function.args.args]:
-            return ""
-        for call in _calls(function, "self._mailbox.post"):
-            return f"self.{self.server(call.args[0])}" if call.args else ""
-        for call in _calls(function, "self._mailbox.publish"):
-            made = [
-                ast.unparse(n.value.func)
-                for n in function.body
-                if isinstance(n, ast.Assign) and isinstance(n.value, ast.Call)
-            ]
-            return f"{made[0] if made else ''} by {ast.unparse(call.args[0])}" if call.args else ""
-        return ""
-
-    def _plain(self, function: ast.FunctionDef) -> str:
-        """What a function says, whatever it and its parameters are called."""
-        names = {a.arg: f"_{i}" for i, a in enumerate(function.args.args) if i and a.arg != "when"}
-        stored = [n.id for n in ast.walk(function) if _is_stored(n) and isinstance(n, ast.Name)]
-        names |= {name: f"_local{i}" for i, name in enumerate(dict.fromkeys(stored))}
-        names |= {name: f"server_{self.server(ast.Name(name))}" for name in self.servers}
-        text = plain(function, names)
-        text = re.sub(r"\b(?:functools\.)?partial\((self\.\w+)(?:, )?", r"lambda: \1(", text)
-        for handler, server in self.handlers.items():
-            text = re.sub(rf"\bself\.{handler}\b(?=\(|\))", f"self.<{server}>", text)
-        text = re.sub(r"\blambda: (self\.[\w<>]+)\(\)", r"\1", text)
-        _, _, body = text.partition("\n    ")
-        defaults = [f"by default {plain(d)}" for d in function.args.defaults]
-        return "; ".join([*defaults, *_in_order(line.strip() for line in body.split("\n"))])
 
     # --- set up ---------------------------------------------------------------------------------
 
@@ -300,13 +253,6 @@ def _calls(node: ast.AST, name: str) -> Iterator[ast.Call]:
             yield each
 
 
-def _in_order(lines: Iterable[str]) -> Iterator[str]:
-    """The lines of a function, those that only fill fields of its message in one order."""
-    for is_filling, group in groupby(lines, lambda line: bool(_FILLS.match(line))):
-        found = list(group)
-        yield from sorted(found) if is_filling else found
-
-
 def _assigned(statement: ast.stmt) -> tuple[str, ast.expr] | None:
     """The name that a statement gives a value, with a type or without, and the value."""
     match statement:
@@ -322,10 +268,6 @@ def _is_server(value: ast.expr) -> TypeGuard[ast.Call]:
             return True
         case _:
             return False
-
-
-def _is_stored(node: ast.AST) -> bool:
-    return isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
 
 
 def _handler(served: ast.expr) -> str:

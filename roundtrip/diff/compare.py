@@ -9,7 +9,7 @@ from rebsync import model as m
 from rebsync.printing import print_expression, print_line, print_statement
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.alignment import longest_increasing
-from rebsync.roundtrip.diff.bodies.callables import callable_differences
+from rebsync.roundtrip.diff.callables import callable_differences
 from rebsync.roundtrip.diff.difference import (
     Added,
     Aspect,

@@ -8,10 +8,10 @@ from rebsync import model as m
 from rebsync.printing import print_statement
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.alignment import aligned
-from rebsync.roundtrip.diff.bodies.similarity import head_of
 from rebsync.roundtrip.diff.difference import Depth, Place
 from rebsync.roundtrip.diff.matching import matched
 from rebsync.roundtrip.diff.operands import Operand, SourcedModel, two_sides
+from rebsync.roundtrip.diff.similarity import head_of
 from rebsync.source import NOWHERE, Source, SourceSpan, Span
 
 _Body = m.Constructor | m.MessageServer | m.Method

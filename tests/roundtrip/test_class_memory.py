@@ -11,8 +11,8 @@ import pytest
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings
+from rebsync.reverse.generated.messages import own_messages
 from rebsync.reverse.generated.ros1_classes import Classes
-from rebsync.reverse.generated.ros1_messages import own_messages
 from rebsync.reverse.recovery import extract
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
@@ -94,7 +94,7 @@ def test_no_class_is_read_from_bodies_of_others(example: str) -> None:
     """But for what was found in them for all classes together, which is in the key."""
     files = package(example)
     code = Code.of(parse(s) for p, s in sorted(files.items()) if p.endswith((".cpp", ".h")))
-    classes = Classes(code, Findings(), own_messages(files))
+    classes = Classes(code, Findings(), own_messages(files).fields)
     plain = dict(code.definitions)
     for owner in list(classes.chosen()):
         code.definitions = plain

@@ -83,7 +83,7 @@ def test_a_fact_is_said_in_plain_words(old: set[str], new: set[str], wanted: str
 
 
 def test_of_a_function_only_what_is_otherwise_is_said() -> None:
-    assert _change("receiving", {"a; b"}, {"a; c"}) == "is with c; it was with b"
-    assert _change("receiving", {"a; b"}, {"a"}) == "is without b"
-    assert _change("receiving", {"a"}, {"a; b"}) == "is with b as well"
-    assert _change("receiving", {"a; b"}, set()) == "is without a and b"
+    assert _change("set-up", {"a; b"}, {"a; c"}) == "is with c; it was with b"
+    assert _change("set-up", {"a; b"}, {"a"}) == "is without b"
+    assert _change("set-up", {"a"}, {"a; b"}) == "is with b as well"
+    assert _change("set-up", {"a; b"}, set()) == "is without a and b"

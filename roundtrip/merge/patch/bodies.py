@@ -13,8 +13,8 @@ from rebsync.printing import print_expression, print_statement
 from rebsync.records import dataclass
 from rebsync.reverse.models.building import bare
 from rebsync.roundtrip.diff.alignment import aligned, overlap
-from rebsync.roundtrip.diff.bodies.similarity import head_of
 from rebsync.roundtrip.diff.normal_form import joined_starts, with_starts
+from rebsync.roundtrip.diff.similarity import head_of
 from rebsync.roundtrip.diff.tokens import Tokens
 from rebsync.roundtrip.merge.patch.text import TextPatch, dedented
 from rebsync.source import NOWHERE, Span

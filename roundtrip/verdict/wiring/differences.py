@@ -22,8 +22,6 @@ _TOLD: Mapping[str, tuple[str, Aspect, bool]] = {
     "field": ("msgsrv", Aspect.TYPE, True),
     "priority": ("msgsrv", Aspect.PRIORITY, False),
     "best priority": ("reactiveclass", Aspect.PRIORITY, False),
-    "sending": ("reactiveclass", Aspect.SETTING, True),
-    "receiving": ("msgsrv", Aspect.SETTING, False),
     "set-up": ("reactiveclass", Aspect.SETTING, True),
     "default": ("reactiveclass", Aspect.SETTING, True),
 }

@@ -32,7 +32,7 @@ from rebsync.roundtrip.diff.difference import (
     Renamed,
 )
 from rebsync.roundtrip.verdict.wiring.defaults import is_always_given
-from rebsync.roundtrip.verdict.wiring.fields import hand_on_alike, is_renamed, is_told_of
+from rebsync.roundtrip.verdict.wiring.fields import is_renamed, is_told_of
 from rebsync.roundtrip.verdict.wiring.names import (
     TOPICS,
     JoinedTopics,
@@ -97,8 +97,6 @@ class Excuses:
             return self._is_told(first)
         if first.kind == "field":
             return is_told_of(first, self.base, self.today, self.of_code)
-        if first.kind in ("receiving", "sending"):
-            return hand_on_alike(self.base[key], self.today.get(key, ()), self.today)
         return (first.kind == "remap" or first.kind in TOPICS) and self._same_are_joined(key)
 
     def is_known_to_differ(self, key: tuple[str, str, str]) -> bool:

@@ -39,9 +39,7 @@ _WIRED = (
     *("CMakeLists.txt", ".yaml", "package.xml", "setup.cfg"),
 )
 # Without these extraction lists what they were for; and somebody may call them otherwise.
-_MISSED = frozenset(
-    {"subscription", "publisher", "sensor", "priority", "sending", "type of the parameter"}
-)
+_MISSED = frozenset({"subscription", "publisher", "sensor", "priority", "type of the parameter"})
 # Values of facts of which only matters that they are there.
 _PRESENT = frozenset({"generated", "there", "loaded", "included", "given", "built"})
 _SAYING = frozenset({"receiving", "sending", "set-up"})
@@ -185,7 +183,7 @@ def _hint(fact: Fact) -> str:
             return "let this list name all rebecs of the model, each once"
         case "parameter":
             return _SETTINGS.get(fact.name, _HINT)
-        case "field" | "sending":
+        case "field":
             return "take the edit back, or tell of it in the model"
         case _:
             return _HINT

@@ -13,53 +13,7 @@ from rebsync.names import field_names
 from rebsync.reverse.scaffold.fact import Fact, Facts
 from rebsync.roundtrip.diff.difference import Comparison, Removed, Renamed
 
-_POSTS = re.compile(r"self\._mailbox\.(?:post|receive)\(")
-_GIVEN = re.compile(r"text\((.*)\), lambda: (self\.[\w<>]+)\((.*)\)\)\Z")
-_NOTHING = re.compile(r"'', (self\.[\w<>]+)\)\Z")
-_VALUE = re.compile(r"_\d+(?:\.(\w+))?\Z")
 _WORD = re.compile(r"\w+")
-_FILLED = re.compile(r"_local\d+\.(\w+) = _\d+\Z")
-
-
-def hand_on_alike(before: Iterable[Fact], now: Iterable[Fact], today: Facts) -> bool:
-    """Whether functions that receive or send do the same but for which fields they hand on.
-
-    Fields that no message file has are nobody's: then nothing tells in which order they are.
-    """
-    own = {"": frozenset[str]()}
-    for (kind, message, name), _ in today.items():
-        if kind == "field":
-            own[message] = own.get(message, frozenset()) | {name}
-    shapes = [{_shape(fact.value) for fact in facts} for facts in (before, now)]
-    if {shape for shape, _ in shapes[0]} != {shape for shape, _ in shapes[1]}:
-        return False
-    return all(any(fields <= known for known in own.values()) for _, fields in shapes[1])
-
-
-def _shape(value: str) -> tuple[str, frozenset[str]]:
-    """What a function does, whatever it hands on, and the fields that it hands on."""
-    lines: list[str] = []
-    fields: set[str] = set()
-    for line in value.split("; "):
-        if (filled := _FILLED.match(line)) is not None:
-            fields.add(filled[1])
-            continue
-        plain, found = _posted(line) if _POSTS.match(line) else (line, [])
-        lines.append(plain)
-        fields.update(found)
-    return "; ".join(lines), frozenset(fields)
-
-
-def _posted(line: str) -> tuple[str, list[str]]:
-    """A call that hands plain values on without them, and the fields that these are of."""
-    if (nothing := _NOTHING.search(line)) is not None:
-        return f"{line[: nothing.start()]}..., {nothing[1]})", []
-    given = _GIVEN.search(line)
-    values = [_VALUE.match(each) for each in given[3].split(", ")] if given is not None else []
-    if given is None or given[1] != given[3] or None in values:
-        return line, []
-    found = [value[1] for value in values if value is not None and value[1]]
-    return f"{line[: given.start()]}..., {given[2]})", found
 
 
 def is_told_of(field: Fact, base: Facts, today: Facts, of_code: Comparison) -> bool:

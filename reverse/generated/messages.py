@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from rebsync.model import Type
-from rebsync.reserved import RUNTIME_FIELDS
+from rebsync.records import dataclass
+from rebsync.reserved import RUNTIME_FIELDS, SENDER_FIELD
 from rebsync.reverse.build.manifests import name_in
 from rebsync.reverse.build.messages import MessageField, plain_type, read_message
 from rebsync.reverse.files.packages import owner_of
@@ -21,22 +22,37 @@ _TYPES = {
 }
 
 
-def own_messages(files: Mapping[str, Source]) -> dict[str, dict[str, Type | None]]:
-    """By message type, with its package, the fields but for those of the run-time part.
+@dataclass(frozen=True, slots=True)
+class OwnMessages:
+    """The message types that a package declares.
 
-    None for what the model has no type for.
+    `fields` are those of each, by its name with its package, but for those of the run-time part;
+    None for what the model has no type for. `signed` are those that say who sends them, by their
+    names alone.
     """
+
+    fields: Mapping[str, Mapping[str, Type | None]]
+    signed: frozenset[str]
+
+
+NO_MESSAGES = OwnMessages({}, frozenset())
+
+
+def own_messages(files: Mapping[str, Source]) -> OwnMessages:
+    """The message types of a package."""
     declared = {path: s for path, s in sorted(files.items()) if path.endswith(".msg")}
     manifest = files.get("package.xml") if declared else None
     package = name_in(manifest) if manifest is not None else None
-    found = {}
+    found, signed = {}, set[str]()
     for path, source in declared.items():
         name = path.rpartition("/")[2].removesuffix(".msg")
         read = read_message(source, "", name)
         found[f"{owner_of(path, package or '')}/{name}"] = {
             f.name: _type(f) for f in read.fields if f.name not in RUNTIME_FIELDS
         }
-    return found
+        if any(f.name == SENDER_FIELD for f in read.fields):
+            signed.add(name)
+    return OwnMessages(found, frozenset(signed))
 
 
 def _type(field: MessageField) -> Type | None:

@@ -11,15 +11,6 @@ from rebsync import model as m
 from rebsync.printing import print_line, print_statement
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.alignment import ALIKE, aligned, overlap
-from rebsync.roundtrip.diff.bodies.expressions import StatementPart, parts_of
-from rebsync.roundtrip.diff.bodies.references import apart_by_reference
-from rebsync.roundtrip.diff.bodies.similarity import (
-    are_akin,
-    around_some,
-    head_of,
-    with_inner,
-    words_of,
-)
 from rebsync.roundtrip.diff.difference import (
     Aspect,
     Changed,
@@ -31,7 +22,16 @@ from rebsync.roundtrip.diff.difference import (
     StatementRemoved,
     Undetermined,
 )
+from rebsync.roundtrip.diff.expressions import StatementPart, parts_of
 from rebsync.roundtrip.diff.operands import is_unreadable
+from rebsync.roundtrip.diff.references import apart_by_reference
+from rebsync.roundtrip.diff.similarity import (
+    are_akin,
+    around_some,
+    head_of,
+    with_inner,
+    words_of,
+)
 from rebsync.roundtrip.diff.tokens import Tokens
 from rebsync.source import NOWHERE
 from rebsync.statements import UNREADABLE

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from rebsync import model as m
 from rebsync.printing import print_statement
-from rebsync.roundtrip.diff.bodies.expressions import statements_of
+from rebsync.roundtrip.diff.expressions import statements_of
 
 Statements: TypeAlias = tuple[m.Statement, ...]
 

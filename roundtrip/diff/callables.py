@@ -8,15 +8,6 @@ from dataclasses import replace
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.alignment import longest_increasing
-from rebsync.roundtrip.diff.bodies.locals import (
-    Mapped,
-    by_name,
-    by_order,
-    by_pairs,
-    by_type,
-    parameters_as_one,
-)
-from rebsync.roundtrip.diff.bodies.statements import BodyComparison
 from rebsync.roundtrip.diff.difference import (
     Added,
     Aspect,
@@ -29,7 +20,16 @@ from rebsync.roundtrip.diff.difference import (
     Removed,
     Renamed,
 )
+from rebsync.roundtrip.diff.locals import (
+    Mapped,
+    by_name,
+    by_order,
+    by_pairs,
+    by_type,
+    parameters_as_one,
+)
 from rebsync.roundtrip.diff.operands import Callable
+from rebsync.roundtrip.diff.statements import BodyComparison
 from rebsync.roundtrip.diff.tokens import Tokens
 
 Both = tuple[Tokens, Tokens]

@@ -1,1 +1,0 @@
-"""Comparison of bodies: two callables go in; differences of statements, expressions come out."""
