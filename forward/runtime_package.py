@@ -219,5 +219,5 @@ def _python(text: str, name: str) -> str:
 
 
 def _modules_in_order(found: re.Match[str]) -> str:
-    each = [m for m in _FROM.finditer(found[0])]
+    each = list(_FROM.finditer(found[0]))
     return "".join(m[0] for m in sorted(each, key=lambda m: m[1].replace(".", "\0")))

@@ -40,4 +40,4 @@ def inside(name: str) -> str:
 
 def path_beside(root: str, name: str) -> str:
     """Where a file is that the records of the package at `root` have: in the folder around it."""
-    return os.path.normpath(os.path.join(root, "..", name.removeprefix(BESIDE)))
+    return os.path.normpath(f"{root}/../{name.removeprefix(BESIDE)}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from os.path import isfile
+from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import operating_on, read_bytes
@@ -59,7 +59,7 @@ def package_state(package: ManagedPackage, record: Record | None) -> PackageStat
     if package.root == ".":  # as servers name the files of a change
         listing.files = {name: path.removeprefix("./") for name, path in listing.files.items()}
     shared = {name: path_beside(package.root, name) for name in wanted if is_shared(name)}
-    listing.files |= {name: path for name, path in shared.items() if isfile(path)}
+    listing.files |= {name: path for name, path in shared.items() if Path(path).is_file()}
     listing.odd |= overriding_files(listing, wanted)
     digests: dict[str, str] = {}
     changed = []

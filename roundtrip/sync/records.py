@@ -176,5 +176,9 @@ def _subject(found: Findings) -> str:
 
 def _in(root: str, other: str, found: Findings) -> Findings:
     """A finding in another directory."""
-    path = f"{root}{found.source.path.removeprefix(other)}"
+    path = found.source.path
+    if path.startswith(f"{other}/"):
+        path = f"{root}{path.removeprefix(other)}"
+    else:
+        path = path_beside(root, path.removeprefix(f"{Path(other).parent}/"))
     return Findings(Source(path, found.source.text), found.diagnostics)

@@ -46,7 +46,8 @@ def edited(
         now.listing.files.get(manifest_of(now.listing.files), ""),
     )
     own = frozenset(filter(None, map(package_name, paths)))
-    names = sorted({*now.changed, *now.missing} & record.files.keys())
+    gone = sorted(n for n in now.missing if is_shared(n))
+    names = sorted(({*now.changed, *now.missing} & record.files.keys()).difference(gone[1:]))
     return tuple(
         f for name in names if _may_be(name) for f in _edited(package, now, name, own, renamed)
     )
@@ -117,9 +118,9 @@ def _is_python_program(package: ManagedPackage, name: str) -> bool:
 
 def _difference(name: str, base: Source, source: Source, own: frozenset[str]) -> Span | None:
     """Where a file is not as it was generated, if no model describes it."""
-    is_python = PYTHON.match(name) is not None
     if name.endswith(".msg"):
         return None if _fields(base) == _fields(source) else Span(0, min(1, len(source.text)))
+    is_python = PYTHON.match(name) is not None
     if STAND_IN.fullmatch(name) and plays_on(base.text, source.text, is_python=is_python):
         return None
     if is_python:

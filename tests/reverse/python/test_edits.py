@@ -129,8 +129,8 @@ OTHERWISE = {
         "            self._place = self",
     ),
     "something else goes on": (
-        "            if case.goes_on:\n                continue\n            self._place = self",
-        "            if case.goes_on:\n                self._left = 7\n            self._place = self",
+        "            if case.goes_on:\n                continue\n",
+        "            if case.goes_on:\n                self._left = 7\n",
     ),
 }
 
