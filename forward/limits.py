@@ -62,7 +62,7 @@ def _runtime(model: Model, analysis: Analysis, config: Config, name: str) -> lis
     needed = needs_own(package, config)
     message = f"the run-time part that packages share has nothing for {needed}"
     hint = "generate this package with a run-time part of its own: `--runtime own`"
-    return [Diagnostic("RS702", NOWHERE, message, hint)] if needed else []
+    return [Diagnostic("RS713", NOWHERE, message, hint)] if needed else []
 
 
 def _misplaced(model: Model) -> list[Diagnostic]:
