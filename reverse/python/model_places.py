@@ -9,17 +9,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_types import call_parts, without_parentheses
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, text_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.python.model_expressions import Expressions
 
 _STEP = re.compile(r"(\w+)\.(add|subtract)")
 _NO_EXPRESSION = "the model has no such expression"
@@ -36,7 +33,7 @@ def is_kept(walrus: Node) -> bool:
     return _is_argument(node, above, "put_item", 2)
 
 
-def put_item(reader: Expressions, node: Node, arguments: Sequence[Node]) -> m.Expression:
+def put_item(reader: ModelExpressionReader, node: Node, arguments: Sequence[Node]) -> m.Expression:
     """`put_item(array, index, value)`: an assignment to an element."""
     place, index, value = arguments
     with _kept(reader, place, index) as names:
@@ -49,7 +46,7 @@ def put_item(reader: Expressions, node: Node, arguments: Sequence[Node]) -> m.Ex
     return stored
 
 
-def before(reader: Expressions, node: Node, arguments: Sequence[Node]) -> m.Expression:
+def before(reader: ModelExpressionReader, node: Node, arguments: Sequence[Node]) -> m.Expression:
     """`before(x, put(...))`: `x++`, whose value is the one before the store."""
     first, second = arguments
     place = without_parentheses(first)
@@ -82,7 +79,7 @@ def _step_of_kept(node: Node, names: tuple[str, str]) -> re.Match[str] | None:
 
 
 def _element(
-    reader: Expressions, node: Node, place: Node, index: Node, names: tuple[str, str]
+    reader: ModelExpressionReader, node: Node, place: Node, index: Node, names: tuple[str, str]
 ) -> m.Index:
     """The element that is stored in; only the array itself says which indices it has."""
     walrus = _walrus(without_parentheses(index))
@@ -96,7 +93,7 @@ def _element(
 
 
 @contextmanager
-def _kept(reader: Expressions, *places: Node) -> Iterator[tuple[str, str]]:
+def _kept(reader: ModelExpressionReader, *places: Node) -> Iterator[tuple[str, str]]:
     """The names that keep an array and an index, which stand for these meanwhile."""
     found = [_walrus(without_parentheses(p)) for p in places]
     kept = dict(f for f in found if f is not None)
