@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from rebsync import model as m
@@ -11,16 +12,18 @@ from rebsync.forward.cpp_operands import (
     bare,
     enclosed,
     float_literal,
+    in_order,
     is_bitwise,
     is_distance,
     is_int,
     looks_like_template,
+    nth,
     when,
 )
 from rebsync.forward.cpp_types import LOWEST, cpp_type, stored_type
 from rebsync.forward.sends import Send, ToAny, ToKnown, ToSelf, send_of
 from rebsync.forward.topics import Topics
-from rebsync.names import graph_name
+from rebsync.names import graph_name, unique
 from rebsync.records import dataclass
 from rebsync.static import Analysis
 from rebsync.static.constants import constant
@@ -42,6 +45,7 @@ _CLOCK = {
     "currentMessageWaitingTime": "mailbox_.waitingTime()",
     "sender": "mailbox_.sender()",
 }
+_WORD = re.compile(r"[A-Za-z_]\w*")
 _NARROW = {"byte": 2**7, "short": 2**15}
 _EXACT = 2**24  # integers below are floats as well
 _SHIFTS = {"<<": "shiftLeft", ">>": "shiftRight"}
@@ -50,13 +54,17 @@ _OPERATIONS = {"/": "divide", "%": "remainder", **_SHIFTS}
 
 @dataclass(frozen=True, slots=True)
 class CppExpressions:
-    """Prints the expressions of one class; `seen` names the user's function of a sensor's draw."""
+    """Prints the expressions of one class; `seen` names the user's function of a sensor's draw.
+
+    `taken` are names of the body around them that no further local may have.
+    """
 
     analysis: Analysis
     topics: Topics
     names: CppNames
     class_types: dict[str, str]
     seen: dict[int, str]
+    taken: frozenset[str] = frozenset()
 
     def text(self, expression: m.Expression) -> str:
         """The expression in C++, its parentheses as in the model."""
@@ -179,8 +187,9 @@ class CppExpressions:
         if not conflicting(indices, self.analysis):
             return self._element(expression, [self.text(i) for i in indices])
         values = [self.text(i) for i in indices]
-        place = self._element(expression, [f"op{i}_" for i in range(1, len(values) + 1)])
-        return self._in_order(values, place).replace("[&] {", "[&]() -> auto& {", 1)
+        names = self._locals(nth(len(values)), values)
+        place = self._element(expression, names)
+        return in_order(names, values, place).replace("[&] {", "[&]() -> auto& {", 1)
 
     def _element(self, expression: m.Expression, indices: Sequence[str]) -> str:
         """An element of an array, or of an array in one, by the text of its indices."""
@@ -203,7 +212,8 @@ class CppExpressions:
         operator, left, right = expression.operator, expression.left, expression.right
         if operator not in ("&&", "||") and conflicting((left, right), self.analysis):
             operands = [self.text(left), self.text(right)]
-            return self._in_order(operands, self._operation(expression, "op1_", "op2_"))
+            names = self._locals(("left", "right"), operands)
+            return in_order(names, operands, self._operation(expression, *names))
         if self._is_call(expression):
             level = precedence.BINARY[operator]
             sides = (enclosed(left, level), enclosed(right, level + 1))
@@ -264,15 +274,18 @@ class CppExpressions:
         """Target first, then value, then the store; a compound operator reads the target first."""
         target, value = self.text(expression.target), self.stored(expression.value, type_)
         if expression.operator == "=":
-            return (
-                f"[&] {{ auto& op1_ = {target}; const auto op2_ = {value}; return op1_ = op2_; }}()"
-            )
+            place, new = self._locals(("place", "value"), (target, value))
+            stores = f"auto& {place} = {target}; const auto {new} = {value};"
+            return f"[&] {{ {stores} return {place} = {new}; }}()"
+        place, old, new = self._locals(("place", "left", "right"), (target, value))
         operator = expression.operator[:-1]
-        result = f"op2_ {operator} op3_"
+        result = f"{old} {operator} {new}"
         if operator in _OPERATIONS:
-            result = f"{_OPERATIONS[operator]}(op2_, op3_)"
-        stores = f"auto& op1_ = {target}; const auto op2_ = op1_; const auto op3_ = {value};"
-        return f"[&] {{ {stores} return op1_ = static_cast<{cpp_type(type_)}>({result}); }}()"
+            result = f"{_OPERATIONS[operator]}({old}, {new})"
+        stores = (
+            f"auto& {place} = {target}; const auto {old} = {place}; const auto {new} = {value};"
+        )
+        return f"[&] {{ {stores} return {place} = static_cast<{cpp_type(type_)}>({result}); }}()"
 
     # --- calls ----------------------------------------------------------------------------------
 
@@ -292,9 +305,10 @@ class CppExpressions:
         apart = conflicting([*operands, *times], self.analysis)
         if not apart and not looks_like_template(operands, values):
             return f"{helper}({', '.join([*values, *when(call, timed)])})"
-        names = [f"op{i}_" for i in range(1, len(operands) + len(times) + 1)]
+        stored = [*values, *timed]
+        names = self._locals(nth(len(stored)), stored)
         passed = [*names[: len(operands)], *when(call, names[len(operands) :])]
-        return self._in_order([*values, *timed], f"{helper}({', '.join(passed)})")
+        return in_order(names, stored, f"{helper}({', '.join(passed)})")
 
     def _helper(self, call: m.Call, send: Send) -> str:
         key = self.topics.called(send.server).key
@@ -350,19 +364,16 @@ class CppExpressions:
         apart = conflicting(arguments, self.analysis)
         if not apart and not looks_like_template(arguments, values):
             return f"{function}({', '.join(values)})"
-        passed = ", ".join(f"op{i}_" for i in range(1, len(values) + 1))
-        return self._in_order(values, f"{function}({passed})")
+        names = self._locals(nth(len(values)), values)
+        return in_order(names, values, f"{function}({', '.join(names)})")
 
     def _arguments(self, call: m.Call, types: tuple[m.Type, ...]) -> list[str]:
         return [self.stored(a, t) for a, t in zip(call.arguments, types, strict=True)]
 
-    def _in_order(self, values: Sequence[str], result: str) -> str:
-        """`result` over `op1_`, `op2_`, ...: the values in the order of the model.
-
-        C++14 leaves the order of operands and arguments open; the statements of a lambda have one.
-        """
-        stores = "".join(f"const auto op{i}_ = {v}; " for i, v in enumerate(values, 1))
-        return f"[&] {{ {stores}return {result}; }}()"
+    def _locals(self, wanted: Sequence[str], values: Sequence[str]) -> list[str]:
+        """Names for locals that hold operands: those that are wanted, numbered where taken."""
+        used = {*self.taken, *(word for v in values for word in _WORD.findall(v))}
+        return [unique(name, used, "") for name in wanted]
 
 
 def _literal(

@@ -39,6 +39,10 @@ class CppNames(ClassNames):
         taken = self.types | self.callable | {self.local(p.name) for p in parameters}
         return f"{name}_" if name in taken else name
 
+    def hidden(self) -> frozenset[str]:
+        """What a further local would hide, in the code or, as members are there, in the model."""
+        return frozenset({*RESERVED, *self.types, *self.callable, *self.members, *self.env})
+
     def argument(self, name: str) -> str:
         """A parameter of the class's constructor."""
         return carry(name, RESERVED | self.types | self.callable | OF_CONSTRUCTOR)

@@ -8,6 +8,8 @@ from rebsync import model as m
 from rebsync import precedence
 from rebsync.static.constants import constant
 
+_NTH = ("first", "second", "third", "fourth", "fifth", "sixth")
+
 
 def is_int(expression: m.Expression) -> bool:
     """Whether C++ makes an int of an expression whose type may be smaller in the model."""
@@ -57,6 +59,20 @@ def when(call: m.Call, times: Sequence[str]) -> list[str]:
     words = [w for w, t in (("after", call.after), ("deadline", call.deadline)) if t is not None]
     parts = [f"{word}({time})" for word, time in zip(words, times, strict=True)]
     return [".".join(parts)] if parts else []
+
+
+def nth(count: int) -> list[str]:
+    """Names of locals that hold so many operands."""
+    return [*_NTH[:count], *(f"operand{i}" for i in range(len(_NTH) + 1, count + 1))]
+
+
+def in_order(names: Sequence[str], values: Sequence[str], result: str) -> str:
+    """`result` over the names of the values, which are evaluated in the order of the model.
+
+    C++14 leaves the order of operands and arguments open; the statements of a lambda have one.
+    """
+    stores = "".join(f"const auto {n} = {v}; " for n, v in zip(names, values, strict=True))
+    return f"[&] {{ {stores}return {result}; }}()"
 
 
 def looks_like_template(operands: Sequence[m.Expression], texts: Sequence[str]) -> bool:

@@ -32,11 +32,15 @@ class CppStatements:
             return self._unused(
                 [(self.expressions.names.local(p.name), p) for p in parameters], frozenset()
             )
+        names = self.expressions.names
         read = read_declarations([block], self.expressions.analysis)
-        named = [(self.expressions.names.local(p.name), p) for p in parameters]
+        named = [(names.local(p.name), p) for p in parameters]
+        declared = {names.local(d.name) for d in m.walk(block) if isinstance(d, m.Declarator)}
+        taken = names.hidden() | declared | {name for name, _ in named}
+        inner = replace(self, expressions=replace(self.expressions, taken=frozenset(taken)))
         return [
             *self._unused(named, read),
-            *self._statements(block.statements, block.span.start + 1, block.span.end - 1),
+            *inner._statements(block.statements, block.span.start + 1, block.span.end - 1),
         ]
 
     def returns(self, block: m.Block) -> bool:

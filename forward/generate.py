@@ -76,6 +76,10 @@ def generate(
         return headed(formatted(files), config)
     render = _renderer(next(iter(of_nodes), config.target))
     files = render(package, analysis, topics, Remarks(comments), f"{stem}.rebeca")
+    if config.shared_runtime:
+        from rebsync.forward.runtime_package import without_runtime
+
+        files = without_runtime(files, package.name, config.target)
     return headed(formatted(files), config)
 
 

@@ -8,7 +8,9 @@ from rebsync.forward.clashes import clashes
 from rebsync.forward.generate import is_taken, package_name
 from rebsync.forward.headers import LICENSES
 from rebsync.forward.offers import offer_annotation, replies, reply_names
+from rebsync.forward.runtime_package import needs_own
 from rebsync.forward.topics import Topics, declared_servers, signature
+from rebsync.forward.view import view
 from rebsync.model import (
     Annotation,
     Interface,
@@ -33,6 +35,7 @@ def limits(model: Model, analysis: Analysis, config: Config, stem: str) -> tuple
             found += _global_priorities(c)
         found += _offers(c, analysis, topics)
     if not analysis.errors and not any(d.severity is Severity.ERROR for d in found):
+        found += _runtime(model, analysis, config, package_name(stem, config))
         found += clashes(model, analysis, config, package_name(stem, config))
     return tuple(sorted(found, key=lambda d: (d.span.start, d.code)))
 
@@ -49,6 +52,17 @@ def _package(config: Config, stem: str) -> list[Diagnostic]:
             "choose another `package` in rebsync.toml",
         )
     ]
+
+
+def _runtime(model: Model, analysis: Analysis, config: Config, name: str) -> list[Diagnostic]:
+    """What only a run-time part of the package's own can do."""
+    if not config.shared_runtime:
+        return []
+    package, _ = view(model, analysis, config, name)
+    needed = needs_own(package, config)
+    message = f"the run-time part that packages share has nothing for {needed}"
+    hint = "generate this package with a run-time part of its own: `--runtime own`"
+    return [Diagnostic("RS713", NOWHERE, message, hint)] if needed else []
 
 
 def _misplaced(model: Model) -> list[Diagnostic]:

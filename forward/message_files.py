@@ -54,33 +54,34 @@ def action_names(package: Package) -> list[str]:
 def message_files(package: Package) -> dict[str, str]:
     """`msg/*.msg`, `srv/*.srv`, `action/*.action` by their paths; both generations read them."""
     files = {
-        "msg/Announcement.msg": _message(ANNOUNCEMENT),
-        "msg/Timing.msg": _message(TIMING),
+        "msg/Announcement.msg": text_of(ANNOUNCEMENT),
+        "msg/Timing.msg": text_of(TIMING),
     }
     for message in package.messages:
         sender = ["string sender"] if message.carries_sender else []
         lines = [f"{package.name}/Timing timing", *sender, *map(_field, message.fields)]
-        files[f"msg/{message.name}.msg"] = _message(lines)
+        files[f"msg/{message.name}.msg"] = text_of(lines)
     for node in package.classes:
         if node.executable:
             lines = [*STATE_HEAD, *map(_field, node.state.fields)]
-            files[f"msg/{node.state.name}.msg"] = _message(lines)
+            files[f"msg/{node.state.name}.msg"] = text_of(lines)
         for sensor in node.sensors:
             if sensor.stands_in:
                 lines = [f"{field_type(d.type)} {d.field}" for d in sensor.draws]
-                files[f"msg/{sensor.type}.msg"] = _message(lines)
+                files[f"msg/{sensor.type}.msg"] = text_of(lines)
     for service in package.services:
         lines = [*map(_field, service.request.fields), "---", f"bool {RESPONSE_FIELD}"]
         lines += map(_field, service.reply.fields)
-        files[f"srv/{service.type}.srv"] = _message(lines)
+        files[f"srv/{service.type}.srv"] = text_of(lines)
     for action in package.actions:
         feedback = action.feedback.fields if action.feedback is not None else ()
         lines = [*map(_field, action.request.fields), "---", *map(_field, action.reply.fields)]
-        files[f"action/{action.type}.action"] = _message([*lines, "---", *map(_field, feedback)])
+        files[f"action/{action.type}.action"] = text_of([*lines, "---", *map(_field, feedback)])
     return files
 
 
-def _message(lines: list[str] | tuple[str, ...]) -> str:
+def text_of(lines: list[str] | tuple[str, ...]) -> str:
+    """A file of a message type, field by field."""
     return "\n".join(lines) + "\n"
 
 

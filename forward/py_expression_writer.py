@@ -8,6 +8,7 @@ from dataclasses import field
 from rebsync import model as m
 from rebsync.forward.py_names import PyNames
 from rebsync.forward.topics import Topics
+from rebsync.names import unique
 from rebsync.records import dataclass
 from rebsync.static import Analysis
 
@@ -17,7 +18,7 @@ class PyExpressionWriter(ABC):
     """Prints the expressions of one class.
 
     `seen` has what samples the sensor of a draw; `locals` the names of local variables, by their
-    declaration; `temporaries` counts those that a body needs to keep the order of evaluation.
+    declaration; `used` are all names of a body, of its class and of the module.
     """
 
     analysis: Analysis
@@ -26,16 +27,15 @@ class PyExpressionWriter(ABC):
     class_types: dict[str, str]
     seen: dict[int, str]
     locals: dict[int, str] = field(default_factory=dict)
-    temporaries: int = 0
+    used: set[str] = field(default_factory=set)
 
     def type_of(self, expression: m.Expression) -> m.Type | None:
         """The static type of an expression."""
         return self.analysis.types.get(id(expression))
 
-    def temporary(self) -> str:
-        """A name for a value that is needed twice."""
-        self.temporaries += 1
-        return f"op{self.temporaries}_"
+    def temporary(self, name: str) -> str:
+        """A name for a value that is needed twice, with a number behind it where that is used."""
+        return unique(name, self.used, "")
 
     @abstractmethod
     def text(self, expression: m.Expression) -> str:

@@ -25,6 +25,11 @@ class PyNames(ClassNames):
         taken = self.types | {t.removesuffix("_v") for t in self.types}
         return carry_local(name, PYTHON_RESERVED | taken, self.types)
 
+    def hidden(self) -> frozenset[str]:
+        """What a further local would hide: in the code or, as attributes, in the model."""
+        taken = PYTHON_RESERVED - {"case"} | self.types | self.globals
+        return frozenset({*taken, *self.used, *self.members, *self.env})
+
     def function(self, name: str, parameters: tuple[Parameter, ...]) -> str:
         """A handler or method: the model's own name where Python has one function of that name."""
         carried = carry(name, PYTHON_FUNCTIONS)

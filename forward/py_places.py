@@ -63,7 +63,7 @@ def assigned(e: PyExpressionWriter, expression: m.Assign) -> str:
         return _updated(e, target, lambda old: compound(e, expression, old))
     type_ = e.type_of(expression.target) or INT
     if isinstance(target, m.Index):
-        values = e.temporary()
+        values = e.temporary("values")
         of, index = e.text(target.target), e.text(target.index)
         value = e.stored(expression.value, type_)
         return f"put_item(({values} := {of}), {values}.at({index}), {value})"
@@ -76,7 +76,7 @@ def stepped(e: PyExpressionWriter, expression: m.Unary | m.Postfix) -> str:
     if isinstance(expression, m.Unary):
         return _updated(e, target, lambda old: step(e, expression, old))
     if isinstance(target, m.Index):
-        values, at = e.temporary(), e.temporary()
+        values, at = e.temporary("values"), e.temporary("index")
         of, index = e.text(target.target), e.text(target.index)
         first = f"({values} := {of})[({at} := {values}.at({index}))]"
         value = step(e, expression, f"{values}[{at}]")
@@ -88,7 +88,7 @@ def stepped(e: PyExpressionWriter, expression: m.Unary | m.Postfix) -> str:
 def _updated(e: PyExpressionWriter, target: m.Expression, new: Callable[[str], str]) -> str:
     """A store of what is made of the value that is there."""
     if isinstance(target, m.Index):
-        values, at = e.temporary(), e.temporary()
+        values, at = e.temporary("values"), e.temporary("index")
         of, index = e.text(target.target), e.text(target.index)
         where = f"({values} := {of}), ({at} := {values}.at({index}))"
         return f"put_item({where}, {new(f'{values}[{at}]')})"

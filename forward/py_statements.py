@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Set
+from dataclasses import field
 from itertools import chain, count
 
 from rebsync import model as m
@@ -15,6 +16,7 @@ from rebsync.forward.py_places import bare, compound, is_in_order, step
 from rebsync.forward.py_switches import Branch, branches, is_place
 from rebsync.forward.py_types import py_type, unset_value
 from rebsync.forward.remarks import Remarks
+from rebsync.names import unique
 from rebsync.printing import print_line
 from rebsync.records import dataclass
 from rebsync.static.types import INT
@@ -25,15 +27,16 @@ from rebsync.unions import assert_never
 class PyStatements:
     """Prints the bodies of one class; `remarks` are the model's comments.
 
-    `switches` are the names of the switches around a statement, `loop` the number of those that
-    are inside of its innermost loop.
+    `cases` are the names of the switches around a statement, `loop` the number of those that are
+    inside of its innermost loop, `again` what tells the first round of a loop.
     """
 
     expressions: PyExpressions
     remarks: Remarks
     hoisted: Collection[int]
-    switches: int = 0
+    cases: list[str] = field(default_factory=list)
     loop: int = 0
+    again: str = "again"
     result: m.Type | None = None
 
     def body(
@@ -65,7 +68,6 @@ class PyStatements:
         Loops that count, one after the other, may count by one name.
         """
         names, e = self.expressions.names, self.expressions
-        e.temporaries = 0
         taken = {names.local(p.name) for p in parameters}
         counted = counters(block, e.analysis)
         for node in m.walk(block):
@@ -73,6 +75,9 @@ class PyStatements:
                 e.locals[id(node)] = name = _free(names.local(node.name), taken)
                 taken.add(name)
         self._name_counters(block, taken)
+        declared = (id(n) for n in m.walk(block) if isinstance(n, m.Declarator))
+        e.used = {*names.hidden(), *taken, *(e.locals[d] for d in declared)}
+        self.cases, self.again = [], _numbered("again", e.used)
 
     def _name_counters(self, node: m.Node, taken: Set[str]) -> None:
         """Names what the loops in a statement count by; `taken` has the names around it."""
@@ -248,9 +253,9 @@ class PyStatements:
             yield f"{INDENT}# rebsync: step"
             yield from (INDENT + self._effect(u) for u in last)
             return
-        yield "for again_ in rounds():"
+        yield f"for {self.again} in rounds():"
         if statement.updates:
-            yield f"{INDENT}if again_:"
+            yield f"{INDENT}if {self.again}:"
             yield from (INDENT * 2 + self._effect(u) for u in statement.updates)
         if statement.condition is not None:
             yield f"{INDENT}if not {self.expressions.operand(statement.condition, UNARY)}:"
@@ -268,13 +273,10 @@ class PyStatements:
     def _continue(self) -> Iterator[str]:
         """In a switch, `continue` means the loop around it."""
         if self.loop:
-            yield f"{self._case(self.switches)}.go_on()"
+            yield f"{self.cases[-1]}.go_on()"
             yield "break"
         else:
             yield "continue"
-
-    def _case(self, number: int) -> str:
-        return "case_" if number == 1 else f"case{number}_"
 
     def _switch(self, statement: m.Switch) -> Iterator[str]:
         for declaration, declarator in crossing_locals(statement, self.expressions.analysis):
@@ -286,16 +288,16 @@ class PyStatements:
             yield from self._annotations(statement)
             yield from self._chain(statement.subject, plain)
             return
-        self.switches += 1
+        case = _numbered("case", {*self.expressions.used, *self.cases})
+        self.cases.append(case)
         self.loop += 1
-        case = self._case(self.switches)
         yield from self._annotations(statement)
         yield f"for {case} in switch({self.expressions.text(statement.subject)}):"
         lines = [
             INDENT + line for i in range(len(statement.cases)) for line in self._one(statement, i)
         ]
         yield from lines or [f"{INDENT}pass"]
-        self.switches -= 1
+        self.cases.pop()
         self.loop -= 1
         if any(line.strip() == f"{case}.go_on()" for line in lines):
             yield f"if {case}.goes_on:"
@@ -325,7 +327,7 @@ class PyStatements:
 
     def _one(self, statement: m.Switch, index: int) -> Iterator[str]:
         case = statement.cases[index]
-        name = self._case(self.switches)
+        name = self.cases[-1]
         yield from self._annotations(case)
         if case.value is None:
             later = [c.value for c in statement.cases[index + 1 :] if c.value is not None]
@@ -358,6 +360,11 @@ class PyStatements:
                 return self.expressions.text(right)
             case _:
                 return self.expressions.text(argument)
+
+
+def _numbered(name: str, used: Collection[str]) -> str:
+    """The name, with a number behind it where that is used."""
+    return unique(name, set(used), "")
 
 
 def _free(plain: str, taken: Collection[str]) -> str:

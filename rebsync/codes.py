@@ -149,6 +149,7 @@ GENERATION = {
     "RS710": "a package of which no licence, maintainer or holder of the copyright is known",
     "RS711": "a service or an action that the model does not answer",
     "RS712": "topics or services that would have one name",
+    "RS713": "a model that needs more than the run-time part that packages share",
     "RS750": "a part of a model that the official compiler or RMC does not take",
     "RS751": "a part of a model that RMC runs differently",
     "RS752": "an option that RMC must be given for this model",

@@ -94,6 +94,7 @@ class Config:
     odometry: str | None = None
     lifecycle: bool = False
     monitor: bool = False
+    shared_runtime: bool = False
     maintainers: tuple[Maintainer, ...] = ()
     license: str | None = None
     copyright: str | None = None
@@ -178,6 +179,7 @@ def _config(table: Table) -> Config:
         heading=_number(table, "heading", default.heading, _finite, "finite"),
         lifecycle=_lifecycle(table),
         monitor=table.flag("monitor"),
+        shared_runtime=table.flag("shared_runtime"),
         maintainers=_maintainers(table),
         license=_one_line(table, "license"),
         copyright=_copyright(table),

@@ -139,8 +139,16 @@ class Table:
         """Report every key that was not asked for."""
         for key in self.values:
             if key not in self._asked:
-                hint = did_you_mean(key, self._asked) or _listed(self._asked)
+                hint = did_you_mean(key, self._asked) or self._known()
                 self.report("RS808", self.place(key), f"unknown key `{key}`", hint)
+
+    def _known(self) -> str:
+        """The keys that there are; in a table, that what follows its head belongs to it."""
+        listed = _listed(self._asked)
+        tables = [part for part in self.path if isinstance(part, str)]
+        if not tables:
+            return listed
+        return f"{listed}; keys of no table stand above the first [{tables[0]}]"
 
     def _below(self, suffix: Path, values: Mapping[str, object]) -> Table:
         return Table(self.source, (*self.path, *suffix), values, self.diagnostics)

@@ -23,8 +23,11 @@ _WORDS = (
     *("pos", "speed", "maxSpeed", "max_speed", "obstacleDetected", "id", "x1", "_hidden"),
     *("moving", "fuelLevel", "X2", "data_", "class_id", "HTTPCode", "count", "goal"),
 )
-# Fine in Rebeca, taken in C++, Python or message definitions.
-_AWKWARD = ("template", "namespace", "lambda", "delete", "def", "signed", "None", "header", "pass")
+# Fine in Rebeca, taken in C++, Python or message definitions, or by locals that hold operands.
+_AWKWARD = (
+    *("template", "namespace", "lambda", "delete", "def", "signed", "None", "header", "pass"),
+    *("left", "right", "place", "value", "first", "values", "index", "again", "case2"),
+)
 
 
 @dataclass

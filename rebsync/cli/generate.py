@@ -21,6 +21,7 @@ from rebsync.roundtrip.package.manifest import FOLDER, MANIFEST
 from rebsync.roundtrip.package.model_file import former_packages, remember
 from rebsync.roundtrip.package.seals import attest, is_attested
 from rebsync.roundtrip.sync.plan import Action, Step, aside, name_to_keep, plan
+from rebsync.roundtrip.sync.shared_plan import shared_steps
 from rebsync.source import NOWHERE, Source
 from rebsync.stamps import Stamps, stamps
 from rebsync.terminal import say, say_lines
@@ -34,6 +35,11 @@ _SHOWN = (Action.CREATE, Action.UPDATE, Action.MERGE, Action.DELETE)
 @click.option("-o", "--output", default=".", metavar="DIR", help="Where the package's folder goes.")
 @click.option("--target", type=click.Choice(TARGETS), help="The dialect of the generated code.")
 @click.option("--monitor", is_flag=True, help="A node that compares a run with the model as well.")
+@click.option(
+    "--runtime",
+    type=click.Choice(("own", "package")),
+    help="Where the run-time part is: in the package, or in `rebsync_runtime` beside it.",
+)
 @click.option("--list", "only_list", is_flag=True, help="List the files; write nothing.")
 @click.option("--diff", "only_diff", is_flag=True, help="Show what would change; write nothing.")
 @click.option(
@@ -44,6 +50,7 @@ def command(
     output: str,
     target: str | None,
     monitor: bool,
+    runtime: str | None,
     only_list: bool,
     only_diff: bool,
     force: bool,
@@ -62,16 +69,23 @@ def command(
         config = replace(config, target=target)
     if monitor:
         config = replace(config, monitor=True)
+    if runtime is not None:
+        config = replace(config, shared_runtime=runtime == "package")
     source = read_source(model)
     name, files = package_files(source, config, output)
     folder = Path(output) / name
     _real(folder)
     files = _with_accepted(folder, files)
+    shared = shared_steps(folder, config)
     if only_list:
         say_lines(str(folder / path) for path in sorted(files))
+        say_lines(str(Path(output) / step.path) for step in shared)
         return Status.CLEAN
     if only_diff:
-        return _show(plan(folder, files))
+        return _show((*plan(folder, files), *shared))
+    if not force and (edited := [s for s in shared if s.action is Action.CONFLICT]):
+        print_report([_refusal(Path(output), s) for s in edited], sys.stderr)
+        return Status.FINDINGS
     with alone_in(str(folder)):
         if not force:
             _refuse_another_model(str(folder), model)
@@ -82,6 +96,7 @@ def command(
     if status is Status.CLEAN:
         attest(files[MANIFEST])
         remember(str(folder), files[MANIFEST], model)
+        _write_shared(Path(output), shared)
     return status
 
 
@@ -172,6 +187,22 @@ def package_files(source: Source, config: Config, output: str = ".") -> tuple[st
     file = f"{stem}.rebeca"
     path = path_to_model(source.path, str(Path(output, name)), file)
     return name, with_manifest(files, file, source.text, config, path)
+
+
+def _write_shared(output: Path, steps: tuple[Step, ...]) -> None:
+    """Writes the run-time part that packages share, and keeps what somebody has edited."""
+    texts = {s.path: s.new for s in steps if s.action is not Action.UNCHANGED and s.new is not None}
+    edited = {name_to_keep(output, s): s.old for s in steps if s.action is Action.CONFLICT}
+    texts |= {kept: old for kept, old in edited.items() if old is not None}
+    if not steps:
+        return
+    written = replace_tree(str(output), texts) if texts else []
+    say(f"{output / runtime_name(steps)}: {len(steps)} files, {len(written)} of them written")
+
+
+def runtime_name(steps: tuple[Step, ...]) -> str:
+    """The package that the run-time part is."""
+    return min(step.path.partition("/")[0] for step in steps)
 
 
 def _show(steps: tuple[Step, ...]) -> Status:

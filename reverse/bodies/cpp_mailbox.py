@@ -99,7 +99,7 @@ def _class_named(reader: CppExpressionReader, node: Node) -> str:
 
 
 def in_order(reader: CppExpressionReader, function: Node) -> m.Expression:
-    """`[&] { const auto op1_ = a; return f(op1_); }()`: operands in the order of the model."""
+    """`[&] { const auto first = a; return f(first); }()`: operands in the order of the model."""
     captured = named(part(function, "captures"))
     if any(c.type == "lambda_capture_initializer" for c in captured):
         raise reader.unread(function, "what this function holds is not in the model")
@@ -111,7 +111,7 @@ def in_order(reader: CppExpressionReader, function: Node) -> m.Expression:
             raise reader.unread(function, "the model has no functions inside expressions")
         values.append(at.read(part(declarator, "value")))
         name = text_of(part(declarator, "declarator")).lstrip("& ")
-        at = replace(at, scope=at.scope.with_locals({name: values[-1]}))
+        at = replace(at, scope=at.scope.with_operand(name, values[-1]))
     read = at.read(at.only(result))
     match values, read:
         case [target, read_first, value], m.Assign("=", written, m.Cast(_, computed)) if (

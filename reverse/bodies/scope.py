@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, fields, replace
 from fractions import Fraction
@@ -330,6 +329,7 @@ class Scope:
     # The definitions of macros with parameters, by their names.
     macros: Mapping[str, Sequence[Node]] = field(default_factory=dict, compare=False, repr=False)
     form: CppForm | None = field(default=None, compare=False, repr=False)
+    operands: frozenset[str] = frozenset()  # locals that stand for what is named in their values
 
     def carried(self, node: Node) -> Carried | None:
         """What the model keeps of a type, or None if it has nothing like it."""
@@ -361,9 +361,7 @@ class Scope:
             return False
         # A reference to a member is that very member; a local of its name and type only equals it.
         members = {id(x) for x in self.members.values()}
-        own = (
-            x for n, x in self.locals.items() if id(x) not in members and not _OPERAND.fullmatch(n)
-        )
+        own = (x for n, x in self.locals.items() if id(x) not in members and n not in self.operands)
         return any(isinstance(x, Variable | Name) and x.name == name for x in own)
 
     def with_locals(self, found: Mapping[str, Meaning]) -> Scope:
@@ -371,6 +369,10 @@ class Scope:
         whole = {**self.locals, **found}
         # Asked for often: `replace` is slow.
         return Scope(*(*_BEFORE(self), whole, *_BEHIND(self)))
+
+    def with_operand(self, name: str, value: Meaning) -> Scope:
+        """The same with a local that keeps a value until the operands behind it are known."""
+        return replace(self.with_locals({name: value}), operands=self.operands | {name})
 
     def without_constant(self, name: str) -> Scope:
         """What the value of a constant can name: all but itself."""
@@ -393,5 +395,4 @@ def _of_model(name: str, types: frozenset[str], functions: frozenset[str]) -> st
 
 _ALL = tuple(f.name for f in fields(Scope))
 _LOCALS = _ALL.index("locals")
-_OPERAND = re.compile(r"op\d+_")  # what keeps operands in order stands for what is named there
 _BEFORE, _BEHIND = attrgetter(*_ALL[:_LOCALS]), attrgetter(*_ALL[_LOCALS + 1 :])

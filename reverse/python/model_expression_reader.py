@@ -69,3 +69,13 @@ class ModelExpressionReader(ABC):
     @abstractmethod
     def condition(self, node: Node) -> m.Expression:
         """What must hold."""
+
+    @abstractmethod
+    def index(self, node: Node) -> m.Expression:
+        """An index: as it is, kept in a name, or checked by `at` of an array that is."""
+
+    @abstractmethod
+    def stored(
+        self, target: m.Expression, place: Node, value: Node, whole: Node, statement: bool = False
+    ) -> m.Expression:
+        """An assignment: `x = int32.add(x, 1)` is what the model writes `x++`, or `++x`."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -15,6 +14,7 @@ from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_closures as closures
 from rebsync.reverse.python import model_formats as formats
 from rebsync.reverse.python import model_idioms as idioms
+from rebsync.reverse.python import model_places as places
 from rebsync.reverse.python import model_tuples as tuples
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_helpers import arguments_for
@@ -49,7 +49,6 @@ _WORDS = {"and": "&&", "or": "||"}
 _LEVELS = {"or": 2, "and": 3, "|": 6, "^": 7, "&": 8, "<<": 9, ">>": 9, "+": 10, "-": 10}
 _LEVELS |= dict.fromkeys(("*", "/", "%", "//"), 11)
 _NOT, _COMPARISON, _PRODUCT, _UNARY = 4, 5, 11, 12
-_TEMPORARY = re.compile(r"op\d+_\Z")
 
 
 @dataclass(eq=False, slots=True)
@@ -155,10 +154,6 @@ class Expressions(ModelExpressionReader):
     def _in_parentheses(self, node: Node) -> m.Expression:
         inner = named(node)[0]
         if inner.type == "named_expression":
-            name = text_of(field(inner, "name"))
-            if _TEMPORARY.match(name):
-                self.kept[name] = field(inner, "value")
-                return self.read(field(inner, "value"))
             return self.read(inner)
         return m.Paren(self.read(inner), self.py.span(node))
 
@@ -198,19 +193,14 @@ class Expressions(ModelExpressionReader):
         if (constant := self.names.constants.get(text_of(node))) is not None:
             return located(constant, self.py.span(node))
         target = self.read(field(node, "value"))
-        return m.Index(target, self._index(field(node, "subscript")), self.py.span(node))
+        return m.Index(target, self.index(field(node, "subscript")), self.py.span(node))
 
-    def _index(self, node: Node) -> m.Expression:
-        """An index: as it is, kept in a temporary, or checked by `at`."""
-        if node.type == "parenthesized_expression" and named(node)[0].type == "named_expression":
-            kept = named(node)[0]
-            if _TEMPORARY.match(text_of(field(kept, "name"))):
-                self.kept[text_of(field(kept, "name"))] = field(kept, "value")
-                return self._index(field(kept, "value"))
+    def index(self, node: Node) -> m.Expression:
+        """An index: as it is, kept in a name, or checked by `at` of an array that is."""
         if node.type == "identifier" and text_of(node) in self.kept:
-            return self._index(self.kept[text_of(node)])
+            return self.index(self.kept[text_of(node)])
         called, arguments = call_parts(node) or ("", [])
-        if called.endswith(".at") and _TEMPORARY.match(called.removesuffix(".at")):
+        if called.endswith(".at") and called.removesuffix(".at") in self.kept:
             return self.read(arguments[0])
         return self.read(node)
 
@@ -233,19 +223,6 @@ class Expressions(ModelExpressionReader):
         if called in formats.NARROW and not formats.is_kept(self, target, called):
             read = located(formats.cast(called, read), self.py.span(value))
         return m.Assign("=", target, read, span)
-
-    def _put_item(self, node: Node, arguments: list[Node]) -> m.Expression:
-        values, index, value = arguments
-        target = m.Index(self.read(values), self._index(index), self.py.span(node))
-        return self.stored(target, index, value, node)
-
-    def _before(self, node: Node, arguments: list[Node]) -> m.Expression:
-        target = self.read(arguments[0])
-        update = re.search(r"(\w+)\.(add|subtract)\(", text_of(arguments[1]))
-        if update is None:
-            raise self.unread(node, "the model has no such expression")
-        operator = "++" if update[2] == "add" else "--"
-        return self.cuts.converted(update[1], m.Postfix(operator, target, self.py.span(node)))
 
     # --- calls ----------------------------------------------------------------------------------
 
@@ -311,9 +288,9 @@ class Expressions(ModelExpressionReader):
                 target = m.Member(m.Self(span), variable) if hidden else m.Name(variable, span)
                 return self.stored(target, arguments[1], arguments[2], node)
             case "put_item", 3:
-                return self._put_item(node, arguments)
+                return places.put_item(self, node, arguments)
             case "before", 2:
-                return self._before(node, arguments)
+                return places.before(self, node, arguments)
             case _:
                 return self._elsewhere(node, called, arguments)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
@@ -15,6 +14,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, cell
 from rebsync.reverse.python import model_aliases as aliases
 from rebsync.reverse.python import model_endings as endings
+from rebsync.reverse.python import model_going_on as going_on
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python import model_inner as inner_functions
 from rebsync.reverse.python import model_loops as loops
@@ -63,7 +63,7 @@ class Statements(ModelStatementReader):
                 if users.is_users(self.expressions, node):
                     users.check(self.expressions, node)
                     continue
-                if self._goes_on(node, waiting):
+                if going_on.goes_on(self, node, waiting):
                     found.append(m.Continue(span=self.expressions.py.span(node)))
                     waiting.pop(0)
                     continue
@@ -96,13 +96,6 @@ class Statements(ModelStatementReader):
         except RecursionError:
             span = self.expressions.py.span(node)
             raise Unread(span, "this nests too deep to be read") from None
-
-    def _goes_on(self, node: Node, after: list[Node]) -> bool:
-        """`case_.go_on()` and the `break` behind it: a `continue` of the loop around the switch."""
-        inner = named(node)[0] if node.type == "expression_statement" else node
-        called, _ = call_parts(inner) or ("", [])
-        is_last = bool(after) and after[0].type == "break_statement"
-        return bool(self.cases) and called == f"{self.cases[-1]}.go_on" and is_last
 
     def _with_annotations(self, node: Node, read: list[m.Statement]) -> list[m.Statement]:
         given = annotations_above(self.expressions.py, node)
@@ -248,7 +241,7 @@ class Statements(ModelStatementReader):
     # --- control --------------------------------------------------------------------------------
 
     def _if(self, node: Node) -> list[m.Statement]:
-        if self._only_goes_on(node):
+        if going_on.says_so(self, node):
             return []
         if (switch := switches.switched(self, node)) is not None:
             return [switch]
@@ -272,10 +265,6 @@ class Statements(ModelStatementReader):
             otherwise = m.If(condition, body, otherwise, span=self.expressions.py.span(part))
         assert otherwise is not None
         return [otherwise]
-
-    def _only_goes_on(self, node: Node) -> bool:
-        """`if case_.goes_on:` behind a switch, which the switch has said already."""
-        return re.fullmatch(r"case\d*_\.goes_on", text_of(field(node, "condition"))) is not None
 
     def _for(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         called, arguments = call_parts(field(node, "right")) or ("", [])
@@ -314,7 +303,7 @@ class Statements(ModelStatementReader):
         return [m.For(initial, condition, updates, block, span=span)]
 
     def _rounds(self, node: Node, name: str, before: list[m.Statement]) -> m.For:
-        """`for again_ in rounds():` with its step and its condition first."""
+        """`for again in rounds():` with its step and its condition first."""
         nodes = named(field(node, "body"))
         updates: tuple[m.Expression, ...] = ()
         condition: m.Expression | None = None

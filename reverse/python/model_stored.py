@@ -13,6 +13,7 @@ from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_inner import leaves
+from rebsync.reverse.python.model_places import is_kept
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -181,7 +182,7 @@ def _walruses(node: Node) -> Iterator[Node]:
     for child in named(node):
         if child.type in ("block", *SCOPES) or child.type == "comment":
             continue
-        if child.type == "named_expression" and not text_of(field(child, "name")).endswith("_"):
+        if child.type == "named_expression" and not is_kept(child):
             yield child
         yield from _walruses(child)
 

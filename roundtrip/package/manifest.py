@@ -57,7 +57,9 @@ def with_manifest(
     `path` leads from the package's folder to the model, empty where it lies beside that folder.
     """
     from rebsync.roundtrip.package.markers import digest, elements
+    from rebsync.roundtrip.package.shared_runtime import shared_runtime
 
+    recorded = {**files, **shared_runtime(config)}
     model = {"name": model_name, "digest": digest(model_text)}
     record = {
         "format": FORMAT,
@@ -65,7 +67,7 @@ def with_manifest(
         "model": {**model, "path": path} if path else model,
         "target": config.target,
         "options": _options(config),
-        "files": {path: digest(text) for path, text in sorted(files.items())},
+        "files": {path: digest(text) for path, text in sorted(recorded.items())},
         "elements": {
             path: {e.name: e.digest for e in found}
             for path, text in sorted(files.items())
@@ -76,5 +78,5 @@ def with_manifest(
         **files,
         MANIFEST: json.dumps(record, indent=2, ensure_ascii=False) + "\n",
         BASE_MODEL: model_text,
-        **{BASE + path: text for path, text in files.items()},
+        **{BASE + path: text for path, text in recorded.items()},
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
+from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import operating_on, read_bytes
@@ -18,6 +19,7 @@ from rebsync.roundtrip.package.managed import ManagedPackage
 from rebsync.roundtrip.package.manifest import BASE, BASE_MODEL
 from rebsync.roundtrip.package.overriding_files import overriding_files
 from rebsync.roundtrip.package.record import Record
+from rebsync.roundtrip.package.shared_runtime import is_shared, path_beside
 from rebsync.roundtrip.package.units import both_at, listing_of
 
 NOT_EXECUTABLE = "not executable: "  # before the digest of a generated program that has lost it
@@ -56,6 +58,8 @@ def package_state(package: ManagedPackage, record: Record | None) -> PackageStat
     listing = both or listing_of(package.root, package.tree_of_code, wanted)
     if package.root == ".":  # as servers name the files of a change
         listing.files = {name: path.removeprefix("./") for name, path in listing.files.items()}
+    shared = {name: path_beside(package.root, name) for name in wanted if is_shared(name)}
+    listing.files |= {name: path for name, path in shared.items() if Path(path).is_file()}
     listing.odd |= overriding_files(listing, wanted)
     digests: dict[str, str] = {}
     changed = []

@@ -58,7 +58,7 @@ def plan(folder: Path, files: Mapping[str, str]) -> tuple[Step, ...]:
     ordered = sorted(files.items(), key=lambda file: (file[0].startswith(f"{FOLDER}/"), file[0]))
     steps = [_step(folder, path, text) for path, text in ordered]
     once = set(names_below(str(folder), BASE.rstrip("/")))
-    for path in sorted(once - set(files)):
+    for path in sorted(p for p in once if p not in files and BASE + p not in files):
         steps += _stale(folder, path)
     return tuple(steps)
 

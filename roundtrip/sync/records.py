@@ -17,6 +17,7 @@ from rebsync.roundtrip.package.digests import digest_of
 from rebsync.roundtrip.package.managed import ManagedPackage
 from rebsync.roundtrip.package.manifest import BASE, MANIFEST
 from rebsync.roundtrip.package.record import Record, read_record, told_in_step, with_accepted
+from rebsync.roundtrip.package.shared_runtime import is_shared, path_beside
 from rebsync.roundtrip.package.state import PackageState, package_state
 from rebsync.source import Source
 from rebsync.terminal import encoded
@@ -109,7 +110,7 @@ def _as_will_be(sync: Sync) -> Iterator[ManagedPackage]:
     with TemporaryDirectory(prefix="rebsync-") as folder:
         root = Path(folder, own.resolve().name)
         for name, data in files.items():
-            path = root / name
+            path = Path(path_beside(str(root), name)) if is_shared(name) else root / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(data)
             if name in listing.programs or name not in listing.files:
@@ -175,5 +176,9 @@ def _subject(found: Findings) -> str:
 
 def _in(root: str, other: str, found: Findings) -> Findings:
     """A finding in another directory."""
-    path = f"{root}{found.source.path.removeprefix(other)}"
+    path = found.source.path
+    if path.startswith(f"{other}/"):
+        path = f"{root}{path.removeprefix(other)}"
+    else:
+        path = path_beside(root, path.removeprefix(f"{Path(other).parent}/"))
     return Findings(Source(path, found.source.text), found.diagnostics)

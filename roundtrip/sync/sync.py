@@ -280,7 +280,9 @@ class _Syncing:
             hint = "`rebsync generate` writes the new package beside the old one"
             raise RebsyncError.of(source.path, "RS955", message, hint)
         last = _config_of(self.record)
-        return replace(config, target=last.target, monitor=config.monitor or last.monitor)
+        is_shared = config.shared_runtime or last.shared_runtime
+        monitor = config.monitor or last.monitor
+        return replace(config, target=last.target, monitor=monitor, shared_runtime=is_shared)
 
     @property
     def _name(self) -> str:

@@ -16,6 +16,7 @@ from rebsync.roundtrip.package.generation import generated
 from rebsync.roundtrip.package.manifest import BASE, BASE_MODEL, MANIFEST
 from rebsync.roundtrip.package.record import Record, recorded_base, told_in_step
 from rebsync.roundtrip.package.seals import attest, is_attested
+from rebsync.roundtrip.package.shared_runtime import shared_runtime
 from rebsync.roundtrip.verdict.drift import Verdict, undetermined
 from rebsync.roundtrip.verdict.result import CheckResult
 from rebsync.source import NOWHERE, Source
@@ -65,6 +66,7 @@ def _is_genuine(checked: CheckResult, record: Record) -> bool:
         files = generated(_base(checked, record), config, Path(record.model).stem)
     except RebsyncError:
         return False
+    files |= shared_runtime(config)
     return {path: digest_of(encoded(text)) for path, text in files.items()} == record.files
 
 

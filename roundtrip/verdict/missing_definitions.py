@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.reverse.files.stores import join
+from rebsync.roundtrip.package.shared_runtime import is_shared
 from rebsync.roundtrip.package.state import PackageState
 from rebsync.source import NOWHERE, Source, Span
 
@@ -22,7 +23,7 @@ _Codes = Sequence[tuple[str, Source]]
 
 def missing_definitions(now: PackageState, codes: _Codes) -> Iterator[Findings]:
     """What is wrong, where the files of a package are these."""
-    for name in now.missing:
+    for name in (n for n in now.missing if not is_shared(n)):  # of which it is told at once
         if (user := next(_users(name, codes), None)) is not None:
             path = join(now.listing.root, name)
             yield finding(Source(path, ""), NOWHERE, f"this is gone, and {user.path} needs it")

@@ -21,6 +21,7 @@ from rebsync.reverse.scaffold.stand_ins import STAND_IN, plays_on
 from rebsync.roundtrip.package.managed import ManagedPackage
 from rebsync.roundtrip.package.manifest import BASE
 from rebsync.roundtrip.package.record import Record
+from rebsync.roundtrip.package.shared_runtime import inside, is_shared, path_beside
 from rebsync.roundtrip.package.state import PackageState
 from rebsync.roundtrip.package.units import manifest_of
 from rebsync.source import NOWHERE, Source, Span
@@ -45,7 +46,8 @@ def edited(
         now.listing.files.get(manifest_of(now.listing.files), ""),
     )
     own = frozenset(filter(None, map(package_name, paths)))
-    names = sorted({*now.changed, *now.missing} & record.files.keys())
+    gone = sorted(n for n in now.missing if is_shared(n))
+    names = sorted(({*now.changed, *now.missing} & record.files.keys()).difference(gone[1:]))
     return tuple(
         f for name in names if _may_be(name) for f in _edited(package, now, name, own, renamed)
     )
@@ -53,7 +55,8 @@ def edited(
 
 def _may_be(name: str) -> bool:
     """Whether a generated file may be of the run-time part, or a program."""
-    return may_be_cpp_runtime(name) or PYTHON.match(name) is not None
+    is_message = is_shared(name) and name.endswith(".msg")
+    return is_message or may_be_cpp_runtime(inside(name)) or PYTHON.match(name) is not None
 
 
 def _edited(
@@ -64,9 +67,11 @@ def _edited(
     renamed: Mapping[str, str],
 ) -> Iterator[Findings]:
     """The place where a file is not as it was generated; `own` are the names of the package."""
-    path = now.listing.files.get(name) or _moved(now, name)
+    path = now.listing.files.get(name) or (None if is_shared(name) else _moved(now, name))
     if path is None:
-        if HEADER.match(name) or MODULE.match(name) or _is_python_program(package, name):
+        if is_shared(name):
+            yield _gone(package, name)
+        elif HEADER.match(name) or MODULE.match(name) or _is_python_program(package, name):
             message = "generated code that the rest needs is gone"
             yield _finding(Source(f"{package.root}/{name}", ""), NOWHERE, message)
         return
@@ -82,6 +87,14 @@ def _edited(
     span = _difference(name, base, source, own)
     if span is not None and _difference(name, base, _named_as(source, renamed), own) is not None:
         yield _finding(source, span, "this is not as it was generated, and no model describes it")
+
+
+def _gone(package: ManagedPackage, name: str) -> Findings:
+    """What is to be done where the run-time part that packages share is not beside one."""
+    message = "the run-time part that this package shares with others is not here"
+    hint = "`rebsync generate --runtime package` writes it beside the package"
+    source = Source(path_beside(package.root, name), "")
+    return Findings(source, (Diagnostic("RS956", NOWHERE, message, hint),))
 
 
 def _named_as(source: Source, renamed: Mapping[str, str]) -> Source:
@@ -105,13 +118,20 @@ def _is_python_program(package: ManagedPackage, name: str) -> bool:
 
 def _difference(name: str, base: Source, source: Source, own: frozenset[str]) -> Span | None:
     """Where a file is not as it was generated, if no model describes it."""
+    if name.endswith(".msg"):
+        return None if _fields(base) == _fields(source) else Span(0, min(1, len(source.text)))
     is_python = PYTHON.match(name) is not None
     if STAND_IN.fullmatch(name) and plays_on(base.text, source.text, is_python=is_python):
         return None
     if is_python:
         is_described = not is_python_runtime(name, base.text)
         return None if is_described else first_difference(base, source, own)
-    return first_cpp_difference(name, base, source, own)
+    return first_cpp_difference(inside(name), base, source, own)
+
+
+def _fields(message: Source) -> list[str]:
+    lines = (line.partition("#")[0].split() for line in message.text.splitlines())
+    return [" ".join(line) for line in lines if line]
 
 
 def _finding(source: Source, span: Span, message: str) -> Findings:

@@ -20,7 +20,7 @@ _OFF = {
     "monitor": False,
     "copyright": None,
 }  # what is recorded only where it is on
-_APART = APART | {"monitor", "target"}  # what the command line may say otherwise
+_APART = APART | {"monitor", "shared_runtime", "target"}  # what the command line may say otherwise
 
 
 def changed_settings(model: str, record: Record) -> tuple[Findings, ...]:

@@ -117,7 +117,7 @@ def test_python_finds_what_it_stores_into_late(target: str) -> None:
 def test_a_function_that_another_class_overrides_may_act() -> None:
     files = _package("ros1-cpp", [], "level = rate() - count;")
     source = files["src/base.cpp"]
-    assert "const auto op1_ = rate(); const auto op2_ = count_;" in source
+    assert "const auto left = rate(); const auto right = count_;" in source
     assert extracted(files).findings == ()
     files["src/base.cpp"] = source.replace(
         source[source.index("level_ = [&]") :].partition("\n")[0], "level_ = rate() - count_;"

@@ -47,7 +47,9 @@ def test_examples_come_back(example: Path) -> None:
     assert_says(package_of(example), model_of(example))
 
 
-@pytest.mark.parametrize("name", ["annotations", "interfaces", "env", "whiles_and_fors"])
+@pytest.mark.parametrize(
+    "name", ["annotations", "interfaces", "env", "whiles_and_fors", "operands"]
+)
 def test_hard_cases_come_back(name: str) -> None:
     path = Path(__file__).parents[1] / "forward" / "cases" / f"{name}.rebeca"
     model = parse_model(read_source(str(path))).model

@@ -113,6 +113,28 @@ LISTED = {
 }
 
 
+# Of `operands.rebeca`: stores and jumps that are none of the model's any more.
+OTHERWISE = {
+    "a step of another variable": (
+        "before(case2, (case2 := int32.add(case2, 1)))",
+        "before(case2, (again := int32.add(again, 1)))",
+    ),
+    "a longer step": ("int32.add(values4[index3], 1)", "int32.add(values4[index3], 2)"),
+    "a step of another element": ("int32.add(values4[index3], 1)", "int32.add(values4[0], 1)"),
+    "an element once more": ("int32.add(values2[index2]", "int32.add(values2[index2] * 2"),
+    "bounds of another array": ("values3.at(", "values2.at("),
+    "a name that is kept": ("            second,\n", "            len(values3),\n"),
+    "nothing goes on": (
+        "            if case.goes_on:\n                continue\n            self._place = self",
+        "            self._place = self",
+    ),
+    "something else goes on": (
+        "            if case.goes_on:\n                continue\n",
+        "            if case.goes_on:\n                self._left = 7\n",
+    ),
+}
+
+
 @pytest.fixture(scope="module")
 def files() -> dict[str, str]:
     return python_files(parse_model(Source("drawn.rebeca", MODEL)).model)
@@ -138,6 +160,16 @@ def test_what_it_cannot_show_is_listed(files: dict[str, str], name: str) -> None
     old, new, place = LISTED[name]
     found = extracted(edited(files, old, new))
     assert any(f.text.startswith(place) for f in found.findings), found.findings
+
+
+@pytest.mark.parametrize("name", OTHERWISE)
+def test_operands_in_order_are_looked_at(name: str) -> None:
+    files, path = case_files(CASES / "operands.rebeca", "ros1-py"), "src/operands/keeper.py"
+    assert extracted(files).findings == ()
+    old, new = OTHERWISE[name]
+    assert old in files[path]
+    found = extracted({**files, path: files[path].replace(old, new, 1)})
+    assert any(f.grade.value == "unreadable" for f in found.findings), print_model(found.model)
 
 
 def test_a_constant_that_another_hides_is_told() -> None:

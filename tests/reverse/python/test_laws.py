@@ -44,9 +44,11 @@ def test_examples_come_back(example: Path, target: str) -> None:
     assert_says(python_files(model, target), model)
 
 
-@pytest.mark.parametrize("target", TARGETS)
-def test_loops_come_back(target: str) -> None:
-    path = Path(__file__).parents[2] / "forward" / "cases" / "whiles_and_fors.rebeca"
+@pytest.mark.parametrize(
+    ("name", "target"), list(zip(("whiles_and_fors", "operands"), TARGETS, strict=True))
+)
+def test_hard_cases_come_back(name: str, target: str) -> None:
+    path = Path(__file__).parents[2] / "forward" / "cases" / f"{name}.rebeca"
     model = parse_model(read_source(str(path))).model
     assert_says(python_files(model, target), model)
 
