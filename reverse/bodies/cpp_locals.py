@@ -28,6 +28,7 @@ from rebsync.reverse.bodies.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import seconds_of
 from rebsync.reverse.bodies.cpp_types import Carried
+from rebsync.reverse.bodies.cpp_unset_locals import SCALARS, UNSET, may_be_unset
 from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
 from rebsync.reverse.bodies.known_functions import is_matrix, type_takes_values
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
@@ -203,6 +204,10 @@ def _is_auto(declared: DeclaratorParts) -> bool:
 def _typed(
     reader: CppStatementReader, declared: DeclaratorParts, kept: Carried, value: Node | None
 ) -> Iterator[m.Statement]:
+    is_vector = _VECTOR.match(declared.text) is not None
+    if declared.value is None and kept.type.name in SCALARS and not is_vector:
+        if may_be_unset(declared.node, declared.name):
+            raise reader.unread(declared.node, UNSET, "give it a value where it is declared")
     local = place_of(reader.fresh(declared.name), kept)
     initial: m.Initializer | None = None
     if kept.type == TEXT:
