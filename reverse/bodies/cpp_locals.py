@@ -205,9 +205,9 @@ def _typed(
     reader: CppStatementReader, declared: DeclaratorParts, kept: Carried, value: Node | None
 ) -> Iterator[m.Statement]:
     is_vector = _VECTOR.match(declared.text) is not None
-    if declared.value is None and kept.type.name in SCALARS and not is_vector:
-        if may_be_unset(declared.node, declared.name):
-            raise reader.unread(declared.node, UNSET, "give it a value where it is declared")
+    is_open = declared.value is None and kept.type.name in SCALARS and not is_vector
+    if is_open and may_be_unset(declared.node, declared.name):
+        raise reader.unread(declared.node, UNSET, "give it a value where it is declared")
     local = place_of(reader.fresh(declared.name), kept)
     initial: m.Initializer | None = None
     if kept.type == TEXT:

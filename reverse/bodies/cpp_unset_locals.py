@@ -7,6 +7,7 @@ an array counts for all of them where the index is not a literal, as loops store
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import field
 
@@ -50,7 +51,7 @@ def may_be_unset(declarator: Node, name: str) -> bool:
 
 @dataclass(slots=True)
 class _Flow:
-    """Whether a name has a value after a statement that began so; where control never is, it has."""
+    """Whether a name has a value after a statement that began so; it has where nothing goes on."""
 
     name: str
     breaks: list[list[bool]] = field(default_factory=list)  # of the loops and switches around
@@ -109,8 +110,8 @@ class _Flow:
                 return self._assigned(node, known)
             case "conditional_expression":
                 known = self._after(part(node, "condition"), known)
-                ways = (part(node, "consequence"), part(node, "alternative"))
-                return all([self._after(way, known) for way in ways])
+                then = self._after(part(node, "consequence"), known)
+                return self._after(part(node, "alternative"), known) and then
             case "binary_expression" if text_of(part(node, "operator")) in ("&&", "||"):
                 known = self._after(part(node, "left"), known)
                 self._after(part(node, "right"), known)
@@ -197,4 +198,4 @@ def _cases(body: Node) -> Sequence[Node]:
 
 def _called(node: Node) -> str:
     """The last name of what a call is of."""
-    return text_of(part(node, "function")).rpartition(".")[2].rpartition("::")[2].rpartition("->")[2]
+    return re.split(r"\.|::|->", text_of(part(node, "function")))[-1]

@@ -10,10 +10,13 @@ from collections.abc import Collection, Mapping
 
 from tree_sitter import Node
 
+from rebsync.reverse.python.model_types import call_parts
+from rebsync.reverse.python.module_variables import imported_as
 from rebsync.reverse.python.runtime_files import is_runtime_file
-from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, text_of
 
+LOCKS = {"threading.Lock": False, "threading.RLock": True}  # whether one may take it again
 _OBJECTS = frozenset({"self", "super()"})
 
 
@@ -42,3 +45,12 @@ def may_lock(node: Node, waiting: Collection[str]) -> bool:
         if name == "acquire" or (name in waiting and text_of(field(node, "object")) in _OBJECTS):
             return True
     return any(may_lock(child, waiting) for child in node.named_children)
+
+
+def lock_of(module: Scope, node: Node) -> str:
+    """The lock that a value is, by its name in Python's library; empty if it is none."""
+    called, arguments = call_parts(node) or ("", [])
+    head, _, rest = called.partition(".")
+    of = imported_as(module, head)
+    whole = ".".join(filter(None, (of, rest)))
+    return whole if whole in LOCKS and not arguments else ""

@@ -27,6 +27,7 @@ from rebsync.reverse.python.model_types import (
     call_parts,
     called_late,
     handed_over,
+    is_alias,
     is_unset,
     literal_type,
     passed_on,
@@ -67,8 +68,6 @@ _WHY = "what this does is not in the model"
 _LOST = "no subscription takes this in: the class only sends it to itself"
 _LATE = "this gives a coroutine, and nobody runs it"
 _HINT = "say it in the model, or move it into a user block"
-
-
 _SENDER = "self._mailbox.self()"
 
 
@@ -313,7 +312,7 @@ def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
             continue
         if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
             continue
-        if constants.is_quiet(module, statement):
+        if constants.is_quiet(module, statement) or is_alias(module, statement):
             continue
         is_class = definition.type == "class_definition"
         if is_class and text_of(field(definition, "name")) not in NO_PYTHON_CLASSES:
