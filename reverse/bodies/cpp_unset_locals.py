@@ -27,6 +27,11 @@ _LEAVES = ("return_statement", "throw_statement", "co_return_statement", "goto_s
 _STATEMENTS = ("compound_statement", "labeled_statement", "else_clause", "translation_unit")
 
 
+def may_reach_end(body: Node) -> bool:
+    """Whether control may come to the end of a body."""
+    return not _Flow("").sequence(body.named_children, False)
+
+
 class _Read(Exception):
     """The local is read where it may have no value."""
 
@@ -177,8 +182,8 @@ class _Flow:
         known = self.sequence(first, known)
         inside = self._after(body, known)
         self.sequence((n for n in heads if n not in first), inside or known)
-        self.breaks.pop()
-        return known
+        has_break = bool(self.breaks.pop())
+        return known or (_is_endless(node) and not has_break)
 
     def _switch(self, node: Node, known: bool) -> bool:
         known = self._after(part(node, "condition"), known)
@@ -190,6 +195,14 @@ class _Flow:
             inside = [n for n in case.named_children if n != value]
             through = self.sequence(inside, known and through)
         return all([*self.breaks.pop(), through, has_default or known])
+
+
+def _is_endless(loop: Node) -> bool:
+    """Whether a loop has no condition, or one that is always true."""
+    condition = loop.child_by_field_name("condition")
+    if loop.type == "for_statement":
+        return condition is None
+    return condition is not None and text_of(condition).strip("() ") in ("true", "1")
 
 
 def _cases(body: Node) -> Sequence[Node]:
