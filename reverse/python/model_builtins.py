@@ -186,8 +186,11 @@ def _elements(
 def _is_harmless_list(reader: ModelExpressionReader, node: Node) -> bool:
     """Whether all of a list may be left unevaluated: nothing in it changes anything or fails."""
     parts = named(node) if node.type in ("list", "tuple") else []
-    is_harmless = all(is_calm(n) and not may_fail(reader, n) for n in parts)
-    return bool(parts) and is_harmless and all(building.is_calm(reader.read(n)) for n in parts)
+    if not parts or not all(is_calm(n) and not may_fail(reader, n) for n in parts):
+        return False
+    read = [reader.read(n) for n in parts]
+    divides = any(isinstance(p, m.Binary) and p.operator in "/%" for r in read for p in m.walk(r))
+    return all(map(building.is_calm, read)) and not divides
 
 
 def assert_of_python(reader: ModelExpressionReader, node: Node, called: str) -> None:
