@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.python.log_words import LOOKS
 from rebsync.reverse.python.module_variables import call_and_arguments, imported_as
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import Scope
@@ -31,6 +32,7 @@ _MADE = {"dict": TABLE, "set": SET, "collections.deque": QUEUE, "collections.Cou
 _MADE |= {"collections.defaultdict": COUNTS}
 _KEYS = frozenset({"string", "integer", "true", "false"})
 _SCALARS = frozenset({"int", "short", "byte", "boolean"})
+_STORES = ("assignment", "augmented_assignment")
 _SUMS = frozenset({"+", "-"})
 
 
@@ -61,14 +63,21 @@ def containers_in(
     numbers.
     """
     found = {name: kind for name, value in made.items() if (kind := container_of(module, value))}
-    odd = {n for s in stores if (n := member_of(s)) and not _is_number(field(s, "right"), n)}
+    listed = [(name, s) for s in stores if (name := member_of(s)) in found]
+    odd = {n for n, s in listed if s.type == "assignment" and not _is_number(field(s, "right"), n)}
+    keys = {(n, k.type == "string") for n, s in listed for k in _keys(field(s, "left"))}
+    found = {n: k for n, k in found.items() if not {(n, True), (n, False)} <= keys}  # to be sorted
     return {n: NUMBERS if k == TABLE and n not in odd else k for n, k in found.items()}
 
 
+def _keys(place: Node) -> list[Node]:
+    return place.children_by_field_name("subscript")
+
+
 def stores_in(functions: Iterable[Node]) -> Iterator[Node]:
-    """The assignments in some functions to an element of something."""
+    """The assignments in some functions to an element of something, augmented ones too."""
     for node in (n for function in functions for n in nodes_in(function)):
-        is_stored = node.type == "assignment" and node.child_by_field_name("right") is not None
+        is_stored = node.type in _STORES and node.child_by_field_name("right") is not None
         if is_stored and field(node, "left").type == "subscript":
             yield node
 
@@ -105,7 +114,20 @@ def is_asked(call: Node, containers: Mapping[str, str]) -> bool:
     counts = _ASKING.get(text_of(field(function, "attribute")), ())
     given = named(field(call, "arguments"))
     is_hashable = all(g.type in _KEYS for g in given[:1])
-    return kind in TABLES and len(given) in counts and is_hashable
+    is_shown = kind in (NUMBERS, COUNTS) or _is_shown(call)
+    return kind in TABLES and len(given) in counts and is_hashable and is_shown
+
+
+def _is_shown(call: Node) -> bool:
+    """Whether a value of any type is only put into a text, or stored."""
+    above = call.parent
+    if above is None or above.type in ("interpolation", "assignment"):
+        return above is not None
+    of = above.parent if above.type == "argument_list" else None
+    if of is None or of.type != "call":
+        return False
+    called = text_of(field(of, "function"))
+    return called in ("str", "repr", "list", "len", "tuple") or called not in LOOKS
 
 
 def _is_number(value: Node, name: str) -> bool:
