@@ -32,7 +32,7 @@ def may_reach_end(body: Node) -> bool:
     return not _Flow("").sequence(body.named_children, False)
 
 
-class _Read(Exception):
+class _ReadUnset(Exception):
     """The local is read where it may have no value."""
 
 
@@ -49,7 +49,7 @@ def may_be_unset(declarator: Node, name: str) -> bool:
     flow = _Flow(name)
     try:
         flow.sequence(later, flow.sequence(within, False))
-    except _Read:
+    except _ReadUnset:
         return True
     return False
 
@@ -159,7 +159,7 @@ class _Flow:
 
     def _read(self, node: Node, known: bool) -> bool:
         if not known and self._is_it(node):
-            raise _Read
+            raise _ReadUnset
         return known
 
     def _branches(self, node: Node, known: bool) -> bool:

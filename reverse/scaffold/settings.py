@@ -32,8 +32,6 @@ _TYPES = {
 }
 # How many metres a cell has, no model says, as long as it has some.
 _METRES = "metres"
-# Whether a robot turns before it drives is nothing to a model: it takes the same time.
-_KINDS, _KIND = frozenset({"holonomic", "differential"}), "a kind of drive"
 _FOLDER = re.compile(r"^(script_dir|install_scripts)[ \t]*=[ \t]*(\S+)", re.MULTILINE)
 _REMARK = re.compile(r"<!--.*?-->", re.DOTALL)
 _BUILT_BY = re.compile(r"<build_type>\s*(\w+)\s*</build_type>")
@@ -89,9 +87,7 @@ def _parameter(section: str, name: str, value: str, source: Source, at: Span) ->
         yield Fact(CONSTANT, "", name, _type_of(value), source, at)
     elif has_bearing(whole := f"{section}/{name}"):
         is_metres = whole == "drive/cell_size" and _is_length(value)
-        is_kind = whole == "drive/kind" and value.strip("\"'") in _KINDS
-        told = _METRES if is_metres else _KIND if is_kind else value
-        yield Fact("parameter", "", whole, told, source, at)
+        yield Fact("parameter", "", whole, _METRES if is_metres else value, source, at)
 
 
 def _is_length(value: str) -> bool:
