@@ -37,7 +37,9 @@ def ill_formed(code: Code, function: CppFunction) -> Iterator[Unread]:
     owner = code.classes.get(function.owner)
     lineage = code.lineage(owner.name) if owner is not None else []
     unread = _bases(lineage) - {c.name for c in lineage}
-    names = {f.name for c in lineage for f in (*c.fields, *c.functions)}
+    names = {f.name for c in lineage for f in c.fields} | {
+        f.name for c in lineage for f in c.functions
+    }
     for node in inside(body, "field_expression") if lineage and unread <= _LIBRARY_BASES else ():
         name = text_of(part(node, "field"))
         is_own = part(node, "argument").type == "this" and name.isidentifier()
