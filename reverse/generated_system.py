@@ -14,6 +14,7 @@ from rebsync.names import TAKEN_NODES, graph_name, uncarry
 from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED_GLOBALS
+from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_types import class_name, type_of
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Unread
@@ -252,12 +253,12 @@ class GeneratedSystem:
         if parameter is None:
             unread = Unread(node.span, f"nothing gives the argument `{key}`", _GIVE)
             self.classes.findings.unreadable(node.source, unread, within)
-            return None
+            return zero_of(type_)  # in its place, so that the others keep theirs
         if (value := plain_value(parameter)) is None:
             return None
         if not self._is_taken(parameter, type_):
             self._list_other_kind(parameter, key, within)
-            return None
+            return zero_of(type_)
         if isinstance(value, str):
             read: m.Expression = m.Name(uncarry(value, TAKEN_NODES))
         else:

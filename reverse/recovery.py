@@ -295,7 +295,7 @@ def _without_texts(nodes: Nodes, known: Sequence[str]) -> tuple[Nodes, list[str]
 def _built(files: Mapping[str, Source], only: str | None, findings: Findings) -> dict[str, Source]:
     """The files but for those that no program is made of, which are listed."""
     found = unbuilt(files)
-    for path in sorted(found.left - {only}):
+    for path in sorted(found.left - found.tests - {only}):
         grade, why = Grade.UNBUILT, _UNBUILT
         if path in found.needed:
             grade, why = Grade.UNREADABLE, _NEEDED

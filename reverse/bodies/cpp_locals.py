@@ -28,6 +28,7 @@ from rebsync.reverse.bodies.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import seconds_of
 from rebsync.reverse.bodies.cpp_types import Carried
+from rebsync.reverse.bodies.cpp_unset_locals import SCALARS, UNSET, may_be_unset
 from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
 from rebsync.reverse.bodies.known_functions import is_matrix, type_takes_values
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
@@ -77,10 +78,8 @@ def declarations(reader: CppStatementReader, node: Node) -> Iterator[m.Statement
 
 def _looks_around(value: Node | None) -> bool:
     """Whether a value names something, which may hold something else another time."""
-    if value is None:
-        return False
-    is_name = value.type in ("identifier", "field_identifier", "this")
-    return is_name or any(map(_looks_around, named(value)))
+    is_name = value is not None and value.type in ("identifier", "field_identifier", "this")
+    return is_name or (value is not None and any(map(_looks_around, named(value))))
 
 
 def tested(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
@@ -203,6 +202,10 @@ def _is_auto(declared: DeclaratorParts) -> bool:
 def _typed(
     reader: CppStatementReader, declared: DeclaratorParts, kept: Carried, value: Node | None
 ) -> Iterator[m.Statement]:
+    is_vector = _VECTOR.match(declared.text) is not None
+    is_open = declared.value is None and kept.type.name in SCALARS and not is_vector
+    if is_open and may_be_unset(declared.node, declared.name):
+        raise reader.unread(declared.node, UNSET, "give it a value where it is declared")
     local = place_of(reader.fresh(declared.name), kept)
     initial: m.Initializer | None = None
     if kept.type == TEXT:

@@ -10,6 +10,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies import cpp_messages
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_types import type_of
+from rebsync.reverse.bodies.cpp_unset_locals import SCALARS, UNSET, may_be_unset
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.bodies.shared import WORDS
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
@@ -55,6 +56,8 @@ def _declarator(reader: CppStatementReader, node: Node, type_: m.Type) -> m.Decl
     local = reader.scope.local(text_of(name))
     if local in WORDS and not reader.scope.open:
         raise reader.unread(node, f'"{local}" is a word of the model', "give it another name")
+    if name is node and type_.name in SCALARS and may_be_unset(node, text_of(name)):
+        raise reader.unread(node, UNSET, "give it a value where it is declared")
     if node.type == "init_declarator":
         value = part(node, "value")
         if value.type == "initializer_list":

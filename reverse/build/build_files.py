@@ -39,7 +39,7 @@ class BuildFiles:
 
     `messages`, `services` and `actions` are paths relative to the package, as are `programs`:
     scripts that are installed. `foreign` are commands that may make targets of their own,
-    `packages` the packages that are looked for.
+    `packages` the packages that are looked for, `tests` the sources of what only tests.
     """
 
     project: str | None
@@ -52,6 +52,7 @@ class BuildFiles:
     sources: tuple[Source, ...]
     foreign: frozenset[str] = frozenset()
     packages: frozenset[str] = frozenset()
+    tests: frozenset[str] = frozenset()
 
     @property
     def is_closed(self) -> bool:

@@ -30,11 +30,13 @@ class Unbuilt:
     """The files of code that the build of a package is known to leave out, by their paths in it.
 
     Of these `needed` define what classes of the package lack otherwise, or are programs that a
-    launch file starts: what they say is meant, and nobody knows what the robot does.
+    launch file starts: what they say is meant, and nobody knows what the robot does. Others are of
+    `tests`, of which the build makes programs too.
     """
 
     left: frozenset[str]
     needed: frozenset[str] = frozenset()
+    tests: frozenset[str] = frozenset()
 
 
 _NOTHING = Unbuilt(frozenset())
@@ -43,7 +45,7 @@ _NOTHING = Unbuilt(frozenset())
 def unbuilt(files: Mapping[str, Source]) -> Unbuilt:
     """What the build leaves out; `files` are those of a package that were read, by their paths."""
     of_cpp = _unbuilt_cpp(files)
-    return Unbuilt(of_cpp.left | unbuilt_python(files), of_cpp.needed)
+    return Unbuilt(of_cpp.left | unbuilt_python(files), of_cpp.needed, of_cpp.tests)
 
 
 # --- C++ ----------------------------------------------------------------------------------------
@@ -67,7 +69,7 @@ def _unbuilt_cpp(files: Mapping[str, Source]) -> Unbuilt:
     again = (p for p in headers if not declared.isdisjoint(_CLASS.findall(files[p].text)))
     sources = frozenset(p for p in others if p.endswith(_SOURCES))
     needed = frozenset(_needed(sources, files, reached, declared))
-    return Unbuilt(sources.union(again), needed)
+    return Unbuilt(sources.union(again), needed, build.tests & sources - needed)
 
 
 def _needed(

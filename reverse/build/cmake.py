@@ -13,6 +13,7 @@ from rebsync.reverse.build.cmake_targets import (
     EXECUTABLE,
     LIBRARY,
     TARGETLESS,
+    TESTING,
     Folder,
     Invocation,
     Maker,
@@ -78,6 +79,7 @@ def read_build(source: Source, folder: Folder | None = None) -> BuildFiles:
         tuple(runner.sources),
         frozenset(maker.foreign),
         frozenset(maker.packages),
+        frozenset(maker.tests),
     )
 
 
@@ -236,6 +238,10 @@ class _Runner:
                 self.maker.install(call)
             case name:
                 call.variables.blur(known(call.words), f"`{name}(...)` may have set it")
+                if name in TESTING:
+                    folder = call.variables.folder
+                    paths = (posixpath.join(folder, w) for w in known(call.words[1:]))
+                    self.maker.tests.update(map(posixpath.normpath, paths))
                 if name not in TARGETLESS:
                     self.maker.foreign.add(name)
 

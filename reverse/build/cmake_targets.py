@@ -87,6 +87,16 @@ TARGETLESS = frozenset(
 )
 
 
+# Those of them that make programs which only test, of the sources that they name.
+TESTING = frozenset(
+    {
+        *("catkin_add_gtest", "catkin_add_gmock", "add_rostest_gtest", "add_rostest_gmock"),
+        *("catkin_add_executable_with_gtest", "catkin_add_executable_with_gmock"),
+        *("ament_add_gtest", "ament_add_gmock"),
+    }
+)
+
+
 def _nothing(_: str) -> None:
     return None
 
@@ -128,6 +138,7 @@ class Maker:
     unknowns: list[Unknown] = field(default_factory=list)
     foreign: set[str] = field(default_factory=set)
     packages: set[str] = field(default_factory=set)
+    tests: set[str] = field(default_factory=set)
     only_if: tuple[str, ...] = ()
 
     def unknown(self, what: str, why: str, call: Invocation) -> None:

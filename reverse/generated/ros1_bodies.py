@@ -17,6 +17,7 @@ from rebsync.reverse.bodies.cpp_statements import CppStatements
 from rebsync.reverse.bodies.scope import Called, Outside, Record, Scope, Variable
 from rebsync.reverse.bodies.subscripts import out_of_range, untested
 from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.ill_formed import ill_formed
 from rebsync.reverse.generated.ros1_free import passed_by_reference
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import Taken, parameters_of
@@ -124,6 +125,8 @@ class GeneratedBodies:
             }
         )
         read = self._read(function.cpp, inside, function.body, within)
+        for unread in ill_formed(self.code, function):
+            self.findings.unreadable(function.cpp.source, unread, within)
         if within in self.sensors:
             list_unseen(read, within, function.cpp.source, self.findings)
         return read

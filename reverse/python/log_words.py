@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 HARMLESS = frozenset({"str", "repr", "len", "format", "round"})
-LOOKS = HARMLESS | {"abs", "bool", "list", "sorted", "sum", "tuple"}  # by these names alone
+# By these names alone.
+LOOKS = HARMLESS | {"abs", "all", "any", "bool", "enumerate", "list", "sorted", "sum", "tuple"}
 # What may be asked of what tells the time.
 ON_CLOCKS = frozenset({"now", "to_msg", "to_nsec", "to_sec"})
 # The methods of a logger of Python's library that only log.

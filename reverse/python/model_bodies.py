@@ -36,6 +36,7 @@ from rebsync.reverse.python.model_statements import Statements
 from rebsync.reverse.python.model_types import passed_on, type_of
 from rebsync.reverse.python.model_widths import WidthContext, hint_of, wanted_of
 from rebsync.reverse.python.named_constants import CodeConstants, NamedConstants
+from rebsync.reverse.python.plain_functions import describing
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
@@ -309,6 +310,7 @@ class ModelBodies:
                 self._add_result(results, functions[name], function, names)
             helpers |= without_object(above, roles.functions)
         taken = {*functions.values(), *names.variables.values(), *self.types}
+        taken.update(describing(self.code, owner.module))
         for name, helper in called_in(self.code, scopes, taken).items():
             helpers[name] = helper
             self._add_result(results, helper.name, helper.function, names)

@@ -13,6 +13,7 @@ from rebsync import model as m
 from rebsync.reverse.models import building
 from rebsync.reverse.models.building import binary, chosen, negated, selected
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
+from rebsync.reverse.python.model_failing import may_fail
 from rebsync.reverse.python.model_idioms import grouped, is_plain, truth, type_of
 from rebsync.reverse.python.model_types import call_parts
 from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
@@ -168,6 +169,8 @@ def _elements(
         found: list[tuple[m.Expression, m.Expression | None]] = [
             (reader.read(n), None) for n in named(node)
         ]
+    elif called in _TESTS and _is_harmless_list(reader, node):
+        found = [(reader.read(n), None) for n in named(node)]
     elif node.type in ("generator_expression", "list_comprehension"):
         found = list(_comprehended(reader, node))
     else:
@@ -178,6 +181,23 @@ def _elements(
     if len(found) > _MOST:
         raise reader.unread(node, "this goes through too many values to say each")
     return found
+
+
+def _is_harmless_list(reader: ModelExpressionReader, node: Node) -> bool:
+    """Whether all of a list may be left unevaluated: nothing in it changes anything or fails."""
+    parts = named(node) if node.type in ("list", "tuple") else []
+    if not parts or not all(is_calm(n) and not may_fail(reader, n) for n in parts):
+        return False
+    read = [reader.read(n) for n in parts]
+    divides = any(isinstance(p, m.Binary) and p.operator in "/%" for r in read for p in m.walk(r))
+    return all(map(building.is_calm, read)) and not divides
+
+
+def assert_of_python(reader: ModelExpressionReader, node: Node, called: str) -> None:
+    """Unread: the name of a function of Python that makes what is gone through is bound again."""
+    is_python = called in ("range", "enumerate", "zip", "reversed")
+    if is_python and (reader.names.constants.binds(called) or called in reader.locals):
+        raise reader.unread(node, f'"{called}" is not the one of Python here')
 
 
 def _certain(reader: ModelExpressionReader, node: Node, called: str) -> list[m.Expression]:
@@ -228,6 +248,7 @@ def rows(reader: ModelExpressionReader, node: Node, width: int) -> list[tuple[m.
     """What a loop gives its variables, round by round."""
     called = text_of(field(node, "function")) if node.type == "call" else ""
     arguments = named(field(node, "arguments")) if called else []
+    assert_of_python(reader, node, called)
     numbers = known_range(arguments) if called == "range" and width == 1 else None
     if numbers is not None and len(numbers) <= _MOST:
         return [(m.IntLiteral(n),) for n in numbers]

@@ -15,10 +15,10 @@ from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_idioms import in_order
 from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_names import Helper
+from rebsync.reverse.python.plain_functions import function_named, is_runtime
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import (
-    FUNCTION,
     PyCode,
     PyParameter,
     Scope,
@@ -101,7 +101,7 @@ def _called(code: PyCode, function: Scope, called: Node) -> Scope | None:
     """The function that a call names, alone or after its module."""
     if called.type == "identifier":
         name = text_of(called)
-        return _function(code, function.module, name) if name not in function.names else None
+        return function_named(code, function.module, name) if name not in function.names else None
     holder = field(called, "object") if called.type == "attribute" else called
     if holder.type != "identifier" or text_of(holder) in function.names:
         return None
@@ -110,7 +110,7 @@ def _called(code: PyCode, function: Scope, called: Node) -> Scope | None:
         return None
     if _may_be_replaced(code, name):
         return None
-    return _function(code, module, name)
+    return function_named(code, module, name)
 
 
 def _may_be_replaced(code: PyCode, name: str) -> bool:
@@ -152,38 +152,12 @@ def _object(call: Node, function: Scope) -> str:
     return function.parameters[0].name if is_given and function.parameters else ""
 
 
-def _function(code: PyCode, module: Scope, name: str) -> Scope | None:
-    """A plain function of a module of the package, of this one or one that it is imported from."""
-    bindings = module.names.get(name, [])
-    if len(bindings) != 1:
-        return None
-    binding = bindings[0]
-    if binding.how == "import" and binding.node.type == "import_from_statement":
-        item = binding.value
-        is_other = item is not None and item.type == "aliased_import"
-        source = module_named(code, module_of(binding.node), module)
-        if source is None or source is module or is_other or is_runtime(source):
-            return None
-        return _function(code, source, name)
-    if binding.how != "scope":
-        return None
-    found = code.scope_of(binding.node, module.py)
-    is_coroutine = any(c.type == "async" for c in found.node.children)
-    return found if found.kind == FUNCTION and not (found.decorators or is_coroutine) else None
-
-
-def is_runtime(module: Scope) -> bool:
-    """Whether a module is of the run-time part, whose functions the model has words for."""
-    text = module.py.source.text
-    return any(f"\nclass {name}" in text for name in ("Violation", "Mailbox", "Startup"))
-
-
 # --- decorators ---------------------------------------------------------------------------------
 
 
 def is_transparent(code: PyCode, module: Scope, decorator: str) -> bool:
     """Whether a decorator only logs, and calls the function with all that it is given."""
-    made = _function(code, module, decorator) if decorator.isidentifier() else None
+    made = function_named(code, module, decorator) if decorator.isidentifier() else None
     if made is None or len(made.parameters) != 1:
         return False
     inner = [s for s in body_of(made) if s.type in ("function_definition", "decorated_definition")]

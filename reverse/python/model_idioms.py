@@ -43,7 +43,14 @@ def comparison(reader: ModelExpressionReader, node: Node) -> m.Expression:
     """`a <= b < c`, `a in (1, 2)` and `a not in (1, 2)`. Unread: the model has no such thing."""
     operands = named(node)
     operators = [" ".join(text_of(c).split()) for c in node.children_by_field_name("operators")]
-    if operators in (["in"], ["not in"]) and operands[1].type in ("tuple", "list", "set"):
+    if operators in (["in"], ["not in"]) and (ends := _ends_of_range(reader, operands)):
+        low, high = ends
+        is_in, one = operators == ["in"], operands[0]
+        pairs = [(one, ">=" if is_in else "<", low), (one, "<" if is_in else ">=", high)]
+        word, repeated = "&&" if is_in else "||", [one]
+        if reader.kind(reader.read(one)) != m.Type("int"):
+            raise reader.unread(node, "only whole numbers are in a range")
+    elif operators in (["in"], ["not in"]) and operands[1].type in ("tuple", "list", "set"):
         is_in, one = operators == ["in"], operands[0]
         others = named(operands[1])
         pairs = [(one, "==" if is_in else "!=", other) for other in others]
@@ -66,6 +73,15 @@ def comparison(reader: ModelExpressionReader, node: Node) -> m.Expression:
         found = each if found is None else m.Binary(word, found, each, reader.py.span(node))
     assert found is not None
     return found if len(pairs) == 1 else grouped(node, found)
+
+
+def _ends_of_range(reader: ModelExpressionReader, operands: list[Node]) -> list[Node] | None:
+    """The first number of a range and that behind its last; None for what is no such range."""
+    called = text_of(field(operands[1], "function")) if operands[1].type == "call" else ""
+    given = named(field(operands[1], "arguments")) if called == "range" else []
+    is_rebound = reader.names.constants.binds("range") or "range" in reader.locals
+    is_plain_range = len(given) == 2 and all(g.type == "integer" for g in given)
+    return given if is_plain_range and not is_rebound else None
 
 
 def assert_alike(

@@ -13,6 +13,7 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.python.log_words import LEVELS, LOOKS, ON_CLOCKS
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.python.told_containers import is_asked
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, has_splat
 from rebsync.reverse.syntax.py_tree import field, named, text_of
@@ -30,7 +31,9 @@ class Looks:
     `makers` what makes messages. `own` are methods of the model, whose calls count as pure: who
     leaves out the rest has to keep these. `loggers`, `tables` and `clocks` are names of the module
     that stand for a logger of Python's library, a dictionary of literals, and what tells the time;
-    `records` are its classes whose objects only hold what they are made of, with their fields.
+    `records` are its classes whose objects only hold what they are made of, with their fields;
+    `describing` functions that only put texts together, with how many arguments they take.
+    `containers` are members that only logs look into, with their kinds.
     """
 
     trusted: frozenset[str] = with_default(
@@ -43,6 +46,8 @@ class Looks:
     tables: frozenset[str] = frozenset()
     clocks: frozenset[str] = frozenset()
     records: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
+    describing: Mapping[str, int] = with_default(default_factory=dict)
+    containers: Mapping[str, str] = with_default(default_factory=dict)
 
     def is_pure(self, node: Node) -> bool:
         """Whether nothing happens where an expression is evaluated."""
@@ -52,7 +57,14 @@ class Looks:
             return False
         if node.type == "attribute" and text_of(field(node, "attribute")) in self.functions:
             return text_of(field(node, "object")) not in ("self", "super()")
+        if node.type == "subscript" and self._container(field(node, "value")):
+            return False  # it may have no such element
         return all(map(self.is_pure, node.named_children))
+
+    def _container(self, node: Node) -> str:
+        """The kind of the container that a member is; empty for all else."""
+        is_own = node.type == "attribute" and text_of(field(node, "object")) == "self"
+        return self.containers.get(text_of(field(node, "attribute")), "") if is_own else ""
 
     def _is_look(self, call: Node) -> bool:
         """Whether what is called only looks at its arguments, the clock, or the node's name."""
@@ -66,12 +78,18 @@ class Looks:
             return not named(field(call, "arguments"))
         if function.type == "identifier":
             is_built_in = called in LOOKS and called in self.trusted
+            given = field(call, "arguments")
+            if called in self.describing and not has_splat(call):
+                plain = [a for a in named(given) if a.type != "keyword_argument"]
+                return len(plain) == len(named(given)) == self.describing[called]
             return is_built_in or called in self.makers or self.makes_record(call)
         if function.type != "attribute":
             return False
         holder, name = field(function, "object"), text_of(field(function, "attribute"))
         if name == "get" and text_of(holder) in self.tables:
             return len(named(field(call, "arguments"))) in (1, 2)
+        if is_asked(call, self.containers):
+            return True
         if name in ON_CLOCKS:
             return holder.type == "call" and not named(field(call, "arguments"))
         is_text = holder.type in ("string", "concatenated_string")

@@ -29,6 +29,7 @@ from rebsync.reverse.python.model_types import (
     called_late,
     expression_in,
     handed_over,
+    is_alias,
     is_unset,
     literal_type,
     type_made,
@@ -232,7 +233,7 @@ def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
             continue
         if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
             continue
-        if constants.is_quiet(module, statement):
+        if constants.is_quiet(module, statement) or is_alias(module, statement):
             continue
         is_class = definition.type == "class_definition"
         if is_class and text_of(field(definition, "name")) not in NO_PYTHON_CLASSES:

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from tree_sitter import Node
 
+from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1, PUBLISHER_METHOD
 from rebsync.reverse.python.body_form import PyForm
@@ -30,9 +31,22 @@ from rebsync.reverse.python.module_variables import (
     loggers_of,
     tables_of,
 )
+from rebsync.reverse.python.plain_functions import describing
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.record_classes import records_in
-from rebsync.reverse.syntax.ancestors import ancestors, climb
+from rebsync.reverse.python.told_containers import (
+    SET,
+    STORING,
+    TABLE,
+    TABLES,
+    containers_in,
+    is_counted,
+    is_key,
+    member_of,
+    stores_in,
+)
+from rebsync.reverse.python.told_locals import told_locals
+from rebsync.reverse.syntax.ancestors import ancestors, functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import Py, field, is_label, named, text_of
@@ -50,7 +64,7 @@ class Silent:
     """The silent members of a class: `texts` are told to people only, `locks` are only held.
     `ticking` are timers that only log, as `timers` tells them. `locals` are what a function makes
     or measures for people, by the function's node, and `counters` variables of the module; `form`
-    tells who may wait for a lock.
+    tells who may wait for a lock, and `variables` the state by the names of attributes.
     """
 
     texts: frozenset[str] = frozenset()
@@ -62,6 +76,7 @@ class Silent:
     shown: dict[str, Shown] = with_default(default_factory=dict)
     counters: frozenset[str] = frozenset()
     form: PyForm | None = None
+    variables: Mapping[str, m.Type] = with_default(default_factory=dict)
 
     @property
     def looks(self) -> Looks:
@@ -94,6 +109,11 @@ class Silent:
             return False
         if inner.type in ("assignment", "augmented_assignment"):
             value = inner.child_by_field_name("right")
+            left = field(inner, "left")
+            if left.type == "subscript":
+                return self._stores_element(inner)
+            if text_of(left).removeprefix("self.") in self.looks.containers:
+                return False
             return self._is_place(field(inner, "left")) and (value is None or self._is_made(value))
         return inner.type == "call" and self._tells(inner)
 
@@ -113,6 +133,12 @@ class Silent:
         if function.type != "attribute" or not all(map(self._is_made, arguments)):
             return False
         holder, method = field(function, "object"), text_of(field(function, "attribute"))
+        kind = self.looks.containers.get(text_of(holder).removeprefix("self."), "")
+        if kind:
+            is_kept = kind != SET or all(is_key(a, self.variables) for a in arguments)
+            return (
+                self._is_place(holder) and is_kept and STORING[kind].get(method) == len(arguments)
+            )
         if method == "publish":
             return text_of(holder).removeprefix("self.") in self.publishers
         return method in ("append", "clear") and self._is_place(holder)
@@ -129,6 +155,17 @@ class Silent:
         if name in self.locals.get(_function(node), ()):
             return True
         return name in self.counters and _is_of_module(node, name)
+
+    def _stores_element(self, assignment: Node) -> bool:
+        """`self._counts["served"] = self._counts.get("served", 0) + 1`."""
+        left, value = field(assignment, "left"), assignment.child_by_field_name("right")
+        kind = self.looks.containers.get(member_of(assignment), "")
+        keys = left.children_by_field_name("subscript")
+        if not self._is_place(field(left, "value")) or kind not in TABLES or value is None:
+            return False
+        if len(keys) != 1 or not is_key(keys[0], self.variables):
+            return False
+        return is_counted(assignment, kind) or (kind == TABLE and self.looks.is_pure(value))
 
     def _is_made(self, node: Node) -> bool:
         """Whether a value only takes up what is there, or is a parameter of the node's own."""
@@ -175,15 +212,20 @@ def silent_in(
         records={name: fields for name, fields in records.items() if name not in hidden},
     )
     taken |= looks.functions
+    texts = describing(code, owner.module)
+    looks = replace(looks, describing={n: c for n, c in texts.items() if n not in hidden})
     made = {name: value for name, value in _made(functions) if name not in taken}
     members = {name: value for name, value in made.items() if not is_of_node(name)}
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
     timers = Timers.of(code, {n: functions[n] for n in roles[0].ticking}, looks)
+    stores = stores_in(module.node for module in modules)
+    looks = replace(looks, containers=containers_in(owner.module, members, stores))
+    timers = replace(timers, looks=looks)  # what ticks runs while containers may change
     told = frozenset(
         name
         for name, v in members.items()
-        if v.type in _VALUES or _own_parameter(v) or looks.tells_time(v)
+        if v.type in _VALUES or _own_parameter(v) or looks.tells_time(v) or name in looks.containers
     )
     locks = frozenset(n for n, v in members.items() if _is_lock(owner.module, v))
     found = Silent(
@@ -191,14 +233,16 @@ def silent_in(
         frozenset(n for n, v in publishers.items() if _is_publisher(v, makers)),
         frozenset(n for n, v in members.items() if timers.is_idle(v)),
         locks,
-        {f.node.id: _locals(f, makers, looks) for f in functions.values()},
+        {f.node.id: told_locals(f, makers, looks) for f in functions.values()},
         timers,
         {n: s for n, v in publishers.items() if (s := shown_by(code, owner.module, v, variables))},
         frozenset(counters_of(code, owner.module)) - hidden,
         form,
+        variables,
     )
+    beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     while members or found.counters or any(found.locals.values()):
-        wrong = {n for module in modules for n in _odd(found, module.node)}
+        wrong = {n for module in modules for n in _odd(found, module.node, beside)}
         if not wrong:
             break
         found = _without(found, wrong)
@@ -280,72 +324,27 @@ def _makers(module: Scope) -> Iterator[str]:
             yield name
 
 
-def _messages(function: Scope, makers: frozenset[str]) -> Iterator[str]:
-    """The locals of a function that are messages for people."""
-    for name, bindings in function.names.items():
-        values = [b.value for b in bindings]
-        if values and all(v is not None and call_and_arguments(v)[0] in makers for v in values):
-            yield name
-
-
-def _locals(function: Scope, makers: frozenset[str], looks: Looks) -> frozenset[str]:
-    """The locals of a function that are messages for people or records, or go by the clock."""
-    found = set(_messages(function, makers))
-    every = {
-        name: [b.value for b in bindings]
-        for name, bindings in function.names.items()
-        if all(b.how == "value" and not b.path for b in bindings)
-    }
-    while fresh := {
-        name
-        for name, values in every.items()
-        if name not in found
-        and all(map(looks.is_pure, values))
-        and any(_depends(value, found, looks) for value in values)
-    }:
-        found |= fresh
-    return frozenset(name for name in found if _is_set_first(function.node, name))
-
-
-def _is_set_first(function: Node, name: str) -> bool:
-    """Whether a local is set before all else that names it, in the block that has all of that."""
-    uses = [n for n in nodes_in(function) if n.type == "identifier" and text_of(n) == name]
-    uses = [n for n in uses if not is_label(n)]
-    statement = climb(uses[0], lambda n: n.type == "expression_statement")
-    block = statement.parent if statement is not None else None
-    if statement is None or block is None:
-        return False
-    if named(statement)[0].child_by_field_name("left") != uses[0]:
-        return False
-    return uses[-1].end_byte <= block.end_byte and len(uses) > 1
-
-
-def _depends(value: Node, on: Collection[str], looks: Looks) -> bool:
-    return any(
-        looks.tells_time(n)
-        or (n.type == "call" and looks.makes_record(n))
-        or (n.type == "identifier" and text_of(n) in on)
-        for n in nodes_in(value)
-    )
-
-
 # --- where they are used ------------------------------------------------------------------------
 
 
-def _odd(silent: Silent, root: Node) -> set[str]:
-    """The members and locals that something else than a statement for people names."""
+def _odd(silent: Silent, root: Node, beside: Collection[str]) -> set[str]:
+    """The members and locals that something else than a statement for people names.
+
+    What runs beside the bodies must not name containers, which they may go through meanwhile.
+    """
     members = silent.members
     found = set[str]()
     for node in nodes_in(root):
         if node.type == "attribute" and text_of(field(node, "attribute")) in members:
             name = text_of(field(node, "attribute"))
             is_own = text_of(field(node, "object")) == "self"
-            if not (is_own and _is_quiet(silent, node, name)):
+            is_apart = name in silent.looks.containers and _name_around(node) in beside
+            if is_apart or not (is_own and _is_quiet(silent, node, name)):
                 found.add(name)
         elif node.type == "identifier" and not is_label(node):
             name = text_of(node)
             is_local = name in silent.counters or any(
-                name in silent.locals.get(f.id, ()) for f in _functions(node)
+                name in silent.locals.get(f.id, ()) for f in functions_around(node)
             )
             if is_local and not _is_quiet(silent, node, name):
                 found.add(name)
@@ -377,13 +376,14 @@ def _sets_up(statement: Node, name: str) -> bool:
     return (is_first and left == f"self.{name}") or (function is None and left == name)
 
 
+def _name_around(node: Node) -> str:
+    """The function that something is in, by its name."""
+    function = _enclosing(node)
+    return text_of(field(function, "name")) if function is not None else ""
+
+
 def _enclosing(node: Node) -> Node | None:
-    return climb(node, lambda n: n.type == "function_definition")
-
-
-def _functions(node: Node) -> Iterator[Node]:
-    """The functions that something is in."""
-    return (n for n in ancestors(node) if n.type == "function_definition")
+    return next(functions_around(node), None)
 
 
 def _is_of_module(node: Node, name: str) -> bool:

@@ -13,6 +13,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, cell
 from rebsync.reverse.python import model_aliases as aliases
+from rebsync.reverse.python import model_builtins as builtins
 from rebsync.reverse.python import model_endings as endings
 from rebsync.reverse.python import model_going_on as going_on
 from rebsync.reverse.python import model_idioms as idioms
@@ -283,6 +284,7 @@ class Statements(ModelStatementReader):
     def _through(self, node: Node, called: str, arguments: list[Node]) -> m.Statement:
         """A loop of Python through numbers or values."""
         name = text_of(field(node, "left"))
+        builtins.assert_of_python(self.expressions, node, called)
         if called == "range":
             return loops.counted(self, node, name)
         found = loops.through(self, node, called, arguments)

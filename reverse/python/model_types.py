@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import re
 from collections.abc import Iterator
 from functools import lru_cache
@@ -46,7 +47,7 @@ def type_of(node: Node | None) -> m.Type | None:
     if node.type == "string":
         return _quoted(text_of(node))
     if node.type in ("identifier", "none"):
-        plain = _PLAIN.get(text_of(node))
+        plain = _PLAIN.get(text_of(node)) or _PLAIN.get(_alias_in(_root_of(node), text_of(node)))
         return m.Type(plain) if plain is not None else None
     if node.type == "generic_type":
         head, parameters = named(node)[0], named(named(node)[1])
@@ -55,6 +56,38 @@ def type_of(node: Node | None) -> m.Type | None:
     else:
         return None
     return _generic(text_of(head), parameters)
+
+
+def _root_of(node: Node) -> Node:
+    """The module that something stands in."""
+    while node.parent is not None:
+        node = node.parent
+    return node
+
+
+def _alias_in(module: Node, name: str) -> str:
+    """The type that a name of a module is another word for: `Cell = int`; empty for no such one."""
+    values = [v for s in named(module) if (v := alias_of(s)) is not None and v[0] == name]
+    return values[0][1] if len(values) == 1 else ""
+
+
+def alias_of(statement: Node) -> tuple[str, str] | None:
+    """What a statement at the top of a module names a plain type, and that type; else None."""
+    inner = named(statement)[0] if statement.type == "expression_statement" else statement
+    if inner.type != "assignment":
+        return None
+    said, value = inner.child_by_field_name("type"), inner.child_by_field_name("right")
+    is_said = said is None or text_of(said).rpartition(".")[2] == "TypeAlias"
+    is_name = is_said and value is not None and value.type == "identifier"
+    if not is_name or value is None or field(inner, "left").type != "identifier":
+        return None
+    return (text_of(field(inner, "left")), text_of(value)) if text_of(value) in _PLAIN else None
+
+
+def is_alias(module: Scope, statement: Node) -> bool:
+    """Whether a statement gives a plain type another name, which means nothing else."""
+    name = (alias_of(statement) or ("", ""))[0]
+    return len(module.names.get(name, ())) == 1 and not hasattr(builtins, name)
 
 
 @lru_cache(maxsize=256)

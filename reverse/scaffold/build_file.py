@@ -29,6 +29,8 @@ _STEERING = re.compile(
     r".*_LAUNCHER|RULE_LAUNCH_\w+|CMAKE_\w+_COMPILE(?:R|_OBJECT)|LANGUAGE|HEADER_FILE_ONLY"
     r"|EXTERNAL_OBJECT|GENERATED|EXCLUDE_FROM_ALL|(?:\w+_)?INCLUDE_DIRECTORIES"
 )
+_LAUNCHING = re.compile(r"CMAKE_C(?:XX)?_COMPILER_LAUNCHER|RULE_LAUNCH_COMPILE")
+_CACHES = frozenset({"ccache", "sccache"})
 _SETTING = ("set", "list", "string", "find_", "option", "foreach")
 # What others' modules call is theirs as well: with another meaning they do something else.
 _COMMANDS = (TARGETLESS | EXECUTABLE | LIBRARY | _CHANGING).union(
@@ -60,12 +62,13 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
     names = dict(filter(None, (_named(command) for command, _ in commands)))
     own = {argument.text for command, _ in commands for argument in command.arguments}
     lists = ConstantLists(commands, _sets_what_it_names)
+    caches = {*_CACHES, *_found_caches(commands)}
     for command, condition in commands:
         lists.passed(command, condition)
         words = [argument.text for argument in command.arguments]
         found = (
             *_compiled(command, words),
-            *_steps(command, words),
+            *(() if _only_remembers(words, caches) else _steps(command, words)),
             *_included(command, words, own),
         )
         for fact in (*found, *_made(lists.written_out(command), names)):
@@ -161,6 +164,24 @@ def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
             "given",
             command.span,
         )
+
+
+def _found_caches(commands: Iterable[tuple[Command, str]]) -> Iterator[str]:
+    """The variables, as they are used, that only ever hold a compiler's cache that was found."""
+    found: dict[str, list[Command]] = {}
+    for command, _ in commands:
+        for word in (a.text for a in command.arguments[:1]):
+            found.setdefault(word, []).append(command)
+    for name, of in found.items():
+        setting = [c for c in of if c.name.startswith(("set", "find_", "unset", "option", "list"))]
+        given = [a.text for c in setting for a in c.arguments[1:]]
+        if len(setting) == 1 and setting[0].name == "find_program" and {*given} <= _CACHES:
+            yield f"${{{name}}}"
+
+
+def _only_remembers(words: Sequence[str], caches: Collection[str]) -> bool:
+    """Whether the compiler is only run by way of a cache of what it made: `ccache`."""
+    return len(words) > 1 and _LAUNCHING.fullmatch(words[-2]) is not None and words[-1] in caches
 
 
 def _is_redefined(name: str) -> bool:

@@ -70,6 +70,7 @@ def _actions(source: Source) -> Iterator[Fact]:
     except (SyntaxError, ValueError):
         return  # what cannot be read, extraction lists
     names = bound_once(tree)
+    defaults = dict(_defaults(tree))
     for each in _prefixes(tree):
         yield Fact("setting", "", "launch-prefix", "given", source, _span(source, each))
     for call in (n for n in ast.walk(tree) if isinstance(n, ast.Call)):
@@ -87,7 +88,7 @@ def _actions(source: Source) -> Iterator[Fact]:
         span = _span(source, call)
         for key in _KEYWORDS:
             value = _said(given[key], names) if key in given else "not given"
-            if key in given and _is_idle(key, given[key], names):
+            if key in given and _is_idle(key, _default(given[key], names, defaults), names):
                 value = "not given"
             yield Fact("node", node, key, value, source, span)
         files = _files(given.get("parameters"), names)
@@ -117,6 +118,28 @@ def _prefixes(tree: ast.Module) -> Iterator[ast.expr]:
             yield from (each for each in given if not isinstance(each, ast.Constant))
 
 
+def _defaults(tree: ast.Module) -> Iterator[tuple[str, ast.expr]]:
+    """The arguments that a launch file takes, each with its default."""
+    for call in (n for n in ast.walk(tree) if isinstance(n, ast.Call)):
+        given = {k.arg: k.value for k in call.keywords if k.arg is not None}
+        name = call.args[0] if call.args else given.get("name")
+        is_declared = called(call) == "DeclareLaunchArgument" and "default_value" in given
+        if is_declared and isinstance(name, ast.Constant):
+            yield str(name.value), given["default_value"]
+
+
+def _default(
+    value: ast.expr, names: Mapping[str, ast.expr], defaults: Mapping[str, ast.expr]
+) -> ast.expr:
+    """What a node is given if nobody says an argument: the default of that, or the value itself."""
+    found = _resolved(value, names)
+    if isinstance(found, ast.Call) and called(found) == "LaunchConfiguration" and found.args:
+        name = found.args[0]
+        if isinstance(name, ast.Constant) and len(found.args) == 1 and not found.keywords:
+            return defaults.get(str(name.value), value)
+    return value
+
+
 def _is_idle(key: str, value: ast.expr, names: Mapping[str, ast.expr]) -> bool:
     """Whether what a node is given changes nothing of what it does."""
     match key:
@@ -128,6 +151,9 @@ def _is_idle(key: str, value: ast.expr, names: Mapping[str, ast.expr]) -> bool:
             texts = [p.value for p in parts if isinstance(p, ast.Constant)]
             said = [text for text in texts if isinstance(text, str)]
             return len(said) == len(parts) and is_harmless("".join(said))
+        case "respawn":
+            found = _resolved(value, names)
+            return isinstance(found, ast.Constant) and found.value in (False, "false")
         case _:
             return False
 

@@ -34,7 +34,8 @@ def facts_of_launch(source: Source, package: str) -> Iterator[Fact]:
     """The facts of a file; remaps outside of nodes, which all that follow have, are of no node."""
     root = read_xml(source)
     if not isinstance(root, Unknown):  # what cannot be read, extraction lists
-        yield from _Tags(source, package, frozenset(_nodes(root))).facts(root)
+        given = dict(_defaults(root))
+        yield from _Tags(source, package, frozenset(_nodes(root)), given).facts(root)
 
 
 def facts_of_settings(source: Source, load: Load) -> Iterator[Fact]:
@@ -60,16 +61,25 @@ def _nodes(element: XmlElement) -> Iterator[str]:
         yield from _nodes(each)
 
 
+def _defaults(root: XmlElement) -> Iterator[tuple[str, str]]:
+    """The arguments that a file takes, each with its default, as `$(arg name)`."""
+    for each in root.elements():
+        given = {name: attribute.value for name, attribute in each.attributes.items()}
+        if each.name == "arg" and "default" in given and "name" in given:
+            yield f"$(arg {given['name']})", given["default"]
+
+
 @dataclass(frozen=True, slots=True)
 class _Tags:
     """The tags in one place of a launch file: in the groups `around`, and in a node or in none.
 
-    `nodes` are the names of all nodes in the file.
+    `nodes` are the names of all nodes in the file, `defaults` those of its arguments.
     """
 
     source: Source
     package: str
     nodes: frozenset[str]
+    defaults: Mapping[str, str]
     around: tuple[Mapping[str, str], ...] = ()
     node: str = ""
 
@@ -135,8 +145,10 @@ class _Tags:
             told["pkg"] = OWN
         if not _may_rename(told["args"]):
             told["args"] = ""
-        if is_harmless(told["launch-prefix"]):
+        if is_harmless(self.defaults.get(told["launch-prefix"], told["launch-prefix"])):
             told["launch-prefix"] = ""
+        if self.defaults.get(told["respawn"], told["respawn"]) == "false":
+            told["respawn"] = ""  # as roslaunch has it without
         for key, value in {**told, "ns": space(tags), "if": conditions(tags)}.items():
             yield self._fact("node", name, key, value or NOT_GIVEN, element)
         yield self._fact(TYPE, name, "", given.get("type", ""), element)

@@ -40,12 +40,27 @@ def first_difference(base: Source, source: Source, own: frozenset[str]) -> Span 
         return None if base.text == source.text else Span(0, min(1, len(source.text)))
     if (odd := _imported(old, new, own)) is not None:
         return span_of(source, odd) if isinstance(odd, ast.stmt) else Span(0, 1)
-    old, new = without_types(old), without_types(new)
+    old, new = without_types(old), without_types(_without_main(old, new))
     last = len(source.text.rstrip())
     for one, other in zip_longest(_parts(old.body, own), _parts(new.body, own)):
         if one is None or other is None or one[0] != other[0]:
             return span_of(source, other[1]) if other is not None else Span(max(last - 1, 0), last)
     return None
+
+
+def _without_main(old: ast.Module, new: ast.Module) -> ast.Module:
+    """A program that does in `main()`, which it calls at its end, what it did at its top."""
+    match new.body:
+        case [*_, ast.If(test, [ast.Expr(call)], [])] if ast.unparse(call) == "main()":
+            mains = [s for s in new.body if isinstance(s, ast.FunctionDef) and s.name == "main"]
+            had_one = any(isinstance(s, ast.FunctionDef) and s.name == "main" for s in old.body)
+            is_plain = ast.unparse(test) == "__name__ == '__main__'" and len(mains) == 1
+            if had_one or not is_plain or mains[0].decorator_list or ast.unparse(mains[0].args):
+                return new
+            rest = [s for s in new.body[:-1] if s is not mains[0]]
+            return ast.Module([*rest, *mains[0].body], [])
+        case _:
+            return new
 
 
 def _imported(old: ast.Module, new: ast.Module, own: frozenset[str]) -> ast.stmt | bool | None:

@@ -27,3 +27,8 @@ def holds(outer: Node, inner: Node) -> bool:
 def climb(node: Node, stop: Callable[[Node], bool]) -> Node | None:
     """The nearest node around for which `stop` holds."""
     return next((above for above in ancestors(node) if stop(above)), None)
+
+
+def functions_around(node: Node) -> Iterator[Node]:
+    """The functions that something is defined in, innermost first."""
+    return (above for above in ancestors(node) if above.type == "function_definition")
