@@ -40,13 +40,13 @@ main {
 PROPERTIES = "property { define { odd = w0.odd; } Assertion { small: w0.at < 3; even: !odd; } }"
 
 
-def _walkers(count: int, size: int) -> System:
+def walkers(count: int, size: int) -> System:
     main = "\n".join(f"    Walker w{i}():();" for i in range(count))
     return System.of(WALKERS.replace("%SIZE%", str(size)).replace("%MAIN%", main), PROPERTIES)
 
 
 def _program(count: int = 2, size: int = 5) -> Program:
-    return _walkers(count, size).program
+    return walkers(count, size).program
 
 
 def _figures(found: Exploration) -> tuple[object, ...]:
@@ -168,8 +168,8 @@ import resource, sys
 from pathlib import Path
 from rebsync.checker.compiled import CompiledSearch
 from rebsync.checker.exploration import Limits
-from tests.checker.test_compiled import _walkers
-search = CompiledSearch(_walkers(4, 400).program, "ftts", (0,))
+from tests.checker.test_compiled import walkers
+search = CompiledSearch(walkers(4, 400).program, "ftts", (0,))
 search.run(Limits(states=100))
 paths = [search.path(state) for state in range(100)]
 held = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()

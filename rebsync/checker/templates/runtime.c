@@ -1,6 +1,6 @@
 /* The breadth-first search. */
+#include "rounds.h"
 #include "standstill.h"
-#include "storing.h"
 
 /* Why a slice of the search ends. */
 enum end { FINISHED, SLICE, STATES, CUT, MEMORY, STOPPED, AT_FIRST };
@@ -21,20 +21,16 @@ static void make_packed(struct search *s)
     s->unpacked = zeroed(s->escape, s->rebecs, sizeof *s->unpacked);
 }
 
-static void measure_nothing(struct search *s)
-{
-    for (int32_t i = 0; i < s->model->measures; i++)
-        s->measured[i] = (struct measured){0, -1, 0, -1, -1};
-}
-
 void rebsync_free(struct search *s)
 {
     void *parts[] = {
-        s->fields, s->batch_words, s->ids, s->unpacked, s->events.data, s->states.data,
-        s->parents.data, s->times.data, s->table, s->invariants, s->faults, s->measured};
+        s->fields, s->batch_words, s->ids, s->unpacked, s->judge->events.data, s->states.data,
+        s->parents.data, s->times.data, s->table, s->taken, s->invariants, s->faults,
+        s->judge->measured};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
     free_prints(s);
+    free_team(s->team);
     if (s->arrivals)
         fclose(s->arrivals);
     kernel_free(s->kernel);
@@ -66,9 +62,27 @@ struct search *rebsync_new(const struct model *model, int semantics, int compact
     kernel_meet(s->kernel, meet, s);
     s->invariants = copied(s->escape, invariants, (size_t)invariant_count);
     s->invariant_count = (uint32_t)invariant_count;
-    s->measured = zeroed(s->escape, (size_t)model->measures, sizeof *s->measured);
-    measure_nothing(s);
+    *s->judge = (struct judge){.search = s, .kernel = s->kernel, .escape = s->escape};
+    s->judge->measured = zeroed(s->escape, (size_t)model->measures, sizeof *s->judge->measured);
+    measure_nothing(s->judge);
+    s->shares = 1;
+    s->taken = zeroed(s->escape, 1, sizeof *s->taken);
     return s;
+}
+
+/* Lets so many threads search, before it begins; `semantics` and `persistent` as in rebsync_new. Not
+ * with fingerprints. 0 without memory. */
+int rebsync_team(struct search *s, uint32_t workers, int semantics, const int32_t *persistent,
+                 int persistent_count)
+{
+    if (setjmp(s->escape->to))
+        return 0;
+    free(s->taken);
+    s->taken = NULL;
+    s->taken = zeroed(s->escape, workers, sizeof *s->taken);
+    s->shares = workers;
+    make_team(s, workers, semantics, persistent, persistent_count);
+    return 1;
 }
 
 /* Lets the search reduce states to canonical ones, with the tables of orbits.h; 0 without memory. */
@@ -77,7 +91,11 @@ int rebsync_symmetry(struct search *s, struct symmetries found, const int32_t *n
                      const int32_t *references)
 {
     s->symmetric = 1;
-    return kernel_symmetry(s->kernel, found, names, origins, positions, orbit, references);
+    int done = kernel_symmetry(s->kernel, found, names, origins, positions, orbit, references);
+    for (uint32_t i = 0; done && s->team && i < s->team->workers; i++)
+        done = kernel_symmetry(s->team->worker[i].kernel, found, names, origins, positions, orbit,
+                               references);
+    return done;
 }
 
 /* --- searching */
@@ -96,7 +114,7 @@ static int begin(struct search *s)
     enum answer answer = kernel_initial(s->kernel, store, s);
     if (answer == UNENDING)
         return 0;
-    expect(s, answer);
+    expect(s->escape, answer);
     flush(s);
     begun(s);
     return 1;
@@ -106,12 +124,12 @@ static int begin(struct search *s)
 static void undo(struct search *s)
 {
     s->count = s->pending = s->dropped = 0;
-    s->parents.count = s->times.count = s->events.count = 0;
+    s->parents.count = s->times.count = s->judge->events.count = 0;
     free_prints(s);
     if (s->compact)
         rewind(s->arrivals);
-    s->slots = 0;
-    measure_nothing(s);
+    s->slots = s->share_slots = 0;
+    measure_nothing(s->judge);
 }
 
 /* Enters the next level, when the last one is expanded; 0 when there is none. */
@@ -138,13 +156,20 @@ static int search_on(struct search *s, uint64_t states, int64_t due)
         }
         if (turn % TURNS == 0 && clock_now() >= due)
             return SLICE;
+        enum attempt attempt = expand_together(s, states, due);
+        if (attempt == REFUSED)
+            return STOPPED;
+        if (attempt == EXPANDED) {
+            turn = TURNS - 1;
+            continue;
+        }
         unpack(s, words_of(s, s->expanded), s->ids);
         enum answer answer = kernel_successors(s->kernel, s->ids, 1, &made, store, s);
         if (answer == UNENDING) {
             flush(s);
             return CUT;
         }
-        expect(s, answer);
+        expect(s->escape, answer);
         s->expanded++;
         if (s->compact && turn % TURNS == 0) {
             flush(s);
@@ -159,6 +184,7 @@ static void exhaust(struct search *s)
     free(s->table);
     s->table = NULL;
     free_prints(s);
+    disband(s->team);
     s->pending = 0;
     s->exhausted = 1;
     if (s->beginning)
@@ -177,6 +203,7 @@ static void stop(struct search *s)
 /* What is asked now and then, by searches and by what is done afterwards; NULL asks nobody. */
 void rebsync_watch(struct search *s, void (*look)(int *goes_on))
 {
+    s->look = look;
     kernel_watch(s->kernel, look);
 }
 
@@ -195,14 +222,8 @@ void rebsync_stop_at_first(struct search *s, const int32_t *faults, int count, i
     s->first = 1;
 }
 
-/* Searches for about so many nanoseconds, until `states` are found, up to the time `until`; a body
- * may run so many instructions. */
-int rebsync_search(struct search *s, uint64_t states, int64_t until, int64_t instructions,
-                   int64_t nanoseconds)
+static int search_until(struct search *s, uint64_t states, int64_t due)
 {
-    int64_t due = clock_now() + nanoseconds;
-    s->until = until;
-    kernel_limit(s->kernel, instructions);
     int escaped = setjmp(s->escape->to);
     if (escaped == NO_MEMORY)
         exhaust(s);
@@ -210,7 +231,7 @@ int rebsync_search(struct search *s, uint64_t states, int64_t until, int64_t ins
         stop(s);
     if (escaped == VIOLATED && s->beginning)
         begun(s);
-    if (s->violated)
+    if (s->judge->violated)
         return AT_FIRST;
     if (s->exhausted)
         return MEMORY;
@@ -225,6 +246,20 @@ int rebsync_search(struct search *s, uint64_t states, int64_t until, int64_t ins
     return end;
 }
 
+/* Searches for about so many nanoseconds, until `states` are found, up to the time `until`; a body
+ * may run so many instructions. */
+int rebsync_search(struct search *s, uint64_t states, int64_t until, int64_t instructions,
+                   int64_t nanoseconds)
+{
+    s->until = until;
+    kernel_limit(s->kernel, instructions);
+    for (uint32_t i = 0; s->team && !s->team->disbanded && i < s->team->workers; i++)
+        kernel_limit(s->team->worker[i].kernel, instructions);
+    int end = search_until(s, states, clock_now() + nanoseconds);
+    end_threads(s->team);
+    return end;
+}
+
 /* --- afterwards */
 
 void rebsync_figures(struct search *s, struct figures *f)
@@ -235,25 +270,27 @@ void rebsync_figures(struct search *s, struct figures *f)
     f->level = s->depth;
     f->depth = s->depth + (s->count > s->level_end);
     f->dropped = s->dropped;
-    f->events = s->events.count;
+    f->events = s->judge->events.count;
     f->cut = kernel_cut(s->kernel);
     f->initials = s->initials;
 }
 
 const struct event *rebsync_events(struct search *s)
 {
-    return (struct event *)s->events.data;
+    return (struct event *)s->judge->events.data;
 }
 
 const struct measured *rebsync_measured(struct search *s)
 {
-    return s->measured;
+    return s->judge->measured;
 }
 
 /* Copies which servers and branches ran, and the largest bags. */
 void rebsync_covered(struct search *s, unsigned char *served, unsigned char *covered, uint32_t *largest)
 {
     kernel_covered(s->kernel, served, covered, largest);
+    if (s->team)
+        add_covered(s->team, served, covered, largest);
 }
 
 /* The first step from a state to another, and where it is sought. */
@@ -335,7 +372,7 @@ static void label(struct search *s, uint64_t *labels, uint32_t words)
     memset(labels, 0, words * sizeof *labels);
     kernel_observe(s->kernel, s->ids);
     for (int32_t p = 0; p < s->model->predicates; p++) {
-        struct valuation found = value_of(s, p);
+        struct valuation found = value_of(s->judge, p);
         if (found.defined && found.value)
             labels[p / 64] |= UINT64_C(1) << p % 64;
     }
@@ -351,13 +388,13 @@ int64_t rebsync_graph(struct search *s, struct graph graph, uint64_t from, uint6
     if (setjmp(s->escape->to))
         return -1;
     if (!s->table)
-        fill_table(s, 2 * s->count + 1);
+        fill_table(s, s->slots);
     for (uint64_t state = from; state < to; state++) {
         unpack(s, words_of(s, state), s->ids);
         label(s, graph.labels + state * words, words);
         graph.first[state] = drawing.edges;
         if (state < s->expanded)
-            expect(s, kernel_successors(s->kernel, s->ids, 1, &made, draw, &drawing));
+            expect(s->escape, kernel_successors(s->kernel, s->ids, 1, &made, draw, &drawing));
     }
     graph.first[to] = drawing.edges;
     return (int64_t)drawing.edges;

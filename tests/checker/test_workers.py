@@ -1,0 +1,164 @@
+"""Several threads search as one does: number for number, run for run, wherever the search ends.
+
+With little room, rounds are begun on levels of two states, have seven, and are cut anywhere.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import astuple, replace
+from unittest import mock
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rebsync.checker.compiled import CompiledSearch
+from rebsync.checker.exploration import Covered, Exploration, Faults, Limits, Progress, Search
+from rebsync.checker.problem import Options, Problem
+from rebsync.checker.reduction import persistent_sets
+from rebsync.checker.search import FIRST, Interpreted
+from rebsync.checker.steps import Semantics
+from rebsync.checker.symmetry import symmetry_of
+from rebsync.diagnostics import RebsyncError
+from tests.checker.comparing import System
+from tests.checker.draw_networks import networks
+from tests.checker.draw_systems import Drawn, systems
+from tests.checker.test_compiled import PROPERTIES, WALKERS, walkers
+from tests.checker.test_engines import FAMILIES
+from tests.checker.test_models import Expected, read, rows
+
+_COMPILER = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
+pytestmark = pytest.mark.skipif(_COMPILER is None, reason="no C compiler")
+_NOTHING = Covered(frozenset(), frozenset(), ())
+_FEW = settings(max_examples=max(6, settings().max_examples // 10))  # each is compiled
+
+
+@contextmanager
+def _little_room() -> Iterator[None]:
+    compiler = os.environ.get("CC") or _COMPILER
+    with mock.patch.dict(os.environ, CC=f"{compiler} -DLITTLE_ROOM"):
+        yield
+
+
+def _figures(found: Exploration) -> tuple[object, ...]:
+    """All that is found. Of a search that ends at the first violation, steps may have been made
+    ahead, and have run bodies, with one thread as with several."""
+    told = replace(found, engine="", seconds=0.0, build_seconds=0.0, memory=0, notes=())
+    return astuple(replace(told, covered=_NOTHING) if found.reason == FIRST else told)
+
+
+def _same(one: Search, other: Search, limits: Limits) -> Exploration:
+    """Both searches find the same within the limits: figures, runs, and steps."""
+    found = one.run(limits)
+    assert _figures(other.run(limits)) == _figures(found)
+    for state in range(0, found.states, 1 + found.states // 50):
+        assert other.path(state) == one.path(state)
+    if found.reason != FIRST:
+        assert astuple(other.graph()) == astuple(one.graph())
+    return found
+
+
+def _compare(system: System, view: Semantics, workers: int, until: int | None = None) -> None:
+    """All of a system, cut at a state, at its first violation, and with less to search."""
+    program, invariants = system.program, system.invariants()
+
+    def pair(**reduced: object) -> tuple[Search, Search]:
+        return (
+            Interpreted(program, view, invariants, **reduced),  # type: ignore[arg-type]
+            CompiledSearch(program, view, invariants, workers=workers, **reduced),  # type: ignore[arg-type]
+        )
+
+    limits = Limits(until=until, states=2000)
+    found = _same(*pair(), limits)
+    _same(*pair(), replace(limits, states=1 + found.states // 2))
+    _same(*pair(persistent=persistent_sets(program, view)), limits)
+    faults = Faults(frozenset(invariants), deadlock=False)
+    _same(*pair(), replace(limits, first=True, faults=faults))
+    problem = Problem(system.source, system.analysis, system.properties)
+    with suppress(RebsyncError):  # has none
+        symmetry = symmetry_of(program, problem, Options(view, symmetry=True))
+        alone = CompiledSearch(program, view, invariants, symmetry=symmetry)
+        _same(alone, pair(symmetry=symmetry)[1], limits)
+
+
+@pytest.mark.parametrize("workers", [2, 3])
+@rows
+def test_on_every_model(row: Expected, workers: int) -> None:
+    with _little_room():
+        _compare(read(row.model), row.view, workers)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@_FEW
+@given(data=st.data(), workers=st.integers(2, 4))
+def test_on_drawn_systems(family: str, data: st.DataObject, workers: int) -> None:
+    features, view = FAMILIES[family]
+    drawn = data.draw(systems(features))
+    with _little_room():
+        system = System.of(drawn.model, drawn.properties)
+        _compare(system, view, workers, 12 if features.clock else None)
+
+
+@_FEW
+@given(drawn=networks(), workers=st.integers(2, 4))
+def test_on_drawn_networks(drawn: Drawn, workers: int) -> None:
+    with _little_room():
+        _compare(System.of(drawn.model, drawn.properties), "tts", workers)
+
+
+# --- many states ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "limits",
+    [
+        Limits(states=60_000),
+        Limits(states=60_000, until=40),
+        Limits(first=True, faults=Faults(frozenset({0}))),
+    ],
+)
+def test_many_states(limits: Limits) -> None:
+    program = walkers(3, 150).program
+    alone, together = (CompiledSearch(program, "ftts", (0,), workers=workers) for workers in (1, 3))
+    found = alone.run(limits)
+    assert _figures(together.run(limits)) == _figures(found)
+    for state in range(0, found.states, 1000):
+        assert together.path(state) == alone.path(state)
+
+
+def test_states_that_outgrow_their_words() -> None:
+    text = WALKERS.replace("?(1, 3)", "1").replace("?(1, 2)", "1").replace("%SIZE%", "300")
+    main = "\n".join(f"    Walker w{i}():();" for i in range(8))
+    program = System.of(text.replace("%MAIN%", main), PROPERTIES.replace("3", "290")).program
+    searches = (CompiledSearch(program, "ftts", (0,), workers=workers) for workers in (1, 2))
+    alone, together = (search.run(Limits(states=150_000)) for search in searches)
+    assert _figures(alone) == _figures(together)
+
+
+def test_it_goes_on_where_it_stopped() -> None:
+    program = walkers(3, 60).program
+    pieces, whole = (CompiledSearch(program, "ftts", workers=workers) for workers in (2, 1))
+    for states in range(3, 9000, 701):
+        reason = pieces.run(Limits(states=states)).reason
+        assert reason == f"the bound of {states} states was reached"
+    assert _figures(pieces.run(Limits(states=20_000))) == _figures(whole.run(Limits(states=20_000)))
+
+
+def test_seconds_memory_and_interrupts() -> None:
+    search = CompiledSearch(walkers(8, 40).program, "ftts", workers=2)
+    seen: list[Progress] = []
+    reason = search.run(Limits(seconds=0.2), seen.append).reason
+    assert reason == "the bound of 0.2 seconds was reached"
+    assert seen[-1].states > seen[0].states > 0
+    assert search.run(Limits(memory=1)).reason == "the bound of 1 bytes of memory was reached"
+
+    def interrupt(_: Progress) -> None:
+        raise KeyboardInterrupt
+
+    found = search.run(Limits(), interrupt)
+    assert found.reason == "it was interrupted"
+    assert len(search.path(found.states - 1)) == found.depth + 1
