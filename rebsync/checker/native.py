@@ -31,7 +31,10 @@ PARTS = (
     "compaction.h",
     "judging.h",
     "storing.h",
+    "afterwards.h",
     "team.h",
+    "gathering.h",
+    "joining.h",
     "rounds.h",
     "standstill.h",
 )

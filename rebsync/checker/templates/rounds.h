@@ -12,188 +12,7 @@
 #ifndef REBSYNC_ROUNDS_H
 #define REBSYNC_ROUNDS_H
 
-#include "storing.h"
-#include "team.h"
-
-/* --- numbers of local states in two kernels */
-
-static uint32_t looked_up(const struct vector *numbers, uint32_t number)
-{
-    return number < numbers->count ? ((uint32_t *)numbers->data)[number] : NONE;
-}
-
-static void put_name(struct escape *out, struct vector *numbers, uint32_t number, uint32_t other)
-{
-    size_t known = numbers->count;
-    uint32_t *data = room_for(out, numbers, (size_t)number + 1, sizeof *data);
-    if (number >= known) {
-        memset(data + known, 255, (number + 1 - known) * sizeof *data);
-        numbers->count = (size_t)number + 1;
-    }
-    data[number] = other;
-}
-
-static void put_names(struct escape *out, struct names *n, uint32_t own, uint32_t common)
-{
-    put_name(out, &n->own, common, own);
-    put_name(out, &n->common, own, common);
-}
-
-/* The worker's number of a local state that the search's kernel knows. */
-static uint32_t own_number(struct worker *w, uint32_t rebec, uint32_t common)
-{
-    const unsigned char *content;
-    uint32_t own = looked_up(&w->names[rebec].own, common);
-    if (own != NONE)
-        return own;
-    kernel_content(w->search->kernel, rebec, common, &content);
-    own = kernel_number(w->kernel, rebec, content);
-    if (own == NONE)
-        give_up(w->escape);
-    put_names(w->escape, w->names + rebec, own, common);
-    return own;
-}
-
-/* The search's number of a local state that a worker knows; only while no thread runs. */
-static uint32_t common_number(struct search *s, struct worker *w, uint32_t rebec, uint32_t own)
-{
-    const unsigned char *content;
-    uint32_t common = looked_up(&w->names[rebec].common, own);
-    if (common != NONE)
-        return common;
-    kernel_content(w->kernel, rebec, own, &content);
-    common = kernel_number(s->kernel, rebec, content);
-    if (common == NONE)
-        give_up(s->escape);
-    put_names(s->escape, w->names + rebec, own, common);
-    return common;
-}
-
-/* Packs a state of a worker; 0 when the search's kernel does not know all of it. */
-static int pack_own(struct worker *w, const uint32_t *ids, uint64_t *words)
-{
-    for (uint32_t r = 0; r < w->search->rebecs; r++) {
-        w->common[r] = looked_up(&w->names[r].common, ids[r]);
-        if (w->common[r] == NONE)
-            return 0;
-    }
-    pack(w->search, w->common, words);
-    return 1;
-}
-
-static struct candidate *candidate(struct worker *w, size_t i)
-{
-    return (struct candidate *)w->candidates.data + i;
-}
-
-static uint32_t *candidate_ids(struct worker *w, size_t i)
-{
-    return (uint32_t *)w->states.data + i * w->search->rebecs;
-}
-
-/* --- first phase: steps of the states, without those to states that are known */
-
-/* Leaves the candidates that the table does not have. */
-static void look_up(struct worker *w)
-{
-    struct search *s = w->search;
-    size_t kept = w->looked_up, first = kept;
-    for (size_t i = first; i < w->candidates.count; i++) {
-        const struct candidate *c = candidate(w, i);
-        const uint64_t *words = (uint64_t *)w->words.data + (i - first) * s->words;
-        if (c->named && s->table[find(s, words, c->hash)])
-            continue;
-        if (kept < i) {
-            *candidate(w, kept) = *c;
-            memcpy(candidate_ids(w, kept), candidate_ids(w, i), s->rebecs * sizeof(uint32_t));
-        }
-        kept++;
-    }
-    w->candidates.count = w->states.count = w->looked_up = kept;
-}
-
-static void gather_state(struct worker *w, const struct transition *step, int64_t time)
-{
-    struct search *s = w->search;
-    if (step->code > UINT32_MAX)
-        give_up(w->escape);
-    if (w->candidates.count == w->looked_up + BATCH)
-        look_up(w);
-    size_t i = w->candidates.count;
-    struct candidate *c = added(w->escape, &w->candidates, sizeof *c);
-    uint32_t *ids = added(w->escape, &w->states, s->rebecs * sizeof *ids);
-    uint64_t *words = (uint64_t *)w->words.data + (i - w->looked_up) * s->words;
-    memcpy(ids, step->state, s->rebecs * sizeof *ids);
-    *c = (struct candidate){.time = time,
-                            .parent = (uint32_t)w->parent,
-                            .code = (uint32_t)step->code,
-                            .deadlock = step->deadlock != 0};
-    if (!pack_own(w, ids, words))
-        return;
-    c->named = 1;
-    c->hash = hash_words(s, words);
-    __builtin_prefetch(s->table + slot_of(s, c->hash));
-}
-
-/* Takes in a step that a worker's kernel has made. */
-static void gather_step(void *worker, const struct transition *step)
-{
-    struct worker *w = worker;
-    struct search *s = w->search;
-    int64_t parent = (int64_t)w->parent, time = step->time;
-    if (step->state && s->until != NEVER) {
-        time += ((int64_t *)s->times.data)[parent];
-        if (time > s->until) {
-            w->dropped++;
-            return;
-        }
-    }
-    w->transitions++;
-    if (step->state)
-        gather_state(w, step, time);
-    else
-        note(w->judge, (struct event){step->kind, step->pc, step->rebec, parent, (int64_t)step->code});
-}
-
-static void expand_own(struct worker *w, uint64_t state)
-{
-    struct search *s = w->search;
-    size_t made;
-    unpack(s, words_of(s, state), w->common);
-    for (uint32_t r = 0; r < s->rebecs; r++)
-        w->ids[r] = own_number(w, r, w->common[r]);
-    w->parent = state;
-    expect(w->escape, kernel_successors(w->kernel, w->ids, 1, &made, gather_step, w));
-}
-
-/* The next chunk of the round; those that are taken are the first ones. The first always is. */
-static struct chunk *next_chunk(struct worker *w)
-{
-    struct team *t = w->search->team;
-    int over = clock_now() >= t->due || w->candidates.count * w->search->rebecs > GATHERED;
-    if (over && t->next)
-        t->enough = 1;
-    if (t->enough)
-        return NULL;
-    uint64_t number = t->next++;
-    return number < t->chunk_count ? t->chunks + number : NULL;
-}
-
-static void expand_chunks(struct worker *w)
-{
-    struct team *t = w->search->team;
-    room_for(w->escape, &w->words, BATCH * (size_t)w->search->words, sizeof(uint64_t));
-    for (struct chunk *c; (c = next_chunk(w));) {
-        uint64_t state = t->first + (uint64_t)(c - t->chunks) * CHUNK;
-        *c = (struct chunk){.worker = w, .first = w->candidates.count};
-        for (uint64_t i = 0; i < CHUNK && state < t->end; i++)
-            expand_own(w, state++);
-        look_up(w);
-        c->count = w->candidates.count - c->first;
-        if (w->judge->violated)
-            t->enough = 1;
-    }
-}
+#include "joining.h"
 
 /* --- between phases: names and places */
 
@@ -204,6 +23,17 @@ static void name_chunk(struct search *s, const struct chunk *chunk)
         if (!candidate(w, i)->named)
             for (uint32_t r = 0; r < s->rebecs; r++)
                 common_number(s, w, r, candidate_ids(w, i)[r]);
+}
+
+/* Lets states have other fields, and all candidates be packed again. */
+static void repack_round(struct search *s)
+{
+    repack(s);
+    for (struct worker *w = s->team->worker; w < s->team->worker + s->team->workers; w++) {
+        room_for_words(s, s->escape, w);
+        for (size_t i = 0; i < w->candidates.count; i++)
+            candidate(w, i)->named = 0;
+    }
 }
 
 /* Names all, and gives all a place behind the states; 0 when there are too many. */
@@ -219,7 +49,7 @@ static int lay_out_round(struct search *s)
     if (place >= NONE - 2)
         return 0;
     if (s->wide)
-        repack(s);
+        repack_round(s);
     room_for(s->escape, &s->states, place * s->words * sizeof(uint64_t), 1);
     room_for(s->escape, &s->parents, place, sizeof(uint32_t));
     if (s->until != NEVER)
@@ -232,15 +62,16 @@ static int lay_out_round(struct search *s)
 static void place_chunks(struct worker *w)
 {
     struct search *s = w->search;
+    size_t size = s->words * sizeof(uint64_t);
     memset(w->owned, 0, s->shares * sizeof *w->owned);
     for (struct chunk *chunk = s->team->chunks; chunk < s->team->chunks + s->team->taken; chunk++) {
         if (chunk->worker != w)
             continue;
         for (size_t i = 0; i < chunk->count; i++) {
-            struct candidate *c = candidate(w, chunk->first + i);
-            uint64_t *words = words_of(s, chunk->place + i);
-            pack_own(w, candidate_ids(w, chunk->first + i), words);
-            c->hash = hash_words(s, words);
+            const struct candidate *c = candidate(w, chunk->first + i);
+            if (!c->named)
+                name_candidate(w, chunk->first + i);
+            memcpy(words_of(s, chunk->place + i), candidate_words(w, chunk->first + i), size);
             w->owned[kernel_owner(c->hash, s->shares)]++;
         }
     }
@@ -277,7 +108,12 @@ static void insert_own(struct worker *w)
 {
     struct search *s = w->search;
     w->inserted = 0;
-    for (struct chunk *chunk = s->team->chunks; chunk < s->team->chunks + s->team->taken; chunk++)
+    for (struct chunk *chunk = s->team->chunks; chunk < s->team->chunks + s->team->taken; chunk++) {
+        for (size_t i = 0; i < chunk->count; i++) {
+            const struct candidate *c = candidate(chunk->worker, chunk->first + i);
+            if (kernel_owner(c->hash, s->shares) == w->number)
+                __builtin_prefetch(s->table + slot_of(s, c->hash), 1);
+        }
         for (size_t i = 0; i < chunk->count; i++) {
             struct candidate *c = candidate(chunk->worker, chunk->first + i);
             if (kernel_owner(c->hash, s->shares) != w->number)
@@ -290,6 +126,7 @@ static void insert_own(struct worker *w)
             s->table[c->slot] = tag_of(s, c->hash) | (uint32_t)(place + 1);
             w->inserted++;
         }
+    }
 }
 
 /* Takes all of them out again, and nothing that came earlier can have been behind them. */
@@ -335,7 +172,7 @@ static void store_chunks(struct worker *w)
             struct candidate *c = candidate(w, i);
             if (!c->fresh)
                 continue;
-            pack_own(w, candidate_ids(w, i), words_of(s, number));
+            memcpy(words_of(s, number), candidate_words(w, i), s->words * sizeof(uint64_t));
             ((uint32_t *)s->parents.data)[number] = c->parent;
             if (s->until != NEVER)
                 ((int64_t *)s->times.data)[number] = c->time;
@@ -345,79 +182,7 @@ static void store_chunks(struct worker *w)
     }
 }
 
-/* --- what the workers have found out */
-
-/* An event, and the step at which one thread would have met it. */
-struct met {
-    struct event event;
-    int64_t parent, code;
-    size_t order; /* of those of one step */
-};
-
-static int compare_met(const void *one, const void *other)
-{
-    const struct met *a = one, *b = other;
-    if (a->parent != b->parent)
-        return a->parent < b->parent ? -1 : 1;
-    if (a->code != b->code)
-        return a->code < b->code ? -1 : 1;
-    return a->order < b->order ? -1 : a->order > b->order;
-}
-
-static void gather_events(struct search *s, struct worker *w)
-{
-    for (size_t i = 0; i < w->judge->events.count; i++) {
-        struct event e = ((struct event *)w->judge->events.data)[i];
-        struct met met = {e, e.state, e.ordinal, i};
-        if (e.ordinal < 0) { /* of a candidate */
-            const struct candidate *c = candidate(w, (size_t)e.state);
-            met.parent = c->parent;
-            met.code = c->code;
-            met.event.state = c->number;
-        }
-        *(struct met *)added(s->escape, &s->team->met, sizeof met) = met;
-    }
-}
-
-static void note_all(struct search *s)
-{
-    struct vector *all = &s->team->met;
-    all->count = 0;
-    for (uint32_t i = 0; i < s->team->workers; i++)
-        gather_events(s, s->team->worker + i);
-    if (all->count)
-        qsort(all->data, all->count, sizeof(struct met), compare_met);
-    for (size_t i = 0; i < all->count; i++)
-        note(s->judge, ((struct met *)all->data)[i].event);
-}
-
-static int64_t number_of_candidate(struct worker *w, int64_t i)
-{
-    return i < 0 ? -1 : (int64_t)candidate(w, (size_t)i)->number;
-}
-
-/* The extremes of a worker's states put together with those of others; states of earlier rounds have
- * lower numbers. */
-static void join_measured(struct worker *w, struct measured *m, const struct measured *found)
-{
-    int64_t least = number_of_candidate(w, found->least_state);
-    int64_t greatest = number_of_candidate(w, found->greatest_state);
-    int64_t undefined = number_of_candidate(w, found->undefined);
-    int less = m->least_state < 0 || found->least < m->least ||
-               (found->least == m->least && least < m->least_state);
-    int more = m->greatest_state < 0 || found->greatest > m->greatest ||
-               (found->greatest == m->greatest && greatest < m->greatest_state);
-    if (least >= 0 && less) {
-        m->least = found->least;
-        m->least_state = least;
-    }
-    if (greatest >= 0 && more) {
-        m->greatest = found->greatest;
-        m->greatest_state = greatest;
-    }
-    if (undefined >= 0 && (m->undefined < 0 || undefined < m->undefined))
-        m->undefined = undefined;
-}
+/* --- what it leaves */
 
 static void forget_round(struct search *s)
 {

@@ -35,8 +35,8 @@ struct worker {
     pthread_t thread;
     struct names *names;                  /* of each rebec */
     uint32_t *ids, *common;               /* one state, in both numberings */
-    struct vector candidates, states;     /* of the round; the states in the worker's numbers */
-    struct vector words;                  /* of the candidates that were not looked up yet */
+    struct vector candidates;             /* of the round */
+    struct vector states, words;          /* theirs, in the worker's numbers, and packed */
     size_t looked_up;
     uint64_t parent, transitions, dropped, inserted, *owned;
     unsigned char *served, *covered; /* when the last round was complete */
