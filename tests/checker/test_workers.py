@@ -5,12 +5,9 @@ With little room, rounds are begun on levels of two states, have seven, and are 
 
 from __future__ import annotations
 
-import os
 import shutil
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import astuple, replace
-from unittest import mock
 
 import pytest
 from hypothesis import given, settings
@@ -24,24 +21,18 @@ from rebsync.checker.search import FIRST, Interpreted
 from rebsync.checker.steps import Semantics
 from rebsync.checker.symmetry import symmetry_of
 from rebsync.diagnostics import RebsyncError
-from tests.checker.comparing import System
+from tests.checker.comparing import System, little_room
 from tests.checker.draw_networks import networks
 from tests.checker.draw_systems import Drawn, systems
 from tests.checker.test_compiled import PROPERTIES, WALKERS, walkers
 from tests.checker.test_engines import FAMILIES
 from tests.checker.test_models import Expected, read, rows
 
-_COMPILER = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
-pytestmark = pytest.mark.skipif(_COMPILER is None, reason="no C compiler")
+pytestmark = pytest.mark.skipif(
+    not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler"
+)
 _NOTHING = Covered(frozenset(), frozenset(), ())
 _FEW = settings(max_examples=max(6, settings().max_examples // 10))  # each is compiled
-
-
-@contextmanager
-def _little_room() -> Iterator[None]:
-    compiler = os.environ.get("CC") or _COMPILER
-    with mock.patch.dict(os.environ, CC=f"{compiler} -DLITTLE_ROOM"):
-        yield
 
 
 def _figures(found: Exploration) -> tuple[object, ...]:
@@ -88,7 +79,7 @@ def _compare(system: System, view: Semantics, workers: int, until: int | None = 
 @pytest.mark.parametrize("workers", [2, 3])
 @rows
 def test_on_every_model(row: Expected, workers: int) -> None:
-    with _little_room():
+    with little_room():
         _compare(read(row.model), row.view, workers)
 
 
@@ -98,7 +89,7 @@ def test_on_every_model(row: Expected, workers: int) -> None:
 def test_on_drawn_systems(family: str, data: st.DataObject, workers: int) -> None:
     features, view = FAMILIES[family]
     drawn = data.draw(systems(features))
-    with _little_room():
+    with little_room():
         system = System.of(drawn.model, drawn.properties)
         _compare(system, view, workers, 12 if features.clock else None)
 
@@ -106,7 +97,7 @@ def test_on_drawn_systems(family: str, data: st.DataObject, workers: int) -> Non
 @_FEW
 @given(drawn=networks(), workers=st.integers(2, 4))
 def test_on_drawn_networks(drawn: Drawn, workers: int) -> None:
-    with _little_room():
+    with little_room():
         _compare(System.of(drawn.model, drawn.properties), "tts", workers)
 
 
