@@ -121,6 +121,27 @@ def test_many_states(limits: Limits) -> None:
         assert together.path(state) == alone.path(state)
 
 
+CHOOSER = """\
+reactiveclass Chooser(3) {
+    statevars { int chosen; int told; }
+    Chooser() { self.choose(); }
+    msgsrv choose() { chosen = ?(1, 2, 3, 4, 5, 6, 7); self.tell(); }
+    msgsrv tell() { told = chosen; }
+}
+main { Chooser c():(); }
+"""
+
+
+def test_what_is_wrong_is_told_in_one_order() -> None:
+    """In one round seven states are expanded, and each has an event of its own."""
+    asked = "".join(f" p{n}: c.told != {n};" for n in range(1, 8))
+    system = System.of(CHOOSER, f"property {{ Assertion {{{asked} }} }}")
+    with little_room():
+        search = CompiledSearch(system.program, "tts", system.invariants(), workers=3)
+    events = search.run(Limits()).events
+    assert [e.cause for e in events] == [0, "deadlock", 1, 2, 3, 4, 5, 6]
+
+
 def test_states_that_outgrow_their_words() -> None:
     text = WALKERS.replace("?(1, 3)", "1").replace("?(1, 2)", "1").replace("%SIZE%", "300")
     main = "\n".join(f"    Walker w{i}():();" for i in range(8))

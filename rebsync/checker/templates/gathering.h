@@ -176,23 +176,27 @@ static void expand_own(struct worker *w, uint64_t state)
     expect(w->escape, kernel_successors(w->kernel, w->ids, 1, &made, gather_step, w));
 }
 
-/* The next chunk of the round; those that are taken are the first ones. The first always is. */
-static struct chunk *next_chunk(struct worker *w)
+/* The chunk behind one: each worker begins with the one of its number, and then takes any that is
+ * left. So those that are taken are the first ones. */
+static struct chunk *next_chunk(struct worker *w, const struct chunk *before)
 {
     struct team *t = w->search->team;
-    int over = clock_now() >= t->due || w->candidates.count * w->search->rebecs > GATHERED;
-    if (over && t->next)
-        t->enough = 1;
-    if (t->enough)
-        return NULL;
-    uint64_t number = t->next++;
+    uint64_t number = w->number;
+    if (before) {
+        size_t gathered = w->candidates.count * w->search->rebecs;
+        if (clock_now() >= t->due || gathered > GATHERED)
+            t->enough = 1;
+        if (t->enough)
+            return NULL;
+        number = t->next++;
+    }
     return number < t->chunk_count ? t->chunks + number : NULL;
 }
 
 static void expand_chunks(struct worker *w)
 {
     struct team *t = w->search->team;
-    for (struct chunk *c; (c = next_chunk(w));) {
+    for (struct chunk *c = NULL; (c = next_chunk(w, c));) {
         uint64_t state = t->first + (uint64_t)(c - t->chunks) * CHUNK;
         *c = (struct chunk){.worker = w, .first = w->candidates.count};
         for (uint64_t i = 0; i < CHUNK && state < t->end; i++)

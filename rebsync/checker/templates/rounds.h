@@ -226,7 +226,8 @@ static void begin_round(struct search *s, int64_t due)
     t->first = s->expanded;
     t->end = t->first + (left < ROUND ? left : ROUND);
     t->chunk_count = (t->end - t->first + CHUNK - 1) / CHUNK;
-    t->next = t->enough = t->stop = t->refused = t->inserted = 0;
+    t->next = t->workers;
+    t->enough = t->stop = t->refused = t->inserted = 0;
     t->due = due;
     if (s->wide)
         repack(s);
