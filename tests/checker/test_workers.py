@@ -15,16 +15,19 @@ from hypothesis import strategies as st
 
 from rebsync.checker.compiled import CompiledSearch
 from rebsync.checker.exploration import Covered, Exploration, Faults, Limits, Progress, Search
+from rebsync.checker.lowering import lower
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.reduction import persistent_sets
 from rebsync.checker.search import FIRST, Interpreted
 from rebsync.checker.steps import Semantics
 from rebsync.checker.symmetry import symmetry_of
 from rebsync.diagnostics import RebsyncError
+from rebsync.model import Binary, Member, Name
+from rebsync.properties import Measure
 from tests.checker.comparing import System, little_room
 from tests.checker.draw_networks import networks
 from tests.checker.draw_systems import Drawn, systems
-from tests.checker.test_compiled import PROPERTIES, WALKERS, walkers
+from tests.checker.test_compiled import walkers
 from tests.checker.test_engines import FAMILIES
 from tests.checker.test_models import Expected, read, rows
 
@@ -108,7 +111,7 @@ def test_on_drawn_networks(drawn: Drawn, workers: int) -> None:
     "limits",
     [
         Limits(states=60_000),
-        Limits(states=60_000, until=40),
+        Limits(until=9),
         Limits(first=True, faults=Faults(frozenset({0}))),
     ],
 )
@@ -123,10 +126,14 @@ def test_many_states(limits: Limits) -> None:
 
 CHOOSER = """\
 reactiveclass Chooser(3) {
-    statevars { int chosen; int told; }
-    Chooser() { self.choose(); }
+    statevars { int chosen; int told; int large; int small; int gap; }
+    Chooser() { gap = 1; self.choose(); }
     msgsrv choose() { chosen = ?(1, 2, 3, 4, 5, 6, 7); self.tell(); }
-    msgsrv tell() { told = chosen; }
+    msgsrv tell() {
+        told = chosen;
+        if (told > 1) { large = 1; small = -1; }
+        gap = told - 3;
+    }
 }
 main { Chooser c():(); }
 """
@@ -142,13 +149,46 @@ def test_what_is_wrong_is_told_in_one_order() -> None:
     assert [e.cause for e in events] == [0, "deadlock", 1, 2, 3, 4, 5, 6]
 
 
-def test_states_that_outgrow_their_words() -> None:
-    text = WALKERS.replace("?(1, 3)", "1").replace("?(1, 2)", "1").replace("%SIZE%", "300")
-    main = "\n".join(f"    Walker w{i}():();" for i in range(8))
-    program = System.of(text.replace("%MAIN%", main), PROPERTIES.replace("3", "290")).program
-    searches = (CompiledSearch(program, "ftts", (0,), workers=workers) for workers in (1, 2))
-    alone, together = (search.run(Limits(states=150_000)) for search in searches)
-    assert _figures(alone) == _figures(together)
+def test_values_are_those_of_the_first_states() -> None:
+    """The extremes are met by several threads in one round."""
+    system = System.of(CHOOSER)
+    large, small, told, gap = (Member(Name("c"), n) for n in ("large", "small", "told", "gap"))
+    asked = tuple(Measure("", value) for value in (large, small, Binary("/", told, gap)))
+    program = lower(system.analysis, system.properties, measures=asked)[0]
+    with little_room():
+        search = CompiledSearch(program, "tts", workers=3)
+    found = search.run(Limits()).measured
+    assert found == Interpreted(program, "tts").run(Limits()).measured
+    assert found[2].undefined > 0
+
+
+COUNTER = """\
+reactiveclass Counter(2) {
+    statevars { int count; int chosen; }
+    Counter() { self.next(); }
+    msgsrv next() {
+        chosen = ?(1, 2, 3);
+        count = count + 1;
+        if (count < 100) { self.next() after(1); }
+    }
+}
+reactiveclass Idle(2) { Idle() { } }
+main {
+    Counter counter():();
+%IDLE%
+}
+"""
+
+
+@pytest.mark.parametrize("limits", [Limits(), Limits(until=50)])
+def test_states_that_outgrow_their_words(limits: Limits) -> None:
+    """Thirty-two rebecs have 2 bits each at first; when one counts on, all states move."""
+    idle = "\n".join(f"    Idle i{n}():();" for n in range(31))
+    program = System.of(COUNTER.replace("%IDLE%", idle)).program
+    with little_room():
+        together = CompiledSearch(program, "tts", workers=2)
+    found = _same(Interpreted(program, "tts"), together, limits)
+    assert (found.reason is None) == (limits.until is None)
 
 
 def test_it_goes_on_where_it_stopped() -> None:
