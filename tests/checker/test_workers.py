@@ -155,11 +155,12 @@ def test_values_are_those_of_the_first_states() -> None:
     large, small, told, gap = (Member(Name("c"), n) for n in ("large", "small", "told", "gap"))
     asked = tuple(Measure("", value) for value in (large, small, Binary("/", told, gap)))
     program = lower(system.analysis, system.properties, measures=asked)[0]
-    with little_room():
-        search = CompiledSearch(program, "tts", workers=3)
-    found = search.run(Limits()).measured
-    assert found == Interpreted(program, "tts").run(Limits()).measured
-    assert found[2].undefined > 0
+    expected = Interpreted(program, "tts").run(Limits()).measured
+    assert expected[2].undefined > 0
+    for _ in range(5):  # which thread meets which state is chance
+        with little_room():
+            search = CompiledSearch(program, "tts", workers=3)
+        assert search.run(Limits()).measured == expected
 
 
 COUNTER = """\

@@ -20,8 +20,8 @@ int main(int count, char **arguments)
     int32_t asked[64] = {0}, predicates = rebsync_model.predicates < 64 ? rebsync_model.predicates : 64;
     for (int32_t i = 0; i < predicates; i++)
         asked[i] = i;
-    struct search *s = rebsync_new(&rebsync_model, view, 0, asked, predicates, NULL, 0);
-    if (!s || !rebsync_team(s, (uint32_t)atoi(arguments[2]), view, NULL, 0))
+    struct search *s = rebsync_new(&rebsync_model, view, 0, asked, predicates, asked, 0);
+    if (!s || !rebsync_team(s, (uint32_t)atoi(arguments[2]), view, asked, 0))
         return 3;
     rebsync_watch(s, go_on);
     int end = SLICE;
