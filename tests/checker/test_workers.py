@@ -6,6 +6,7 @@ With little room, rounds are begun on levels of two states, have seven, and are 
 from __future__ import annotations
 
 import shutil
+import time
 from contextlib import suppress
 from dataclasses import astuple, replace
 
@@ -190,6 +191,34 @@ def test_states_that_outgrow_their_words(limits: Limits) -> None:
         together = CompiledSearch(program, "tts", workers=2)
     found = _same(Interpreted(program, "tts"), together, limits)
     assert (found.reason is None) == (limits.until is None)
+
+
+LONG = COUNTER.replace("%IDLE%", "").replace(
+    "count = count + 1;",
+    "count = count + 1; if (count == 20) { int i = 0; while (chosen == 2 && i < %MOST%) { i++; } }",
+)
+
+
+def test_a_body_that_is_given_up_ends_it_where_it_ends_one_thread() -> None:
+    program = System.of(LONG.replace("%MOST%", "100000")).program
+    limits = Limits(instructions=50_000)
+    with little_room():
+        alone, together = (CompiledSearch(program, "tts", workers=n) for n in (1, 3))
+    found = alone.run(limits)
+    assert found.cut
+    assert _figures(together.run(limits)) == _figures(found)
+    assert _figures(together.run(Limits())) == _figures(alone.run(Limits()))
+
+
+def test_a_thread_in_a_long_step_is_ended() -> None:
+    program = System.of(LONG.replace("%MOST%", "2000000000")).program
+    with little_room():
+        search = CompiledSearch(program, "tts", workers=3)
+    began = time.monotonic()
+    found = search.run(Limits(seconds=0.5, instructions=10**10))
+    assert found.reason == "the bound of 0.5 seconds was reached"
+    assert time.monotonic() < began + 5
+    assert len(search.path(found.states - 1)) == found.depth + 1
 
 
 def test_it_goes_on_where_it_stopped() -> None:
