@@ -65,6 +65,7 @@ def _compiled(
         persistent,
         symmetry,
         hash_compaction=options.hash_compaction,
+        workers=options.workers,
         build=build,
         wanted=wanted,
     )

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import os
-import shutil
 from dataclasses import astuple
 from itertools import pairwise
-from unittest import mock
 
 import pytest
 from hypothesis import assume, given, settings
@@ -21,7 +18,7 @@ from rebsync.checker.result import Result
 from rebsync.checker.search import Interpreted
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.checker.verify import verify
-from tests.checker.comparing import System, by_engine, by_reference, findings
+from tests.checker.comparing import System, by_engine, by_reference, findings, little_room
 from tests.checker.draw_networks import networks
 from tests.checker.draw_outlines import Features
 from tests.checker.draw_systems import (
@@ -165,10 +162,7 @@ def test_the_compiled_engine_with_little_room(
     features: Features, view: Semantics, data: st.DataObject
 ) -> None:
     """Its tables are enlarged again and again, its memories forget, its batches are short."""
-    compiler = os.environ.get("CC") or next(
-        filter(None, map(shutil.which, ("cc", "gcc", "clang"))), "cc"
-    )
-    with mock.patch.dict(os.environ, CC=f"{compiler} -DLITTLE_ROOM"):
+    with little_room():
         _compare(data.draw(systems(features)), view, None)
 
 
