@@ -136,11 +136,13 @@ class OutcomeExpressions:
     ) -> None:
         if isinstance(value.type, t.Float) and not value.dynamic:
             return
+        is_cpp = self.notes.table.language is Language.CPP
+        if is_cpp and any(isinstance(getattr(p, "type", None), t.Float) for p in (left, right)):
+            return  # the other operand is converted ([expr.arith.conv]), or a class has the operator
         if value.operator is Operator.FLOOR_MODULO and self.is_text(left):
             return
         if not self.is_nonzero(right, facts):
             self.notes.fails(value, "divides by zero")
-        is_cpp = self.notes.table.language is Language.CPP
         if is_cpp and self._is_least(left) and not self.is_positive(right, facts):
             self.notes.fails(value, "divides the least number by -1")
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+TERMINATES = "std::terminate"  # of what ends the program: no handler is for it
 # What operations raise that are no calls, in C++ and in Python; in C++ dividing ends the program.
 FAILURES: Mapping[str, tuple[str, str]] = {
-    "divides by zero": ("", "builtins.ZeroDivisionError"),
-    "divides the least number by -1": ("", "builtins.OverflowError"),
+    "divides by zero": (TERMINATES, "builtins.ZeroDivisionError"),
+    "divides the least number by -1": (TERMINATES, "builtins.OverflowError"),
     "lacks the element": ("std::out_of_range", "builtins.IndexError"),
     "lacks the key": ("std::out_of_range", "builtins.KeyError"),
     "lacks the member": ("", "builtins.ValueError"),
