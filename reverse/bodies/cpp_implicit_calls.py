@@ -139,12 +139,17 @@ class UnwrittenCalls:
             given = self._statics.of(cpp, operand)
             if taken is not None and taken.last.endswith("stream"):
                 continue
-            is_class = self._statics.class_of(taken) is not None
-            if given is None and is_class and operand.type not in _NAMED:
+            if given is None and operand.type not in _NAMED and not self._is_plain(operand, taken):
                 return False
             if given is not None and taken is not None and not self._fits(given, taken):
                 return False
         return True
+
+    def _is_plain(self, operand: Node, taken: StaticType | None) -> bool:
+        """Whether an operand may be a literal or an enumerator, and is taken for what it is."""
+        if operand.type not in LITERALS | {"qualified_identifier"}:
+            return False
+        return taken is None or not (taken.arguments or self._statics.class_of(taken))
 
     def _fits(self, given: StaticType, taken: StaticType) -> bool:
         owner, of = self._statics.class_of(given), self._statics.class_of(taken)

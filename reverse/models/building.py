@@ -108,6 +108,8 @@ def _is_nonzero(expression: m.Expression) -> bool:
             return True  # of floats no quotient ends a program
         case m.Unary("-" | "+", operand):
             return _is_nonzero(bare(operand))
+        case m.Binary("*", left, right):
+            return _is_nonzero(bare(left)) and _is_nonzero(bare(right))
         case _:
             return False
 
