@@ -13,6 +13,10 @@ from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of
 from rebsync.reverse.values.cpp_static_types import StaticTypes
 
+# Expressions with an operator that may be one of an enumeration, and that the model has.
+_SIGNED = frozenset(
+    {"binary_expression", "unary_expression", "update_expression", "assignment_expression"}
+)
 _SIZED = ("unsigned", "signed", "long", "short")
 
 
@@ -25,7 +29,7 @@ class EnumOperators:
 
     def why(self, cpp: Cpp, node: Node) -> str | None:
         """Why an operator may do something else than that of numbers; None for all others."""
-        if not self._names or node.type not in OPERATORS:
+        if not self._names or node.type not in _SIGNED:
             return None
         if self._names.isdisjoint(operators(node)):
             return None
