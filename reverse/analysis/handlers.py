@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from functools import cache, partial
 
 from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin
-from rebsync.reverse.analysis.problems import TERMINATES, Called, Problem, ProblemNotes
+from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.libraries.outcome_classes import TERMINATES
 
 
 class Handlers:

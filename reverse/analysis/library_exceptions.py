@@ -11,6 +11,7 @@ from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
 from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
 from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
@@ -82,6 +83,10 @@ class LibraryExceptions:
         match when:
             case Raises.ANY:
                 return True
+            case Raises.ALONE:
+                return not values
+            case Raises.NO_ERROR_CODE:
+                return not any(map(_is_error_code, values))
             case Raises.NO_DEFAULT:
                 return len(values) < 2 and not self._is_there(node, facts)
             case Raises.ABSENT:
@@ -138,3 +143,11 @@ class LibraryExceptions:
                 return low <= 0 and self.expressions.is_positive(high, facts)
             case _:
                 return False
+
+
+def _is_error_code(value: e.Expression) -> bool:
+    """Whether an argument is the place for an error, so that nothing is thrown."""
+    while isinstance(value, e.AddressOf | e.Convert):
+        value = value.target if isinstance(value, e.AddressOf) else value.operand
+    type_ = getattr(value, "type", t.UNKNOWN)
+    return isinstance(type_, t.Record) and type_.name.endswith("::error_code")

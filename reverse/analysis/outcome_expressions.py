@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rebsync.reverse.analysis.constant_numbers import ConstantNumbers, is_floating
 from rebsync.reverse.analysis.facts import (
     Facts,
     HasKey,
@@ -51,6 +52,7 @@ class OutcomeExpressions:
         self.function = notes.function.name
         self.origins = notes.origins
         self._signs = Signs(notes)
+        self._constants = ConstantNumbers(notes.origins, notes.function.name)
         self.none = NoneValues(notes)
         self._unset = UnsetNames(notes)
 
@@ -136,11 +138,13 @@ class OutcomeExpressions:
     ) -> None:
         if isinstance(value.type, t.Float) and not value.dynamic:
             return
+        is_cpp = self.notes.table.language is Language.CPP
+        if is_cpp and (is_floating(left) or is_floating(right)):
+            return  # the other operand becomes one ([expr.arith.conv])
         if value.operator is Operator.FLOOR_MODULO and self.is_text(left):
             return
-        if not self.is_nonzero(right, facts):
+        if not self.is_nonzero(right, facts) and not self._constants.of(right):
             self.notes.fails(value, "divides by zero")
-        is_cpp = self.notes.table.language is Language.CPP
         if is_cpp and self._is_least(left) and not self.is_positive(right, facts):
             self.notes.fails(value, "divides the least number by -1")
 

@@ -24,13 +24,14 @@ from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcome_statements import ENDLESS, OutcomeWalk
-from rebsync.reverse.analysis.problems import TERMINATES, Called, Problem, ProblemNotes
+from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
 from rebsync.reverse.analysis.silent_calls import SilentCalls
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
 from rebsync.reverse.ir.program import Function, Program
 from rebsync.reverse.ir.walk import STATEMENTS, Node, parts, walk
+from rebsync.reverse.libraries.outcome_classes import TERMINATES
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.source import NOWHERE, Span
 

@@ -13,8 +13,6 @@ from rebsync.reverse.ir.program import Function
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.source import Span
 
-TERMINATES = "std::terminate"  # what an exception becomes that would leave a `noexcept` function
-
 
 @dataclass(frozen=True, slots=True)
 class Problem:

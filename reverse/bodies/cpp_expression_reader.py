@@ -71,6 +71,13 @@ class CppExpressionReader(ABC):
         kind = Unknown if self.scope.open else Unread
         return kind(self.cpp.span(node), why)
 
+    def check_operator(self, node: Node) -> None:
+        """Raises `Unread` where an operator is the program's, of an enumeration: a function."""
+        form = self.scope.form
+        why = form.unread_calls.of_enums.why(self.cpp, node) if form is not None else None
+        if why is not None:
+            raise self.unread(node, why)
+
     def only(self, node: Node) -> Node:
         """The one expression in a node."""
         children = named(node)

@@ -77,6 +77,7 @@ class CppExpressions(CppExpressionReader):
         """The expression, with parentheses where the code has them or the model needs them."""
         if node.id in self.scope.values:
             return self.scope.values[node.id]
+        self.check_operator(node)
         match node.type:
             case "identifier" | "qualified_identifier":
                 return self._name(node)
@@ -116,6 +117,7 @@ class CppExpressions(CppExpressionReader):
 
     def condition(self, node: Node, place: Variable | None = None) -> m.Expression:
         """An expression as a truth value that `place` holds; of what is not known a choice."""
+        self.check_operator(node)
         match node.type:
             case "parenthesized_expression":
                 return m.Paren(self.condition(self.only(node), place), self.cpp.span(node))

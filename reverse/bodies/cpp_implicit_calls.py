@@ -41,6 +41,9 @@ _SIGNS = {"subscript_expression": "[]", "field_expression": "->", "comma_express
 _REWRITTEN = {"!=": "==", **dict.fromkeys(("<", ">", "<=", ">="), "<=>")}
 COMPARING = frozenset(f"operator{sign}" for sign in ("==", "<=>", *_REWRITTEN))
 _NAMED = frozenset({"identifier", "field_expression"})
+LITERALS = frozenset(
+    {"number_literal", "char_literal", "string_literal", "true", "false", "null", "nullptr"}
+)
 OfClass = Callable[[CppClass, str], "str | None"]
 # What may be an object that is converted, by what it stands for.
 _OBJECTS = frozenset(
@@ -129,18 +132,24 @@ class UnwrittenCalls:
 
     def _may_take(self, function: CppFunction, cpp: Cpp, operands: list[Node]) -> bool:
         """Whether a function may take some operands, as far as classes of the files tell."""
-        if len(function.parameters) != len(operands):
+        if len(function.parameters) != len(operands) or all(n.type in LITERALS for n in operands):
             return False
         for parameter, operand in zip(function.parameters, operands, strict=True):
             taken = self._statics.written(function.cpp, parameter.type)
             given = self._statics.of(cpp, operand)
             if taken is not None and taken.last.endswith("stream"):
                 continue
-            if given is None and operand.type not in _NAMED:
+            if given is None and operand.type not in _NAMED and not self._is_plain(operand, taken):
                 return False
             if given is not None and taken is not None and not self._fits(given, taken):
                 return False
         return True
+
+    def _is_plain(self, operand: Node, taken: StaticType | None) -> bool:
+        """Whether an operand may be a literal or an enumerator, and is taken for what it is."""
+        if operand.type not in LITERALS | {"qualified_identifier"}:
+            return False
+        return taken is None or not (taken.arguments or self._statics.class_of(taken))
 
     def _fits(self, given: StaticType, taken: StaticType) -> bool:
         owner, of = self._statics.class_of(given), self._statics.class_of(taken)

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
+from rebsync.reverse.bodies.cpp_enum_operators import EnumOperators
 from rebsync.reverse.bodies.cpp_implicit_calls import (
     COMPARING,
     OPERATORS,
@@ -58,6 +59,7 @@ _COUNTING = frozenset({"size", "empty", "begin", "end", "cbegin", "cend", "front
 _CALL = "operator()"
 _TYPE_NAMES = frozenset({"type_identifier", "namespace_identifier"})
 _NAMING = frozenset({"qualified_identifier", "template_type"})
+_LEADING = frozenset({"pointer_declarator", "reference_declarator"})
 
 
 class UnreadCalls:
@@ -72,6 +74,7 @@ class UnreadCalls:
         self._provenance = ProvenanceAnalysis(self._texts, self._calls, self._statics)
         self._open = Undefined(code, self._texts)
         self._parts = ObjectParts(self._texts, self._statics, self._open)
+        self.of_enums = EnumOperators(self._statics, self._open)
         self.implicit = UnwrittenCalls(
             self._texts, self._statics, self._calls, self._parts, self._of_converted
         )
@@ -193,13 +196,13 @@ class UnreadCalls:
         return None
 
     def _is_function_pointer(self, name: str) -> bool:
-        """Whether something of a name is declared as `void (*name)(int)`."""
+        """Whether something of a name is declared as `void (*name)(int)`, or with `&`."""
         for _, place in self._texts.everywhere(name):
             star = place.parent
             around = star.parent if star is not None else None
             if star is None or around is None or around.parent is None:
                 continue
-            if star.type == "pointer_declarator" and around.type == "parenthesized_declarator":
+            if star.type in _LEADING and around.type == "parenthesized_declarator":
                 return around.parent.type == "function_declarator"
             if star.type == "pointer_expression" and around.type == "argument_list":
                 # `void (*name)();` outside of a function, which the grammar takes for a call.

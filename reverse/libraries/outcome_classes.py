@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+TERMINATES = "std::terminate"  # of what ends the program: no handler is for it
 # What operations raise that are no calls, in C++ and in Python; in C++ dividing ends the program.
 FAILURES: Mapping[str, tuple[str, str]] = {
-    "divides by zero": ("", "builtins.ZeroDivisionError"),
-    "divides the least number by -1": ("", "builtins.OverflowError"),
+    "divides by zero": (TERMINATES, "builtins.ZeroDivisionError"),
+    "divides the least number by -1": (TERMINATES, "builtins.OverflowError"),
     "lacks the element": ("std::out_of_range", "builtins.IndexError"),
     "lacks the key": ("std::out_of_range", "builtins.KeyError"),
     "lacks the member": ("", "builtins.ValueError"),
@@ -36,7 +37,21 @@ EXCEPTIONS: Mapping[str, str] = {
     **dict.fromkeys(("std::bad_alloc", "std::bad_cast"), "std::exception"),
     **dict.fromkeys(("std::bad_optional_access", "std::bad_variant_access"), "std::exception"),
     **dict.fromkeys(("std::bad_function_call", "std::bad_weak_ptr"), "std::exception"),
-    "std::bad_any_cast": "std::bad_cast",
+    **dict.fromkeys(("std::bad_any_cast", "boost::bad_any_cast"), "std::bad_cast"),
+    "boost::bad_lexical_cast": "std::bad_cast",
+    "boost::numeric::bad_numeric_cast": "std::bad_cast",
+    "std::filesystem::filesystem_error": "std::system_error",
+    "nlohmann::json::exception": "nlohmann::detail::exception",
+    **dict.fromkeys(("nlohmann::detail::exception", "boost::bad_get"), "std::exception"),
+    # One of these names stands for the other.
+    "tf2::TransformException": "tf::TransformException",
+    **dict.fromkeys(("tf::TransformException", "YAML::Exception"), "std::runtime_error"),
+    **dict.fromkeys(("cv_bridge::Exception", "fmt::format_error"), "std::runtime_error"),
+    **dict.fromkeys(("boost::property_tree::ptree_error",), "std::runtime_error"),
+    **dict.fromkeys(("pluginlib::PluginlibException",), "std::runtime_error"),
+    "ament_index_cpp::PackageNotFoundError": "std::out_of_range",
+    "Json::LogicError": "Json::Exception",
+    "Json::Exception": "std::exception",
     **dict.fromkeys(("builtins.IndexError", "builtins.KeyError"), "builtins.LookupError"),
     **dict.fromkeys(("builtins.ZeroDivisionError",), "builtins.ArithmeticError"),
     **dict.fromkeys(("builtins.OverflowError",), "builtins.ArithmeticError"),

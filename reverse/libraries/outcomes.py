@@ -17,6 +17,7 @@ from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.outcome_rules import Raises, Size, Tells
 from rebsync.reverse.libraries.registry import derived
 from rebsync.reverse.libraries.routines import Effect, Language
+from rebsync.reverse.libraries.thrown_by_others import THROWN
 
 _LOOKS = frozenset(
     {*(Effect.NONE, Effect.CLOCK, Effect.LOGS, Effect.READS, Effect.RANDOM), Effect.CHANGES}
@@ -132,7 +133,7 @@ class LibraryOutcomes:
 @derived
 def _named(language: Language) -> Mapping[str, CallOutcome]:
     found: dict[str, CallOutcome] = {}
-    for rule in outcome_rules.RULES:
+    for rule in (*outcome_rules.RULES, *THROWN):
         for name in (rule.cpp if language is Language.CPP else rule.python).split():
             found[name] = CallOutcome(
                 frozenset(rule.raises.split()),

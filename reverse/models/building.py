@@ -9,6 +9,7 @@ from rebsync import precedence
 from rebsync.source import NOWHERE, Span
 
 _OPPOSITE = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
+_DIVIDING = frozenset({"/", "%", "/=", "%="})
 _MATHEMATICS = frozenset({"pow", "sqrt"})
 
 
@@ -87,6 +88,35 @@ def is_calm(expression: m.Expression) -> bool:
             case m.Call(target, name) if target is not None or name not in _MATHEMATICS:
                 return False
     return True
+
+
+def may_divide_by_zero(expression: m.Expression) -> bool:
+    """Whether evaluating it may divide by zero, as far as its divisors are no numbers."""
+    for node in m.walk(expression):
+        match node:
+            case m.Binary(operator, _, by) | m.Assign(operator, _, by) if operator in _DIVIDING:
+                if not _is_nonzero(bare(by)):
+                    return True
+    return False
+
+
+def _is_nonzero(expression: m.Expression) -> bool:
+    match expression:
+        case m.IntLiteral(number):
+            return number != 0
+        case m.FloatLiteral():
+            return True  # of floats no quotient ends a program
+        case m.Unary("-" | "+", operand):
+            return _is_nonzero(bare(operand))
+        case m.Binary("*", left, right):
+            return _is_nonzero(bare(left)) and _is_nonzero(bare(right))
+        case _:
+            return False
+
+
+def is_idle(expression: m.Expression) -> bool:
+    """Whether it may be left out where nobody looks at its value."""
+    return is_calm(expression) and not may_divide_by_zero(expression)
 
 
 def is_effect(expression: m.Expression) -> bool:

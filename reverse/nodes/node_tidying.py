@@ -12,7 +12,7 @@ from dataclasses import replace
 from operator import is_
 
 from rebsync import model as m
-from rebsync.reverse.models.building import bare, is_calm
+from rebsync.reverse.models.building import bare, is_idle, may_divide_by_zero
 from rebsync.reverse.models.rewriting import STATEMENTS, rewritten
 
 _MOST_ROUNDS = 6
@@ -47,7 +47,7 @@ def _unread(body: m.Block) -> set[str]:
         match node:
             case m.Name(name):
                 names[name] += 1
-            case m.ExpressionStatement(m.Assign("=", m.Name(name), value)) if is_calm(value):
+            case m.ExpressionStatement(m.Assign("=", m.Name(name), value)) if is_idle(value):
                 names[name] -= 1
             case m.Local(declaration):
                 locals_.update(d.name for d in declaration.declarators)
@@ -78,17 +78,19 @@ def _one(statement: m.Statement, unread: set[str]) -> tuple[m.Statement, ...]:
             if then == m.Block(()) and otherwise is None and _is_idle(condition):
                 return ()
         case m.ExpressionStatement(m.Assign("=", m.Name(name), value), ()) if name in unread:
-            return () if is_calm(value) else (statement,)
+            return () if is_idle(value) else (statement,)
         case m.Local(m.Declaration(_, (declarator,)), ()) if declarator.name in unread:
             initial = declarator.initial
             plain = initial is None or not isinstance(initial, m.ArrayInitializer)
-            if plain and (initial is None or is_calm(_expression(initial))):
+            if plain and (initial is None or is_idle(_expression(initial))):
                 return ()
     return (statement,)
 
 
 def _is_idle(expression: m.Expression) -> bool:
-    """Whether evaluating it changes nothing, whatever it gives."""
+    """Whether evaluating it changes nothing and does not fail, whatever it gives."""
+    if may_divide_by_zero(expression):
+        return False
     for node in m.walk(expression):
         match node:
             case m.Assign() | m.Postfix() | m.Unary(operator="++" | "--") | m.Call():
@@ -147,7 +149,7 @@ def _merged(before: m.Statement, after: m.Statement) -> m.Statement | None:
             initial = declarator.initial
             plain = initial is None or not isinstance(initial, m.ArrayInitializer)
             names = {n.name for n in m.walk(value) if isinstance(n, m.Name)}
-            if plain and name not in names and (initial is None or is_calm(_expression(initial))):
+            if plain and name not in names and (initial is None or is_idle(_expression(initial))):
                 new = replace(declarator, initial=value)
                 return replace(local, declaration=replace(declaration, declarators=(new,)))
     return None

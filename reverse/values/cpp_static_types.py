@@ -35,6 +35,7 @@ _CASTS = frozenset(
 _MAKERS = frozenset({"make_shared", "make_unique", "allocate_shared"})
 _DECLARATORS = frozenset({"pointer_declarator", "array_declarator", "abstract_pointer_declarator"})
 _DEEPEST = 12
+FUNCTION = "function"  # the name of what holds a function, of any kind
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +131,8 @@ class StaticTypes:
         if node.type == "type_descriptor":
             around = node.child_by_field_name("declarator")
             while around is not None and around.type.startswith("abstract_"):
+                if around.type == "abstract_function_declarator":
+                    return StaticType(cpp, FUNCTION)  # and pointers to one, which are called alike
                 pointers += around.type in _DECLARATORS
                 around = around.child_by_field_name("declarator")
             return self.written(cpp, node.child_by_field_name("type"), pointers, depth + 1)

@@ -211,7 +211,7 @@ def _library(
     kinds = [getattr(a.value, "type", t.UNKNOWN) for a in arguments]
     if full.partition("<")[0].endswith("::shared_ptr") and len(arguments) == 1:
         of = kinds[0].to if isinstance(kinds[0], t.Reference) else kinds[0]
-        locked(context, Value(arguments[0].value, of), place)
+        locked(context, Value(arguments[0].value, of), place, is_explicit=True)
     result_type = function_result(full, kinds)
     return stored_result(context, s.LibraryCallee(full), arguments, Declared(result_type), place)
 

@@ -19,6 +19,7 @@ from rebsync.reverse.ir.cpp.context import (
 )
 from rebsync.reverse.ir.cpp.conversions import common_type, is_arithmetic
 from rebsync.reverse.ir.cpp.functions_called import call_function
+from rebsync.reverse.ir.cpp.library import of_element
 from rebsync.reverse.ir.cpp.names import function_value, pointed
 from rebsync.reverse.ir.cpp.objects import (
     address,
@@ -365,8 +366,9 @@ def element(context: Context, of: Value, index: Value, place: Span) -> Value:
             found = e.Index(of.expression, index.expression, of.type.to, True, False, False, place)
             return Value(found, of.type.to, is_lvalue=True)
         case _:
-            found = e.Index(of.expression, index.expression, t.UNKNOWN, True, False, False, place)
-            return Value(found, t.UNKNOWN, is_lvalue=True)
+            type_ = of_element(of.type)
+            found = e.Index(of.expression, index.expression, type_, True, False, False, place)
+            return Value(found, type_, is_lvalue=True)
 
 
 def _element(context: Context, of: Value, index: Value, type_: t.Type, place: Span) -> Value:

@@ -18,6 +18,7 @@ from rebsync.reverse.ir.cpp.objects import (
     default_constructed,
     default_value,
     implicitly,
+    locked,
 )
 from rebsync.reverse.ir.cpp.sequencing import in_order
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol
@@ -112,7 +113,11 @@ def by_arguments(
         return
     if len(nodes) != 1:
         raise Unlowered("a construction by arguments that is not known")
-    by_value(context, target, type_, lower_value(context, nodes[0]), place)
+    value = lower_value(context, nodes[0])
+    is_shared = isinstance(type_, t.Reference) and type_.ownership is t.Ownership.SHARED
+    if is_shared and not isinstance(target, e.Attribute):  # members get what libraries give
+        locked(context, value, place, is_explicit=True)
+    by_value(context, target, type_, value, place)
 
 
 def lower_argument(context: Context, node: Node) -> Value:

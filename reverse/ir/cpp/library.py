@@ -19,6 +19,8 @@ _KINDS: Mapping[t.ContainerKind, str] = {
     t.ContainerKind.MAPPING: "std::map",
     t.ContainerKind.TUPLE: "std::tuple",
 }
+# Classes of values that are trees: an element of one is such a value too.
+_TREES = frozenset({"nlohmann::json", "nlohmann::ordered_json", "YAML::Node", "Json::Value"})
 _ASKING: Mapping[str, t.Type] = {
     **{"size": SIZE, "length": SIZE, "capacity": SIZE, "count": SIZE, "max_size": SIZE},
     **{"empty": t.TRUTH, "contains": t.TRUTH, "has_value": t.TRUTH},
@@ -62,6 +64,12 @@ def library_class(type_: t.Type) -> str | None:
             return "std::shared_ptr"
         case _:
             return None
+
+
+def of_element(type_: t.Type) -> t.Type:
+    """The type of an element of a library's object: of trees that of the whole."""
+    is_tree = isinstance(type_, t.Record) and type_.name.partition("<")[0] in _TREES
+    return type_ if is_tree else t.UNKNOWN
 
 
 def method_result(type_: t.Type, name: str) -> t.Type:

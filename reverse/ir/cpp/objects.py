@@ -121,12 +121,26 @@ def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value
     raise Unlowered("a conversion that is not known")
 
 
-def locked(context: Context, value: Value, place: Span) -> None:
-    """A shared pointer made of a weak one: it throws where the object is gone."""
-    if isinstance(value.type, t.Record) and value.type.name.partition("<")[0] in _WEAK:
+def locked(context: Context, value: Value, place: Span, is_explicit: bool = False) -> None:
+    """A shared pointer made of a weak one: it throws where the object is gone.
+
+    What is not known may be one where the pointer is made of it by name: a weak one is not
+    converted ([util.smartptr.shared.const]).
+    """
+    is_weak = isinstance(value.type, t.Record) and value.type.name.partition("<")[0] in _WEAK
+    if is_weak or (is_explicit and value.type == t.UNKNOWN and not _is_made(context, value)):
         argument = s.CallArgument(value.expression)
         callee = s.LibraryCallee("std::shared_ptr::from_weak")
         context.emit(s.Call(None, callee, (argument,), place))
+
+
+def _is_made(context: Context, value: Value) -> bool:
+    """Whether a value is what a function gives that makes pointers: `make_shared`, casts."""
+    calls = (c for c in context.out if isinstance(c, s.Call) and c.target == value.expression)
+    names = [
+        c.callee.name.partition("<")[0] for c in calls if isinstance(c.callee, s.LibraryCallee)
+    ]
+    return any(n.endswith(("make_shared", "allocate_shared", "_pointer_cast")) for n in names)
 
 
 def _of_library(type_: t.Type) -> bool:

@@ -95,7 +95,7 @@ FUNCTIONS = (
 METHODS = (
     Rule(Effect.NONE, "at back front count empty length max_size size", "strip split lower upper"),
     Rule(Effect.NONE, "c_str str cbegin cend", "startswith endswith encode decode replace join"),
-    Rule(Effect.WAITS, "join wait wait_for wait_until timed_wait"),
+    Rule(Effect.WAITS, "join wait wait_for wait_until timed_wait acquire arrive_and_wait"),
 )
 # Methods of containers, which copy what they get.
 CONTAINERS = (
