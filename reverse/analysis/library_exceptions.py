@@ -17,6 +17,9 @@ from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.unions import assert_never
 
 
+_WHOLE = (["utf-8"], ["utf8"], ["UTF-8"])  # encodings that have all characters
+
+
 class LibraryExceptions:
     """Calls of libraries in one function."""
 
@@ -72,6 +75,8 @@ class LibraryExceptions:
     def _is_object_of_others(self, origin: Origin) -> bool:
         if not isinstance(origin, LibraryOrigin) or not origin.of_object:
             return False
+        if self.table.has_methods_of(origin.name):
+            return False
         return origin.name not in PLAIN_CLASSES and not self.table.is_standard(origin.name)
 
     def _may_raise(self, node: s.Call, when: Raises, facts: Facts) -> bool:
@@ -94,6 +99,8 @@ class LibraryExceptions:
                 return takes_part(node) or self._is_count(node, facts)
             case Raises.POSITION:
                 return bool(values) and is_position(bare(values[0]))
+            case Raises.ZERO_SECOND:
+                return not all(self.expressions.is_nonzero(v, facts) for v in values[1:2])
             case Raises.ZERO_STEP:
                 return not all(self.expressions.is_nonzero(v, facts) for v in values[2:])
             case Raises.TEXT:
@@ -107,6 +114,10 @@ class LibraryExceptions:
                 return len(values) < 3 and not any(
                     self.expressions.size(v, facts) for v in values[1:]
                 )
+            case Raises.CODED:
+                return any(self.expressions.texts(v) not in _WHOLE for v in values)
+            case Raises.UNWRITTEN:
+                return not all(map(self.expressions.texts, values[:1]))
             case Raises.UNORDERED:
                 return not self._are_ordered(values, facts)
             case _:

@@ -120,10 +120,18 @@ class NoneValues:
                 return len(call.arguments) < 2 or not name.endswith("get")
             case s.MethodCallee(receiver, "get") if len(call.arguments) == 1:
                 return self._origins.of(receiver, function) == {LibraryOrigin("dict", True)}
+            case s.MethodCallee(receiver, name) if self._may_give_none(receiver, name, function):
+                return True
             case callee:
                 around = self._graph.program.function(function)
                 called = self._graph.callee(callee, around).functions
         return depth < _DEEPEST and any(self._returns_nothing(name, depth + 1) for name in called)
+
+    def _may_give_none(self, receiver: e.Expression, method: str, function: str) -> bool:
+        """Whether a method of a library may give None, by the class of its object."""
+        held = self._origins.of(receiver, function)
+        classes = (o.name for o in held if isinstance(o, LibraryOrigin) and o.of_object)
+        return any(self._notes.table.method(each, method).may_be_none for each in classes)
 
     def _returns_nothing(self, name: str, depth: int) -> bool:
         function = self._graph.program.function(name)

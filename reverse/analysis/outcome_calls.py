@@ -56,6 +56,11 @@ _OF_NUMBERS = frozenset(
 _UNKNOWN = "what is called is not known"
 
 
+def _is_constant(name: str) -> bool:
+    """Whether a name of a library is written as those of constants are."""
+    return name.rpartition(".")[2].isupper()
+
+
 class OutcomeCalls:
     """Calls in one function."""
 
@@ -170,7 +175,7 @@ class OutcomeCalls:
                         self._enters(node, name)
                     case ClassOrigin(name, False) if not keeps:
                         self._makes(node, name)
-                    case LibraryOrigin(name, False) if not keeps:
+                    case LibraryOrigin(name, False) if not keeps and not _is_constant(name):
                         outcome = self.notes.table.function(name)
                         self._library(node, name, outcome, None, facts)
                     case _:
@@ -208,6 +213,9 @@ class OutcomeCalls:
                 self._library(node, name, self.notes.table.function(name), None, facts)
             case LibraryOrigin(name) if not self.notes.table.is_standard(name):
                 pass
+            case LibraryOrigin(name) if self.notes.table.has_methods_of(name):
+                outcome = self.notes.table.method(name, "__call__")
+                self._library(node, name, outcome, None, facts)
             case _:
                 # What a function gets was looked at where it was handed over.
                 if not self.notes.is_parameter(value):

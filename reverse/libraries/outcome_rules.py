@@ -43,11 +43,14 @@ class Raises(Enum):
     NO_DEFAULT = "one that the object may lack, and no second one, which would be given instead"
     ABSENT = "one that the object may lack"
     PART = "a text that is no literal, and a position in it that is no zero; or as COUNT"
+    ZERO_SECOND = "a second one that may be zero"
     ZERO_STEP = "a third one that may be zero"
     INFINITE = "a first one that may be no number, or greater than all"
     TEXT = "a first one that may be no number"
     COMPUTED = "one that is not written as a number"
     NO_START = "no third one, and a second one that may have no elements"
+    CODED = "another encoding than UTF-8, which has all characters"
+    UNWRITTEN = "a first one that is no text in the source"
     UNORDERED = "two of which the second may be the smaller one"
 
 
@@ -124,7 +127,7 @@ RULES = (
     OutcomeRule("chrono::high_resolution_clock::now chrono::steady_clock::time_point"),
     OutcomeRule("chrono::system_clock::to_time_t chrono::system_clock::time_point"),
     OutcomeRule("random_device mt19937 uniform_int_distribution uniform_real_distribution rand"),
-    OutcomeRule("normal_distribution default_random_engine literals", "builtins.divmod"),
+    OutcomeRule("normal_distribution default_random_engine literals"),
     OutcomeRule("exception runtime_error logic_error invalid_argument out_of_range domain_error"),
     OutcomeRule("range_error overflow_error underflow_error length_error bad_alloc"),
     OutcomeRule("stoi stol stoll stoul stoull stof stod stold", raises="std::invalid_argument"),
@@ -180,7 +183,17 @@ RULES = (
     OutcomeRule(python="builtins.repr builtins.format builtins.ascii"),
     OutcomeRule(python="builtins.str builtins.hex builtins.bin builtins.oct", gives="str"),
     OutcomeRule(python="builtins.chr", raises="builtins.ValueError"),
-    OutcomeRule(python="builtins.ord builtins.type"),
+    OutcomeRule(
+        python="builtins.divmod", raises="builtins.ZeroDivisionError", when=Raises.ZERO_SECOND
+    ),
+    OutcomeRule(python="builtins.ord", raises="builtins.TypeError"),
+    OutcomeRule(
+        python="builtins.pow", raises="builtins.ArithmeticError builtins.ValueError", gives="number"
+    ),
+    OutcomeRule(python="builtins.type builtins.dict.fromkeys builtins.int.from_bytes"),
+    OutcomeRule(python="math.expm1 math.remainder", raises="builtins.ArithmeticError"),
+    OutcomeRule(python="math.factorial math.comb math.perm", raises="builtins.ValueError"),
+    OutcomeRule(python="random.seed random.shuffle random.normalvariate random.triangular"),
     OutcomeRule(python="builtins.isinstance builtins.issubclass dataclasses.field", keeps=True),
     OutcomeRule(python="builtins.callable builtins.hasattr builtins.id"),
     OutcomeRule(python="builtins.object builtins.slice builtins.super"),
@@ -224,7 +237,9 @@ RULES = (
     OutcomeRule(python="builtins.next", raises="builtins.StopIteration", when=Raises.NO_DEFAULT),
     OutcomeRule(python="itertools.islice itertools.chain itertools.pairwise itertools.product"),
     OutcomeRule(python="itertools.takewhile itertools.accumulate itertools.combinations"),
-    OutcomeRule(python="itertools.groupby itertools.zip_longest"),
+    OutcomeRule(python="itertools.groupby itertools.zip_longest itertools.permutations"),
+    OutcomeRule(python="itertools.chain.from_iterable itertools.starmap itertools.tee"),
+    OutcomeRule(python="itertools.dropwhile itertools.filterfalse itertools.compress"),
     OutcomeRule(python="itertools.count itertools.cycle itertools.repeat", acts=_ENDLESS),
     OutcomeRule(python="builtins.iter", acts=_ENDLESS),
     OutcomeRule(python="functools.lru_cache functools.cache functools.wraps", returns=True),
@@ -241,11 +256,27 @@ RULES = (
     OutcomeRule(python="typing.Protocol abc.ABC enum.IntFlag enum.Flag typing.Generic"),
     OutcomeRule(python="collections.namedtuple copy.copy copy.deepcopy bisect.bisect"),
     OutcomeRule(python="bisect.bisect_left bisect.bisect_right bisect.insort heapq.heappush"),
+    OutcomeRule(python="heapq.heappop", empty="builtins.IndexError", size=Size.LOSES),
+    OutcomeRule(python="heapq.heapreplace", raises="builtins.IndexError"),
+    OutcomeRule(python="heapq.heapify heapq.heappushpop heapq.nlargest heapq.nsmallest heapq.merge"),
     OutcomeRule(python="builtins.print sys.stdout.write sys.stderr.write warnings.warn"),
     OutcomeRule("cerr cout clog endl flush hex dec fixed boolalpha", "sys.stdout sys.stderr"),
     OutcomeRule(python="sys.stdout.flush sys.stderr.flush sys.maxsize sys.platform sys.argv"),
     OutcomeRule(python="time.time time.monotonic time.perf_counter time.time_ns", gives="number"),
-    OutcomeRule(python="time.strftime time.monotonic_ns time.localtime datetime.datetime.now"),
+    OutcomeRule(python="time.strftime time.monotonic_ns time.perf_counter_ns time.process_time"),
+    OutcomeRule(
+        python="time.localtime time.gmtime time.ctime",
+        raises="builtins.OverflowError builtins.OSError",
+        when=Raises.COMPUTED,
+    ),
+    OutcomeRule(
+        python="datetime.datetime.now datetime.datetime.today datetime.datetime.utcnow",
+        gives="datetime.datetime",
+    ),
+    OutcomeRule(python="datetime.date.today", gives="datetime.datetime"),
+    OutcomeRule(python="datetime.datetime.strftime datetime.datetime.isoformat"),
+    OutcomeRule(python="datetime.datetime.timestamp datetime.datetime.date datetime.datetime.time"),
+    OutcomeRule(python="datetime.timedelta.total_seconds datetime.timezone.utc"),
     OutcomeRule(
         python="datetime.timedelta",
         raises="builtins.OverflowError builtins.ValueError",
@@ -256,7 +287,6 @@ RULES = (
         raises="builtins.ValueError builtins.OverflowError",
         when=Raises.COMPUTED,
     ),
-    OutcomeRule(python="datetime.datetime.utcnow"),
     OutcomeRule(python="logging.getLogger rclpy.logging.get_logger", gives="logger"),
     OutcomeRule(python="logging.debug logging.info logging.warning logging.error"),
     OutcomeRule(python="logging.critical logging.exception logging.log logging.warn"),
@@ -267,18 +297,51 @@ RULES = (
     OutcomeRule(python="builtins.SystemExit builtins.StopIteration builtins.OverflowError"),
     OutcomeRule(python="builtins.AttributeError builtins.BaseException"),
     OutcomeRule(python="threading.Lock threading.RLock threading.local", gives="threading.Lock"),
-    OutcomeRule(python="threading.current_thread threading.get_ident"),
-    OutcomeRule(python="contextlib.suppress contextlib.nullcontext"),
-    OutcomeRule(python="re.compile re.sub re.findall re.split"),
-    OutcomeRule(python="re.match re.search re.fullmatch shutil.which", may_be_none=True),
+    OutcomeRule(python="threading.current_thread threading.currentThread threading.get_ident"),
+    OutcomeRule(python="threading.Thread threading.Timer threading.main_thread"),
+    OutcomeRule(python="threading.Event threading.Condition sys.stdin.fileno"),
+    OutcomeRule(python="argparse.ArgumentParser argparse.ArgumentParser.add_argument"),
+    OutcomeRule(python="threading.Event.set threading.Event.clear threading.Event.is_set"),
+    OutcomeRule(python="threading.Thread.is_alive threading.Timer.cancel threading.Thread.setDaemon"),
+    OutcomeRule(python="threading.Thread.start threading.Timer.start"),
+    OutcomeRule(python="threading.Lock.release", raises="builtins.RuntimeError"),
+    OutcomeRule(python="threading.Condition.notify threading.Condition.notify_all"),
+    OutcomeRule(python="contextlib.suppress contextlib.nullcontext contextlib.ExitStack"),
+    OutcomeRule(python="contextlib.ExitStack.enter_context contextlib.ExitStack.callback"),
+    OutcomeRule(
+        python="re.compile re.sub re.findall re.split re.finditer",
+        raises="re.error",
+        when=Raises.UNWRITTEN,
+    ),
+    OutcomeRule(
+        python="re.match re.search re.fullmatch",
+        raises="re.error",
+        when=Raises.UNWRITTEN,
+        may_be_none=True,
+    ),
+    OutcomeRule(
+        python="re.compile.match re.compile.search re.compile.fullmatch shutil.which",
+        may_be_none=True,
+    ),
+    OutcomeRule(python="re.compile.findall re.compile.finditer re.compile.split re.compile.sub"),
+    OutcomeRule(python="re.escape re.IGNORECASE re.MULTILINE traceback.format_exc"),
+    OutcomeRule(python="traceback.print_exc traceback.print_stack sys.exc_info"),
+    OutcomeRule(python="base64.b64encode uuid.uuid4 uuid.uuid1 hashlib.md5 hashlib.sha256"),
     OutcomeRule(python="string.Template string.ascii_letters string.digits"),
     OutcomeRule(python="json.dumps pathlib.Path os.path.exists os.path.join os.path.isfile"),
-    OutcomeRule(python="os.path.basename os.path.dirname os.path.isdir"),
+    OutcomeRule(python="os.path.basename os.path.dirname os.path.isdir os.path.normpath"),
+    OutcomeRule(python="os.path.splitext os.path.split"),
+    OutcomeRule(python="os.path.isabs os.path.expandvars os.path.realpath os.path.islink"),
+    OutcomeRule(python="os.getpid os.linesep os.name sys.version_info sys.executable sys.path"),
     OutcomeRule(python="os.environ.get os.getenv", may_be_none=True),
     OutcomeRule(python="os.path.abspath os.path.expanduser os.sep os.O_RDONLY os.O_RDWR"),
     OutcomeRule(python="os.O_NONBLOCK os.uname os.getcwd os.access"),
     OutcomeRule(python="os.environ", raises="builtins.KeyError"),
     OutcomeRule(python="json.loads json.load", raises="json.JSONDecodeError"),
+    OutcomeRule(python="yaml.safe_load yaml.load", raises="yaml.YAMLError"),
+    OutcomeRule(
+        python="numpy.linalg.inv numpy.linalg.solve", raises="numpy.linalg.LinAlgError"
+    ),
     OutcomeRule(python="struct.pack struct.unpack struct.unpack_from", raises="struct.error"),
     OutcomeRule(python="builtins.open", raises="builtins.OSError", gives="file"),
     OutcomeRule(python="os.open os.close os.lseek os.pread", raises="builtins.OSError"),
@@ -323,7 +386,8 @@ RULES = (
     ),
     OutcomeRule("std::string.substr", raises="std::out_of_range"),
     OutcomeRule("std::optional.value", raises="std::bad_optional_access"),
-    OutcomeRule(python=".decode .encode", raises="builtins.UnicodeDecodeError"),
+    OutcomeRule(python=".decode", raises="builtins.UnicodeDecodeError"),
+    OutcomeRule(python=".encode", raises="builtins.UnicodeDecodeError", when=Raises.CODED),
     OutcomeRule(python=".strip .split .lower .upper .replace .format .join .rstrip .lstrip"),
     OutcomeRule(python=".read .readline .readlines .write", raises="builtins.OSError"),
     OutcomeRule(".keys .elements std::map.keys", "dict.get .values .copy"),
@@ -332,10 +396,21 @@ RULES = (
     OutcomeRule(
         "std::mutex.try_lock std::unique_lock.owns_lock std::condition_variable.notify_one"
     ),
-    OutcomeRule("std::condition_variable.notify_all", "threading.Lock.release"),
-    OutcomeRule(python="queue.Queue.put_nowait queue.Queue.qsize queue.Queue.empty"),
-    OutcomeRule(python="queue.Queue.full collections.namedtuple._replace"),
-    OutcomeRule(python="queue.Queue.get_nowait", raises="builtins.Exception"),
+    OutcomeRule("std::condition_variable.notify_all"),
+    OutcomeRule(python="queue.Queue queue.PriorityQueue queue.LifoQueue queue.SimpleQueue"),
+    OutcomeRule(python="queue.Queue.qsize queue.Queue.empty queue.Queue.full"),
+    OutcomeRule(python="collections.namedtuple._replace"),
+    OutcomeRule(python="queue.Queue.get_nowait", raises="queue.Empty"),
+    OutcomeRule(python="queue.Queue.put_nowait", raises="queue.Full"),
+    OutcomeRule(python=".to_bytes", raises="builtins.OverflowError"),
+    OutcomeRule(python="rospy.ServiceProxy.__call__", raises="rospy.ServiceException"),
+    OutcomeRule(
+        python="tf2_ros.Buffer.lookup_transform tf2_ros.Buffer.transform tf2_ros.Buffer.lookup_transform_full"
+        " tf.TransformListener.lookupTransform tf.TransformListener.transformPose"
+        " tf.TransformListener.transformPoint tf.TransformListener.waitForTransform"
+        " .lookup_transform .lookupTransform",
+        raises="tf.LookupException tf.ConnectivityException tf.ExtrapolationException",
+    ),
     OutcomeRule(python="path.exists path.is_file path.joinpath"),
     OutcomeRule(python="path.read_text path.read_bytes", raises="builtins.OSError", gives="str"),
     # What waits, runs others, or ends the program.
@@ -379,8 +454,9 @@ RULES = (
     OutcomeRule("std::thread.join .join .wait .wait_for .wait_until .timed_wait", acts=_WAITS),
     OutcomeRule("std::future.wait_for std::atomic.wait std::promise.get_future", acts=_WAITS),
     OutcomeRule("std::cin cin std::wcin stdin", "sys.stdin", acts=_WAITS),
+    OutcomeRule(python=".acquire .wait .result", acts=_WAITS),
     OutcomeRule(
-        python=".acquire .wait .result .recv .recvfrom .accept .connect .sendall", acts=_WAITS
+        python=".recv .recvfrom .accept .connect .sendall", raises="builtins.OSError", acts=_WAITS
     ),
     OutcomeRule(python="threading.Lock.acquire queue.Queue.get queue.Queue.put", acts=_WAITS),
     OutcomeRule(python="queue.Queue.join .communicate .readexactly .serve_forever", acts=_WAITS),
