@@ -15,6 +15,12 @@ from rebsync.reverse.ir.walk import Node, parts
 
 _COMPARED = frozenset(o for o in COMPARISONS if o not in (Operator.SAME, Operator.NOT_SAME))
 _ITERATED = (ImplicitCall.ITERATE, ImplicitCall.NEXT)
+# What compares elements of containers, in Python.
+_COMPARING = frozenset(
+    {"sort", "sorted", "max", "min", "index", "remove", "count", "insort", "insort_left"}
+    | {"insort_right", "bisect", "bisect_left", "bisect_right", "heappush", "heappop", "heapify"}
+    | {"heapreplace", "heappushpop", "nlargest", "nsmallest", "merge"}
+)
 _KEYS = (ImplicitCall.HASH, Operator.EQUAL)
 
 
@@ -163,6 +169,10 @@ class _Visitor:
             self._iterates()
         if isinstance(node.callee, s.MethodCallee) and node.callee.dynamic:
             self._gets(node.callee.name)
+        called = node.callee
+        if isinstance(called, s.MethodCallee | s.LibraryCallee):
+            if called.name.rpartition(".")[2] in _COMPARING:
+                self._runs(*_COMPARED)
         self._runs(ImplicitCall.CALL)
 
 

@@ -12,6 +12,7 @@ from rebsync.reverse.analysis.facts import (
 )
 from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.library_exceptions import LibraryExceptions
+from rebsync.reverse.analysis.none_arguments import NoneArguments
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
     ClassOrigin,
@@ -76,9 +77,11 @@ class OutcomeCalls:
         self._exceptions = LibraryExceptions(notes, expressions)
         self.origins = notes.origins
         self.function = notes.function.name
+        self._here: Facts = frozenset()  # what is known where the call stands
 
     def call(self, node: s.Call, facts: Facts) -> Facts:
         """Notes what a call may do, and gives what is known after it."""
+        self._here = facts
         self._arguments(node, facts)
         match node.callee:
             case s.FunctionCallee(name):
@@ -110,6 +113,7 @@ class OutcomeCalls:
 
     def construct(self, node: s.Construct, facts: Facts) -> Facts:
         """Notes what making an object of a class of the program may do."""
+        self._here = facts
         for argument in node.arguments:
             self.expressions.check(argument.value, facts)
         if node.constructor is not None:
@@ -145,6 +149,17 @@ class OutcomeCalls:
         """A function of the program runs."""
         if self.notes.is_model(name):
             self.notes.problem(node, f'"{name.rpartition("/")[2]}" is the model\'s')
+        elif isinstance(node, s.Call | s.Construct):
+            called = self.origins.graph.program.function(name)
+            gives = NoneArguments(self.expressions.none, node, called, self._here)
+            self.notes.take({Called(name, (), gives)})
+        else:
+            self.notes.take({Called(name)})
+
+    def _hands(self, node: s.Statement, name: str) -> None:
+        """A function is handed over, and may run with other arguments than those of the call."""
+        if self.notes.is_model(name):
+            self._enters(node, name)
         else:
             self.notes.take({Called(name)})
 
@@ -172,7 +187,7 @@ class OutcomeCalls:
                     case FunctionOrigin(name):
                         known = self.notes.elements.get(name, 0)
                         self.notes.elements[name] = max(known, *sizes)
-                        self._enters(node, name)
+                        self._hands(node, name)
                     case ClassOrigin(name, False) if not keeps:
                         self._makes(node, name)
                     case LibraryOrigin(name, False) if not keeps and not _is_constant(name):

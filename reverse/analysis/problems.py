@@ -17,10 +17,19 @@ TERMINATES = "std::terminate"  # what an exception becomes that would leave a `n
 
 
 @dataclass(frozen=True, slots=True)
+class Given:
+    """A parameter of a function, for which it may get None."""
+
+    function: str
+    parameter: str
+
+
+@dataclass(frozen=True, slots=True)
 class Problem:
     """A place in a function; `raises` is the exception that is raised there, if one is.
 
-    Nothing catches what has none: it does not end, acts, or has no lowering. Nor does anything
+    Where something is `given`, that is so only of calls that give None for it; what such a call may
+    raise for that `is_of_call`. Nothing catches what has none: it does not end, acts, or has no lowering. Nor does anything
     catch `TERMINATES`.
     """
 
@@ -28,18 +37,28 @@ class Problem:
     place: Span
     why: str
     raises: str = ""
+    given: Given | None = None
+    is_of_call: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Called:
-    """A function that runs, with which of its problems leave what is around the call."""
+    """A function that runs, with which of its problems leave what is around the call.
+
+    `gives` says what they are with the arguments of the call; without it none of these is None.
+    """
 
     function: str
     tests: tuple[Callable[[Problem], bool], ...] = ()
+    gives: Callable[[Problem], frozenset[Problem]] | None = None
 
     def leaving(self, problem: Problem) -> frozenset[Problem]:
-        """What a problem of the function is for who calls it: itself, or nothing."""
-        return frozenset({problem}) if all(t(problem) for t in self.tests) else frozenset()
+        """What a problem of the function is for who calls it; nothing if it does not leave."""
+        if not all(test(problem) for test in self.tests):
+            return frozenset()
+        if self.gives is not None:
+            return self.gives(problem)
+        return frozenset({problem} if problem.given is None else ())
 
 
 class ProblemNotes:
@@ -69,14 +88,23 @@ class ProblemNotes:
         """What is known of libraries."""
         return self.origins.table
 
-    def problem(self, node: s.Statement | e.Expression, why: str, raises: str = "") -> None:
-        """Notes what may happen at a place."""
+    def problem(
+        self,
+        node: s.Statement | e.Expression,
+        why: str,
+        raises: str = "",
+        given: Given | None = None,
+    ) -> None:
+        """Notes what may happen at a place, or does where something is given."""
         place = getattr(node, "place", self.function.place)
-        self.found.add(Problem(self.function.name, place, why, raises))
+        self.found.add(Problem(self.function.name, place, why, raises, given))
 
-    def fails(self, node: s.Statement | e.Expression, failure: str) -> None:
+    def fails(
+        self, node: s.Statement | e.Expression, failure: str, given: Given | None = None
+    ) -> None:
         """Notes that an operation may raise what the language raises for a failure."""
-        self.problem(node, f"this may fail: it {failure}", self.table.of_failure(failure))
+        raises = self.table.of_failure(failure)
+        self.problem(node, f"this may fail: it {failure}", raises, given)
 
     def take(self, problems: Iterable[Problem | Called]) -> None:
         """Notes what was found elsewhere, or what functions run."""

@@ -31,6 +31,7 @@ class Tells(Enum):
     MOST = "the greatest of all"
     PAIRS = "pairs of its elements and others"
     SAME = "the same elements"
+    OBJECT = "that it is an object of some class"
 
 
 class Raises(Enum):
@@ -194,7 +195,8 @@ RULES = (
     OutcomeRule(python="math.expm1 math.remainder", raises="builtins.ArithmeticError"),
     OutcomeRule(python="math.factorial math.comb math.perm", raises="builtins.ValueError"),
     OutcomeRule(python="random.seed random.shuffle random.normalvariate random.triangular"),
-    OutcomeRule(python="builtins.isinstance builtins.issubclass dataclasses.field", keeps=True),
+    OutcomeRule(python="builtins.isinstance", keeps=True, tells=Tells.OBJECT),
+    OutcomeRule(python="builtins.issubclass dataclasses.field", keeps=True),
     OutcomeRule(python="builtins.callable builtins.hasattr builtins.id"),
     OutcomeRule(python="builtins.object builtins.slice builtins.super"),
     OutcomeRule(python="statistics.median statistics.mean", empty="statistics.StatisticsError"),
