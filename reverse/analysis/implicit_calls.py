@@ -13,7 +13,8 @@ from rebsync.reverse.ir.operators import COMPARISONS, ImplicitCall, Operator
 from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import Node, parts
 
-_COMPARED = frozenset(o for o in COMPARISONS if o not in (Operator.SAME, Operator.NOT_SAME))
+_CONTAINED = (Operator.IN, Operator.NOT_IN)
+_COMPARED = COMPARISONS - {Operator.SAME, Operator.NOT_SAME, *_CONTAINED}
 _ITERATED = (ImplicitCall.ITERATE, ImplicitCall.NEXT)
 # What compares elements of containers, in Python.
 _COMPARING = frozenset(
@@ -121,18 +122,20 @@ class _Visitor:
     def _binary(self, operator: Operator) -> None:
         """An operator of classes; containers apply it to their elements."""
         self._runs(*(_COMPARED if operator in _COMPARED else (operator,)))
-        if operator in (Operator.IN, Operator.NOT_IN):
+        if operator in _CONTAINED:
+            self._runs(*_CONTAINED, *_COMPARED)
             self._iterates()
             self._runs(*_KEYS)
         self._runs(ImplicitCall.TEXT, ImplicitCall.NUMBER)
 
     def _statement(self, node: Node) -> None:
         match node:
-            case s.CompoundAssign(target, operator, _, dynamic):
+            case s.CompoundAssign(target, operator, value, dynamic):
                 self.visit(target)
                 if dynamic:
                     self._binary(operator)
-                    self._iterates()
+                    if not isinstance(value, e.Literal):  # a list takes what one goes through
+                        self._iterates()
             case s.ForEach() | s.Yield():
                 self._iterates()
             case s.Await():
@@ -170,9 +173,9 @@ class _Visitor:
         if isinstance(node.callee, s.MethodCallee) and node.callee.dynamic:
             self._gets(node.callee.name)
         called = node.callee
-        if isinstance(called, s.MethodCallee | s.LibraryCallee):
-            if called.name.rpartition(".")[2] in _COMPARING:
-                self._runs(*_COMPARED)
+        name = called.name if isinstance(called, s.MethodCallee | s.LibraryCallee) else ""
+        if name.rpartition(".")[2] in _COMPARING:
+            self._runs(*_COMPARED)
         self._runs(ImplicitCall.CALL)
 
 

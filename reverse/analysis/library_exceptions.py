@@ -5,16 +5,18 @@ from __future__ import annotations
 from rebsync.reverse.analysis.facts import Facts, HasKey, bare, names_of
 from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
-from rebsync.reverse.analysis.origins import ANYTHING, LibraryOrigin, Origin, PlainOrigin
+from rebsync.reverse.analysis.origins import PlainOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.stores import CallResult, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
 from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.unions import assert_never
+
+
+def _is_positive(value: object) -> bool:
+    return isinstance(value, int | float) and value > 0
 
 
 _WHOLE = (["utf-8"], ["utf8"], ["UTF-8"])  # encodings that have all characters
@@ -34,7 +36,7 @@ class LibraryExceptions:
     ) -> frozenset[str]:
         """The exceptions that a call of a library may raise, by what it gets."""
         plain = [a.value for a in node.arguments if a.name is None]
-        if receiver is not None and self._is_foreign(receiver):
+        if receiver is not None and self.expressions.foreign.has(receiver, self.function):
             return frozenset()
         raised = outcome.raises if self._may_raise(node, outcome.when, facts) else frozenset()
         of = receiver
@@ -50,34 +52,6 @@ class LibraryExceptions:
         if is_many or (of is not None and self.expressions.size(of, facts)):
             return raised
         return raised | outcome.empty
-
-    def _is_foreign(self, value: e.Expression) -> bool:
-        """Whether a value is of a library that no table knows, or a part of what it made."""
-        if not self.table.trusts_others:
-            return False
-        held = self.origins.of(value, self.function)
-        if held != ANYTHING:
-            return all(map(self._is_object_of_others, held))
-        key = key_of(value, self.function)
-        stored = [v for _, v in self.origins.graph.stores.of(key)] if key is not None else []
-        match value:
-            case e.Attribute(of) if not stored:
-                return self._is_foreign(of)
-            case e.Temporary():
-                calls = [v.call.callee for v in stored if isinstance(v, CallResult)]
-                methods = [c for c in calls if isinstance(c, s.MethodCallee)]
-                return len(methods) == len(stored) > 0 and all(
-                    self._is_foreign(c.receiver) for c in methods
-                )
-            case _:
-                return False
-
-    def _is_object_of_others(self, origin: Origin) -> bool:
-        if not isinstance(origin, LibraryOrigin) or not origin.of_object:
-            return False
-        if self.table.has_methods_of(origin.name):
-            return False
-        return origin.name not in PLAIN_CLASSES and not self.table.is_standard(origin.name)
 
     def _may_raise(self, node: s.Call, when: Raises, facts: Facts) -> bool:
         """Whether a call gets arguments for which its rule says that it raises."""
@@ -104,9 +78,12 @@ class LibraryExceptions:
             case Raises.ZERO_STEP:
                 return not all(self.expressions.is_nonzero(v, facts) for v in values[2:])
             case Raises.TEXT:
-                return not all(map(self._is_number, values[:1]))
+                first = values[:1]
+                return not all(self._is_number(v) or self._is_of_number(v, float) for v in first)
             case Raises.INFINITE:
                 is_finite = Magnitudes(self.origins, self.function).is_finite
+                if all(self._is_of_number(v, int) for v in values[:1]):
+                    return False
                 return not all(self._is_number(v) and is_finite(v) for v in values[:1])
             case Raises.COMPUTED:
                 return not all(map(self.expressions.is_written, values))
@@ -114,6 +91,9 @@ class LibraryExceptions:
                 return len(values) < 3 and not any(
                     self.expressions.size(v, facts) for v in values[1:]
                 )
+            case Raises.POWER:
+                numbers = [bare(v) for v in values[1:2]]
+                return not all(isinstance(v, e.Literal) and _is_positive(v.value) for v in numbers)
             case Raises.CODED:
                 return any(self.expressions.texts(v) not in _WHOLE for v in values)
             case Raises.UNWRITTEN:
@@ -134,6 +114,14 @@ class LibraryExceptions:
     def _is_number(self, value: e.Expression) -> bool:
         """Whether a value is a number by how it is computed."""
         return self.origins.of(value, self.function) == {PlainOrigin()}
+
+    def _is_of_number(self, value: e.Expression, kind: type[int] | type[float]) -> bool:
+        """Whether a value is one of some texts in the source, which are those of numbers."""
+        texts = self.expressions.texts(value)
+        try:
+            return bool(texts) and all(isinstance(kind(text), kind) for text in texts)
+        except ValueError:
+            return False
 
     def _is_count(self, node: s.Call, facts: Facts) -> bool:
         """Whether a call gets a number of elements that may be negative."""

@@ -11,8 +11,8 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
 )
 from rebsync.reverse.analysis.format_strings import has_pieces
+from rebsync.reverse.analysis.given_arguments import GivenArguments
 from rebsync.reverse.analysis.library_exceptions import LibraryExceptions
-from rebsync.reverse.analysis.none_arguments import NoneArguments
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
     ClassOrigin,
@@ -151,7 +151,7 @@ class OutcomeCalls:
             self.notes.problem(node, f'"{name.rpartition("/")[2]}" is the model\'s')
         elif isinstance(node, s.Call | s.Construct):
             called = self.origins.graph.program.function(name)
-            gives = NoneArguments(self.expressions.none, node, called, self._here)
+            gives = GivenArguments(self.expressions, node, called, self._here)
             self.notes.take({Called(name, (), gives)})
         else:
             self.notes.take({Called(name)})
@@ -278,9 +278,26 @@ class OutcomeCalls:
                 outcome = self.notes.table.method(callee.declared, callee.name)
                 self._library(node, callee.name, outcome, callee.receiver, facts)
             return
+        if callee.after is not None:
+            self._of_base(node, callee, callee.after, facts)
+            return
         held = self.origins.of(callee.receiver, self.function)
         for origin in sorted(held, key=str):
             self._of_object(node, callee, origin, facts)
+
+    def _of_base(self, node: s.Call, callee: s.MethodCallee, after: str, facts: Facts) -> None:
+        """A method that comes after those of a class, in the order of its bases or another's."""
+        graph = self.origins.graph
+        family = graph.family(after) - graph.subclasses.get(after, {after})
+        classes = (graph.program.classes.get(name) for name in family)
+        own = [f for c in classes if c is not None for n, f in c.methods if n == callee.name]
+        for name in sorted(own):
+            self._enters(node, name)
+        for base in sorted(family - graph.program.classes.keys()):
+            table = self.notes.table
+            makes = callee.name == "__init__"
+            outcome = table.function(base) if makes else table.method(base, callee.name)
+            self._library(node, callee.name, outcome, callee.receiver, facts)
 
     def _of_object(
         self, node: s.Call, callee: s.MethodCallee, origin: Origin, facts: Facts

@@ -20,9 +20,9 @@ from rebsync.reverse.analysis.element_counts import ElementCounts
 from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.facts import NO_FACTS
 from rebsync.reverse.analysis.fixpoint import Equation, LeastFixpoint, in_cycles
+from rebsync.reverse.analysis.given_arguments import with_none
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
-from rebsync.reverse.analysis.none_arguments import with_none
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcome_statements import ENDLESS, OutcomeWalk
 from rebsync.reverse.analysis.problems import TERMINATES, Called, Problem, ProblemNotes
@@ -115,8 +115,8 @@ class OutcomeAnalysis:
         for node in self.iterators.gone_through(function):
             notes.problem(node, ENDLESS)
         found = implicit_calls(self.graph, function)
-        asks = found.has_library and (not self.table.trusts_others or self._hands_own(function))
-        implicit = found.functions | (self.origins.operators if asks else frozenset())
+        asked = self._asked(function) if found.has_library else frozenset()
+        implicit = found.functions | asked
         self._run(function, implicit, notes)
         called = {c.function for c in notes.found if isinstance(c, Called)}
         self._calls.setdefault(function.name, set()).update(called)
@@ -130,11 +130,16 @@ class OutcomeAnalysis:
         uses = ((c.function, lambda p, c=c: frozenset(map(_ending, c.leaving(p)))) for c in calls)
         return Equation(frozenset(map(_ending, own)), tuple(uses))
 
-    def _hands_own(self, function: Function) -> bool:
-        """Whether a call in a function gets an object of a class of the program."""
+    def _asked(self, function: Function) -> frozenset[str]:
+        """The operators that libraries may run of the objects that a function hands to them."""
+        if not self.table.trusts_others:
+            return self.origins.operators
         calls = (n for n in walk(function) if isinstance(n, s.Call))
         values = (a.value for call in calls for a in call.arguments)
-        return any(self.origins.own_classes(value, function.name) for value in values)
+        classes = {c for v in values for c in self.origins.own_classes(v, function.name)}
+        families = {each for c in classes for each in self.graph.family(c)}
+        owners = {n: self.program.function(n).owner for n in self.origins.operators}
+        return frozenset(n for n, owner in owners.items() if owner in families)
 
     def _notes(self, function: Function) -> ProblemNotes:
         return ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)

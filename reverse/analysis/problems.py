@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.element_counts import ElementCounts
@@ -18,19 +19,20 @@ TERMINATES = "std::terminate"  # what an exception becomes that would leave a `n
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """A parameter of a function, for which it may get None."""
+    """A parameter for which a function may get None, or (`size`) fewer elements than so many."""
 
     function: str
     parameter: str
+    size: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class Problem:
     """A place in a function; `raises` is the exception that is raised there, if one is.
 
-    Where something is `given`, that is so only of calls that give None for it; what such a call may
-    raise for that `is_of_call`. Nothing catches what has none: it does not end, acts, or has no lowering. Nor does anything
-    catch `TERMINATES`.
+    Where something is `given`, that is so only of calls that give it; what such a call may raise
+    for that `is_of_call`. Nothing catches what has no exception: it does not end, acts, or has no
+    lowering. Nor does anything catch `TERMINATES`.
     """
 
     function: str
@@ -40,12 +42,17 @@ class Problem:
     given: Given | None = None
     is_of_call: bool = False
 
+    def of_call(self) -> Problem:
+        """The same of a call, whatever is given to the function that it stands in."""
+        return replace(self, given=None, is_of_call=True)
+
 
 @dataclass(frozen=True, slots=True)
 class Called:
     """A function that runs, with which of its problems leave what is around the call.
 
-    `gives` says what they are with the arguments of the call; without it none of these is None.
+    `gives` says what they are with the arguments of the call; without it none of these is None, and
+    of containers among them nothing is known.
     """
 
     function: str
@@ -58,7 +65,9 @@ class Called:
             return frozenset()
         if self.gives is not None:
             return self.gives(problem)
-        return frozenset({problem} if problem.given is None else ())
+        if problem.given is None:
+            return frozenset({problem})
+        return frozenset({problem.of_call()} if problem.given.size else ())
 
 
 class ProblemNotes:

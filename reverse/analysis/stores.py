@@ -118,7 +118,9 @@ class Stores:
     def holding_none(self) -> frozenset[Key]:
         """The names of containers in which None is stored as an element."""
         self._see_whole()
-        found = {key for key, stored in self._values.items() if any(_has_none(v) for _, v in stored)}
+        found = {
+            key for key, stored in self._values.items() if any(_has_none(v) for _, v in stored)
+        }
         for name in self._seen:
             for node in walk(self._program.function(name)):
                 match node:

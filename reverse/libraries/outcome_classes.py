@@ -52,7 +52,9 @@ EXCEPTIONS: Mapping[str, str] = {
     **dict.fromkeys(("builtins.RuntimeError", "builtins.StopIteration"), "builtins.Exception"),
     **dict.fromkeys(("builtins.AssertionError", "builtins.TypeError"), "builtins.Exception"),
     **dict.fromkeys(("builtins.AttributeError", "struct.error"), "builtins.Exception"),
-    **dict.fromkeys(("re.error", "queue.Empty", "queue.Full", "yaml.YAMLError"), "builtins.Exception"),
+    **dict.fromkeys(
+        ("re.error", "queue.Empty", "queue.Full", "yaml.YAMLError"), "builtins.Exception"
+    ),
     "numpy.linalg.LinAlgError": "builtins.ValueError",
     "rospy.ServiceException": "rospy.ROSException",
     "rospy.ROSException": "builtins.Exception",

@@ -50,6 +50,7 @@ class Raises(Enum):
     TEXT = "a first one that may be no number"
     COMPUTED = "one that is not written as a number"
     NO_START = "no third one, and a second one that may have no elements"
+    POWER = "a second one that is no positive number in the source"
     CODED = "another encoding than UTF-8, which has all characters"
     UNWRITTEN = "a first one that is no text in the source"
     UNORDERED = "two of which the second may be the smaller one"
@@ -73,7 +74,7 @@ class OutcomeRule:
     when: Raises = Raises.ANY
 
 
-_WAITS = "waits"
+WAITS = "waits"
 _ANYTHING = "may do anything"
 _ENDLESS = "may never end"
 _PROCESS = "runs another program"
@@ -189,30 +190,18 @@ RULES = (
     ),
     OutcomeRule(python="builtins.ord", raises="builtins.TypeError"),
     OutcomeRule(
-        python="builtins.pow", raises="builtins.ArithmeticError builtins.ValueError", gives="number"
+        python="builtins.pow",
+        raises="builtins.ArithmeticError builtins.ValueError",
+        gives="number",
+        when=Raises.POWER,
     ),
     OutcomeRule(python="builtins.type builtins.dict.fromkeys builtins.int.from_bytes"),
     OutcomeRule(python="math.expm1 math.remainder", raises="builtins.ArithmeticError"),
     OutcomeRule(python="math.factorial math.comb math.perm", raises="builtins.ValueError"),
-    OutcomeRule(python="random.seed random.shuffle random.normalvariate random.triangular"),
     OutcomeRule(python="builtins.isinstance", keeps=True, tells=Tells.OBJECT),
     OutcomeRule(python="builtins.issubclass dataclasses.field", keeps=True),
     OutcomeRule(python="builtins.callable builtins.hasattr builtins.id"),
     OutcomeRule(python="builtins.object builtins.slice builtins.super"),
-    OutcomeRule(python="statistics.median statistics.mean", empty="statistics.StatisticsError"),
-    OutcomeRule(python="statistics.fmean statistics.mode", empty="statistics.StatisticsError"),
-    OutcomeRule(python="statistics.stdev statistics.variance", raises="statistics.StatisticsError"),
-    OutcomeRule(python="random.random random.uniform random.gauss", gives="number"),
-    OutcomeRule(
-        python="random.randint",
-        raises="builtins.ValueError",
-        gives="number",
-        when=Raises.UNORDERED,
-    ),
-    OutcomeRule(python="random.randrange", raises="builtins.ValueError", gives="number"),
-    OutcomeRule(python="random.sample", raises="builtins.ValueError", gives="list"),
-    OutcomeRule(python="random.choices", raises="builtins.IndexError", gives="list"),
-    OutcomeRule(python="random.choice", empty="builtins.IndexError"),
     # Collections.
     OutcomeRule(python="builtins.len", gives="number", tells=Tells.SIZE),
     OutcomeRule(python="builtins.sum builtins.any builtins.all", gives="number"),
@@ -237,117 +226,34 @@ RULES = (
     OutcomeRule(python="collections.Counter", gives="defaultdict"),
     OutcomeRule(python="collections.OrderedDict", gives="dict"),
     OutcomeRule(python="builtins.next", raises="builtins.StopIteration", when=Raises.NO_DEFAULT),
-    OutcomeRule(python="itertools.islice itertools.chain itertools.pairwise itertools.product"),
-    OutcomeRule(python="itertools.takewhile itertools.accumulate itertools.combinations"),
-    OutcomeRule(python="itertools.groupby itertools.zip_longest itertools.permutations"),
-    OutcomeRule(python="itertools.chain.from_iterable itertools.starmap itertools.tee"),
-    OutcomeRule(python="itertools.dropwhile itertools.filterfalse itertools.compress"),
-    OutcomeRule(python="itertools.count itertools.cycle itertools.repeat", acts=_ENDLESS),
     OutcomeRule(python="builtins.iter", acts=_ENDLESS),
-    OutcomeRule(python="functools.lru_cache functools.cache functools.wraps", returns=True),
     OutcomeRule(python="dataclasses.dataclass builtins.staticmethod", returns=True),
     OutcomeRule(python="builtins.classmethod builtins.property enum.unique", returns=True),
     OutcomeRule(python="abc.abstractmethod contextlib.contextmanager", returns=True),
-    OutcomeRule(python="typing.final functools.total_ordering", returns=True),
-    OutcomeRule(python="functools.partial functools.cmp_to_key"),
-    OutcomeRule(python="functools.reduce", raises="builtins.TypeError", when=Raises.NO_START),
-    OutcomeRule(python="operator.itemgetter", raises="builtins.LookupError"),
-    OutcomeRule(python="operator.attrgetter operator.add operator.mul operator.sub"),
     OutcomeRule(python="dataclasses.replace dataclasses.asdict enum.auto"),
     OutcomeRule(python="typing.NamedTuple enum.Enum enum.IntEnum typing.TypeVar typing.NewType"),
     OutcomeRule(python="typing.Protocol abc.ABC enum.IntFlag enum.Flag typing.Generic"),
     OutcomeRule(python="collections.namedtuple copy.copy copy.deepcopy bisect.bisect"),
-    OutcomeRule(python="bisect.bisect_left bisect.bisect_right bisect.insort heapq.heappush"),
-    OutcomeRule(python="heapq.heappop", empty="builtins.IndexError", size=Size.LOSES),
-    OutcomeRule(python="heapq.heapreplace", raises="builtins.IndexError"),
-    OutcomeRule(python="heapq.heapify heapq.heappushpop heapq.nlargest heapq.nsmallest heapq.merge"),
     OutcomeRule(python="builtins.print sys.stdout.write sys.stderr.write warnings.warn"),
     OutcomeRule("cerr cout clog endl flush hex dec fixed boolalpha", "sys.stdout sys.stderr"),
     OutcomeRule(python="sys.stdout.flush sys.stderr.flush sys.maxsize sys.platform sys.argv"),
-    OutcomeRule(python="time.time time.monotonic time.perf_counter time.time_ns", gives="number"),
-    OutcomeRule(python="time.strftime time.monotonic_ns time.perf_counter_ns time.process_time"),
-    OutcomeRule(
-        python="time.localtime time.gmtime time.ctime",
-        raises="builtins.OverflowError builtins.OSError",
-        when=Raises.COMPUTED,
-    ),
-    OutcomeRule(
-        python="datetime.datetime.now datetime.datetime.today datetime.datetime.utcnow",
-        gives="datetime.datetime",
-    ),
-    OutcomeRule(python="datetime.date.today", gives="datetime.datetime"),
-    OutcomeRule(python="datetime.datetime.strftime datetime.datetime.isoformat"),
-    OutcomeRule(python="datetime.datetime.timestamp datetime.datetime.date datetime.datetime.time"),
-    OutcomeRule(python="datetime.timedelta.total_seconds datetime.timezone.utc"),
-    OutcomeRule(
-        python="datetime.timedelta",
-        raises="builtins.OverflowError builtins.ValueError",
-        when=Raises.COMPUTED,
-    ),
-    OutcomeRule(
-        python="datetime.datetime datetime.date datetime.time",
-        raises="builtins.ValueError builtins.OverflowError",
-        when=Raises.COMPUTED,
-    ),
     OutcomeRule(python="logging.getLogger rclpy.logging.get_logger", gives="logger"),
-    OutcomeRule(python="logging.debug logging.info logging.warning logging.error"),
-    OutcomeRule(python="logging.critical logging.exception logging.log logging.warn"),
     OutcomeRule(python="builtins.Exception builtins.ValueError builtins.KeyError"),
     OutcomeRule(python="builtins.RuntimeError builtins.IndexError builtins.TypeError"),
     OutcomeRule(python="builtins.OSError builtins.ZeroDivisionError builtins.LookupError"),
     OutcomeRule(python="builtins.AssertionError builtins.NotImplementedError"),
     OutcomeRule(python="builtins.SystemExit builtins.StopIteration builtins.OverflowError"),
     OutcomeRule(python="builtins.AttributeError builtins.BaseException"),
-    OutcomeRule(python="threading.Lock threading.RLock threading.local", gives="threading.Lock"),
-    OutcomeRule(python="threading.current_thread threading.currentThread threading.get_ident"),
-    OutcomeRule(python="threading.Thread threading.Timer threading.main_thread"),
-    OutcomeRule(python="threading.Event threading.Condition sys.stdin.fileno"),
-    OutcomeRule(python="argparse.ArgumentParser argparse.ArgumentParser.add_argument"),
-    OutcomeRule(python="threading.Event.set threading.Event.clear threading.Event.is_set"),
-    OutcomeRule(python="threading.Thread.is_alive threading.Timer.cancel threading.Thread.setDaemon"),
-    OutcomeRule(python="threading.Thread.start threading.Timer.start"),
-    OutcomeRule(python="threading.Lock.release", raises="builtins.RuntimeError"),
-    OutcomeRule(python="threading.Condition.notify threading.Condition.notify_all"),
-    OutcomeRule(python="contextlib.suppress contextlib.nullcontext contextlib.ExitStack"),
-    OutcomeRule(python="contextlib.ExitStack.enter_context contextlib.ExitStack.callback"),
-    OutcomeRule(
-        python="re.compile re.sub re.findall re.split re.finditer",
-        raises="re.error",
-        when=Raises.UNWRITTEN,
-    ),
-    OutcomeRule(
-        python="re.match re.search re.fullmatch",
-        raises="re.error",
-        when=Raises.UNWRITTEN,
-        may_be_none=True,
-    ),
     OutcomeRule(
         python="re.compile.match re.compile.search re.compile.fullmatch shutil.which",
         may_be_none=True,
     ),
-    OutcomeRule(python="re.compile.findall re.compile.finditer re.compile.split re.compile.sub"),
-    OutcomeRule(python="re.escape re.IGNORECASE re.MULTILINE traceback.format_exc"),
     OutcomeRule(python="traceback.print_exc traceback.print_stack sys.exc_info"),
     OutcomeRule(python="base64.b64encode uuid.uuid4 uuid.uuid1 hashlib.md5 hashlib.sha256"),
     OutcomeRule(python="string.Template string.ascii_letters string.digits"),
     OutcomeRule(python="json.dumps pathlib.Path os.path.exists os.path.join os.path.isfile"),
-    OutcomeRule(python="os.path.basename os.path.dirname os.path.isdir os.path.normpath"),
-    OutcomeRule(python="os.path.splitext os.path.split"),
-    OutcomeRule(python="os.path.isabs os.path.expandvars os.path.realpath os.path.islink"),
     OutcomeRule(python="os.getpid os.linesep os.name sys.version_info sys.executable sys.path"),
-    OutcomeRule(python="os.environ.get os.getenv", may_be_none=True),
-    OutcomeRule(python="os.path.abspath os.path.expanduser os.sep os.O_RDONLY os.O_RDWR"),
-    OutcomeRule(python="os.O_NONBLOCK os.uname os.getcwd os.access"),
-    OutcomeRule(python="os.environ", raises="builtins.KeyError"),
-    OutcomeRule(python="json.loads json.load", raises="json.JSONDecodeError"),
-    OutcomeRule(python="yaml.safe_load yaml.load", raises="yaml.YAMLError"),
-    OutcomeRule(
-        python="numpy.linalg.inv numpy.linalg.solve", raises="numpy.linalg.LinAlgError"
-    ),
-    OutcomeRule(python="struct.pack struct.unpack struct.unpack_from", raises="struct.error"),
     OutcomeRule(python="builtins.open", raises="builtins.OSError", gives="file"),
-    OutcomeRule(python="os.open os.close os.lseek os.pread", raises="builtins.OSError"),
-    OutcomeRule(python="os.listdir os.stat os.scandir os.read", raises="builtins.OSError"),
     # Methods.
     OutcomeRule(python=".append .appendleft .insert .add", size=Size.GROWS),
     OutcomeRule(".push_back .push_front .emplace_back .emplace_front .push", size=Size.GROWS),
@@ -399,27 +305,14 @@ RULES = (
         "std::mutex.try_lock std::unique_lock.owns_lock std::condition_variable.notify_one"
     ),
     OutcomeRule("std::condition_variable.notify_all"),
-    OutcomeRule(python="queue.Queue queue.PriorityQueue queue.LifoQueue queue.SimpleQueue"),
-    OutcomeRule(python="queue.Queue.qsize queue.Queue.empty queue.Queue.full"),
-    OutcomeRule(python="collections.namedtuple._replace"),
-    OutcomeRule(python="queue.Queue.get_nowait", raises="queue.Empty"),
-    OutcomeRule(python="queue.Queue.put_nowait", raises="queue.Full"),
     OutcomeRule(python=".to_bytes", raises="builtins.OverflowError"),
-    OutcomeRule(python="rospy.ServiceProxy.__call__", raises="rospy.ServiceException"),
-    OutcomeRule(
-        python="tf2_ros.Buffer.lookup_transform tf2_ros.Buffer.transform tf2_ros.Buffer.lookup_transform_full"
-        " tf.TransformListener.lookupTransform tf.TransformListener.transformPose"
-        " tf.TransformListener.transformPoint tf.TransformListener.waitForTransform"
-        " .lookup_transform .lookupTransform",
-        raises="tf.LookupException tf.ConnectivityException tf.ExtrapolationException",
-    ),
     OutcomeRule(python="path.exists path.is_file path.joinpath"),
     OutcomeRule(python="path.read_text path.read_bytes", raises="builtins.OSError", gives="str"),
     # What waits, runs others, or ends the program.
     OutcomeRule("sleep usleep nanosleep clock_nanosleep pause", "time.sleep", acts="takes time"),
     OutcomeRule("this_thread::sleep_for this_thread::sleep_until", acts="takes time"),
-    OutcomeRule("select pselect poll ppoll epoll_wait epoll_pwait recv recvfrom", acts=_WAITS),
-    OutcomeRule("recvmsg accept accept4 pthread_rwlock_rdlock", acts=_WAITS),
+    OutcomeRule("select pselect poll ppoll epoll_wait epoll_pwait recv recvfrom", acts=WAITS),
+    OutcomeRule("recvmsg accept accept4 pthread_rwlock_rdlock", acts=WAITS),
     OutcomeRule("this_thread::get_id"),
     OutcomeRule(
         "system popen pclose execv execvp execl execlp fork vfork posix_spawn", acts=_PROCESS
@@ -433,39 +326,36 @@ RULES = (
         "async thread jthread pthread_create call_once packaged_task", acts="starts a thread"
     ),
     OutcomeRule(
-        "pthread_join pthread_cond_wait sem_wait sem_timedwait sigwait sigwaitinfo", acts=_WAITS
+        "pthread_join pthread_cond_wait sem_wait sem_timedwait sigwait sigwaitinfo", acts=WAITS
     ),
+    OutcomeRule("wait waitpid wait3 wait4 msgrcv mq_receive semop lockf flock tcdrain", acts=WAITS),
+    OutcomeRule("connect send sendto sendmsg getaddrinfo gethostbyname", acts=WAITS),
     OutcomeRule(
-        "wait waitpid wait3 wait4 msgrcv mq_receive semop lockf flock tcdrain", acts=_WAITS
+        "read readv pread preadv fread recvmmsg mq_send mq_timedreceive msgsnd", acts=WAITS
     ),
-    OutcomeRule("connect send sendto sendmsg getaddrinfo gethostbyname", acts=_WAITS),
-    OutcomeRule(
-        "read readv pread preadv fread recvmmsg mq_send mq_timedreceive msgsnd", acts=_WAITS
-    ),
-    OutcomeRule("mq_timedsend semtimedop waitid sigsuspend sigtimedwait getdelim", acts=_WAITS),
-    OutcomeRule("pthread_rwlock_wrlock pthread_spin_lock pthread_barrier_wait", acts=_WAITS),
-    OutcomeRule("pthread_cond_timedwait pthread_mutex_timedlock pthread_timedjoin_np", acts=_WAITS),
-    OutcomeRule("mtx_lock mtx_timedlock cnd_wait cnd_timedwait thrd_join", acts=_WAITS),
+    OutcomeRule("mq_timedsend semtimedop waitid sigsuspend sigtimedwait getdelim", acts=WAITS),
+    OutcomeRule("pthread_rwlock_wrlock pthread_spin_lock pthread_barrier_wait", acts=WAITS),
+    OutcomeRule("pthread_cond_timedwait pthread_mutex_timedlock pthread_timedjoin_np", acts=WAITS),
+    OutcomeRule("mtx_lock mtx_timedlock cnd_wait cnd_timedwait thrd_join", acts=WAITS),
     OutcomeRule("thrd_sleep", acts="takes time"),
     OutcomeRule("ioctl fcntl syscall", acts=_ANYTHING),
     OutcomeRule("execve execle execlpe execvpe fexecve posix_spawnp clone", acts=_PROCESS),
-    OutcomeRule("getchar getc fgetc gets fgets scanf fscanf getline getch getpass", acts=_WAITS),
-    OutcomeRule("std::condition_variable.wait std::condition_variable.wait_for", acts=_WAITS),
-    OutcomeRule("std::condition_variable.wait_until std::future.get std::future.wait", acts=_WAITS),
-    OutcomeRule("std::mutex.lock std::unique_lock.lock pthread_mutex_lock", acts=_WAITS),
-    OutcomeRule("std::thread.join .join .wait .wait_for .wait_until .timed_wait", acts=_WAITS),
-    OutcomeRule("std::future.wait_for std::atomic.wait std::promise.get_future", acts=_WAITS),
-    OutcomeRule("std::cin cin std::wcin stdin", "sys.stdin", acts=_WAITS),
-    OutcomeRule(python=".acquire .wait .result", acts=_WAITS),
+    OutcomeRule("getchar getc fgetc gets fgets scanf fscanf getline getch getpass", acts=WAITS),
+    OutcomeRule("std::condition_variable.wait std::condition_variable.wait_for", acts=WAITS),
+    OutcomeRule("std::condition_variable.wait_until std::future.get std::future.wait", acts=WAITS),
+    OutcomeRule("std::mutex.lock std::unique_lock.lock pthread_mutex_lock", acts=WAITS),
+    OutcomeRule("std::thread.join .join .wait .wait_for .wait_until .timed_wait", acts=WAITS),
+    OutcomeRule("std::future.wait_for std::atomic.wait std::promise.get_future", acts=WAITS),
+    OutcomeRule("std::cin cin std::wcin stdin", "sys.stdin", acts=WAITS),
+    OutcomeRule(python=".acquire .wait .result", acts=WAITS),
     OutcomeRule(
-        python=".recv .recvfrom .accept .connect .sendall", raises="builtins.OSError", acts=_WAITS
+        python=".recv .recvfrom .accept .connect .sendall", raises="builtins.OSError", acts=WAITS
     ),
-    OutcomeRule(python="threading.Lock.acquire queue.Queue.get queue.Queue.put", acts=_WAITS),
-    OutcomeRule(python="queue.Queue.join .communicate .readexactly .serve_forever", acts=_WAITS),
+    OutcomeRule(python="queue.Queue.join .communicate .readexactly .serve_forever", acts=WAITS),
     OutcomeRule(
         python="sys.exit builtins.exit builtins.quit os._exit os.abort", acts="ends the node"
     ),
-    OutcomeRule(python="builtins.input sys.stdin.readline sys.stdin.read", acts=_WAITS),
+    OutcomeRule(python="builtins.input sys.stdin.readline sys.stdin.read", acts=WAITS),
     OutcomeRule(
         python="builtins.eval builtins.exec builtins.getattr builtins.setattr", acts=_ANYTHING
     ),

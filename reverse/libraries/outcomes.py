@@ -12,7 +12,13 @@ import sys
 from collections.abc import Iterable, Mapping
 
 from rebsync.records import dataclass
-from rebsync.reverse.libraries import cpp, outcome_classes, outcome_rules, python
+from rebsync.reverse.libraries import (
+    cpp,
+    outcome_classes,
+    outcome_rules,
+    python,
+    python_outcomes,
+)
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.outcome_rules import Raises, Size, Tells
 from rebsync.reverse.libraries.registry import derived
@@ -22,7 +28,9 @@ _LOOKS = frozenset(
     {*(Effect.NONE, Effect.CLOCK, Effect.LOGS, Effect.READS, Effect.RANDOM), Effect.CHANGES}
 )
 _UNKNOWN = "nothing is known of it"
-_ANY_EXCEPTION = frozenset({"builtins.Exception"})  # what Python may raise of which no more is known
+_ANY_EXCEPTION = frozenset(
+    {"builtins.Exception"}
+)  # what Python may raise of which no more is known
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +150,7 @@ class LibraryOutcomes:
 @derived
 def _named(language: Language) -> Mapping[str, CallOutcome]:
     found: dict[str, CallOutcome] = {}
-    for rule in outcome_rules.RULES:
+    for rule in (*outcome_rules.RULES, *python_outcomes.MODULES):
         for name in (rule.cpp if language is Language.CPP else rule.python).split():
             found[name] = CallOutcome(
                 frozenset(rule.raises.split()),
