@@ -8,10 +8,11 @@ of the function by its parameters, which each call evaluates with what it gives 
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import dropwhile, takewhile
 
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
-from rebsync.reverse.analysis.problems import Given, Problem
+from rebsync.reverse.analysis.problems import ParameterNeed, Problem
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, ParameterKind
@@ -32,7 +33,8 @@ class GivenArguments:
         self._facts = facts
         self._called = called
         self._values = _bound(call, called)
-        self._is_whole = not any(a.stars for a in call.arguments)
+        behind = dropwhile(lambda a: not a.stars, call.arguments)
+        self._behind = [a.value for a in behind if a.name is None and not a.stars]
 
     def __call__(self, problem: Problem) -> frozenset[Problem]:
         """What a problem of the function is for the one that calls it."""
@@ -42,7 +44,8 @@ class GivenArguments:
         if problem.given.size:
             return self._sized(problem, problem.given)
         if name not in self._values:
-            is_none = self._is_whole and self._none.is_default(self._called.name, name)
+            is_none = self._none.is_default(self._called.name, name)
+            is_none |= any(self._none.may_be(value, self._facts) for value in self._behind)
             return frozenset({problem.of_call()} if is_none else ())
         value = self._values[name]
         if self._none.may_be(value, self._facts):
@@ -50,7 +53,7 @@ class GivenArguments:
         given = self._none.given(value, self._facts)
         return frozenset() if given is None else frozenset({replace(problem, given=given)})
 
-    def _sized(self, problem: Problem, given: Given) -> frozenset[Problem]:
+    def _sized(self, problem: Problem, given: ParameterNeed) -> frozenset[Problem]:
         """What a problem is that is one where there are too few elements."""
         value = self._values.get(given.parameter)
         if value is None:
@@ -76,6 +79,7 @@ def _bound(call: s.Call | s.Construct, called: Function) -> dict[str, e.Expressi
     is_function = isinstance(call, s.Call) and isinstance(call.callee, s.FunctionCallee)
     if called.receiver is not None and not is_function:
         places = [name for name in places if name != called.receiver]
-    by_place = [a.value for a in call.arguments if a.name is None and not a.stars]
+    first = takewhile(lambda a: not a.stars, call.arguments)  # behind these no place is known
+    by_place = [a.value for a in first if a.name is None]
     by_name = {a.name: a.value for a in call.arguments if a.name is not None}
     return {**dict(zip(places, by_place, strict=False)), **by_name}

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from rebsync.reverse.analysis.facts import Facts, Holds, IsThere, names_of, tested
 from rebsync.reverse.analysis.origins import LibraryOrigin
-from rebsync.reverse.analysis.problems import Given, ProblemNotes
+from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, Member, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -46,13 +46,13 @@ class NoneValues:
         elif (given := self.given(value, facts)) is not None:
             self._notes.fails(node, failure, given)
 
-    def given(self, value: e.Expression, facts: Facts) -> Given | None:
+    def given(self, value: e.Expression, facts: Facts) -> ParameterNeed | None:
         """The parameter of the function that a value is, if nothing says that it is not None."""
         is_known = any(fact in facts for fact in (Holds(value), IsThere(value)))
         if is_known or not isinstance(value, e.Local) or not self._notes.is_parameter(value):
             return None
         is_own = value.name == self._notes.function.receiver
-        return None if is_own else Given(self._name, value.name)
+        return None if is_own else ParameterNeed(self._name, value.name)
 
     def is_default(self, function: str, parameter: str) -> bool:
         """Whether a parameter is None where no argument is for it."""

@@ -17,7 +17,7 @@ from rebsync.reverse.analysis.foreign_values import ForeignValues
 from rebsync.reverse.analysis.least_numbers import LeastNumbers
 from rebsync.reverse.analysis.none_values import NoneValues
 from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origin
-from rebsync.reverse.analysis.problems import Given, ProblemNotes
+from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.signs import Signs
 from rebsync.reverse.analysis.stores import AnyValue, key_of
 from rebsync.reverse.analysis.unset_names import UnsetNames
@@ -247,14 +247,14 @@ class OutcomeExpressions:
         """Whether a value is a container that has its elements at numbers."""
         return self._is_of(self.origins.of(value, self.function), *_SEQUENCES)
 
-    def sized_by_caller(self, container: e.Expression, size: int) -> Given | None:
+    def sized_by_caller(self, container: e.Expression, size: int) -> ParameterNeed | None:
         """That it is up to those who call the function whether a container has so many elements."""
         is_known = self.notes.table.language is Language.PYTHON and size > 0
         if not (is_known and isinstance(container, e.Local) and self.notes.is_parameter(container)):
             return None
         key = key_of(container, self.function)
         is_changed = key is None or len(self.origins.graph.stores.of(key)) > 1
-        return None if is_changed else Given(self.function, container.name, size)
+        return None if is_changed else ParameterNeed(self.function, container.name, size)
 
     # --- elements --------------------------------------------------------------------------------
 

@@ -18,7 +18,7 @@ TERMINATES = "std::terminate"  # what an exception becomes that would leave a `n
 
 
 @dataclass(frozen=True, slots=True)
-class Given:
+class ParameterNeed:
     """A parameter for which a function may get None, or (`size`) fewer elements than so many."""
 
     function: str
@@ -39,7 +39,7 @@ class Problem:
     place: Span
     why: str
     raises: str = ""
-    given: Given | None = None
+    given: ParameterNeed | None = None
     is_of_call: bool = False
 
     def of_call(self) -> Problem:
@@ -102,14 +102,14 @@ class ProblemNotes:
         node: s.Statement | e.Expression,
         why: str,
         raises: str = "",
-        given: Given | None = None,
+        given: ParameterNeed | None = None,
     ) -> None:
         """Notes what may happen at a place, or does where something is given."""
         place = getattr(node, "place", self.function.place)
         self.found.add(Problem(self.function.name, place, why, raises, given))
 
     def fails(
-        self, node: s.Statement | e.Expression, failure: str, given: Given | None = None
+        self, node: s.Statement | e.Expression, failure: str, given: ParameterNeed | None = None
     ) -> None:
         """Notes that an operation may raise what the language raises for a failure."""
         raises = self.table.of_failure(failure)
