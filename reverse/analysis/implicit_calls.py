@@ -14,6 +14,7 @@ from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import Node, parts
 
 _CONTAINED = (Operator.IN, Operator.NOT_IN)
+_EQUALITY = (Operator.EQUAL, Operator.UNEQUAL)
 _COMPARED = COMPARISONS - {Operator.SAME, Operator.NOT_SAME, *_CONTAINED}
 _ITERATED = (ImplicitCall.ITERATE, ImplicitCall.NEXT)
 # What compares elements of containers, in Python.
@@ -121,7 +122,10 @@ class _Visitor:
 
     def _binary(self, operator: Operator) -> None:
         """An operator of classes; containers apply it to their elements."""
-        self._runs(*(_COMPARED if operator in _COMPARED else (operator,)))
+        if operator in _EQUALITY:
+            self._runs(*_EQUALITY)
+        else:
+            self._runs(*(_COMPARED if operator in _COMPARED else (operator,)))
         if operator in _CONTAINED:
             self._runs(*_CONTAINED, *_COMPARED)
             self._iterates()
