@@ -22,7 +22,9 @@ from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcome_rules import Size, Tells
 
 _LIMIT = 8  # sizes from here on are one
-_SPLITTING = frozenset({"split", "rsplit"})  # by a text: there is always a first part
+# Parts that texts have, whatever is in them: of `split`, by a text, there is always a first one.
+_PARTS_OF_TEXT = {"split": 1, "rsplit": 1, "partition": 3, "rpartition": 3}
+_PAIRS = frozenset({"builtins.divmod", "os.path.split", "os.path.splitext", "math.modf"})
 _OF_OBJECT = frozenset({"builtins.getattr"})  # they give methods of their first argument
 
 
@@ -78,18 +80,24 @@ class ElementCounts:
     def _stored_size(self, stored: Stored, assumed: dict[Key, int]) -> int:
         function, value = stored
         match value:
+            case CallResult(s.Call(_, s.LibraryCallee(name))) if name in _PAIRS:
+                return 2
             case CallResult(s.Call(_, s.LibraryCallee(name), arguments)) if arguments:
                 copies = self.table.function(name).tells is Tells.SAME
                 size = self._size(arguments[0].value, function, assumed) if copies else 0
                 return min(size, self._bound_of(arguments, function))
-            case CallResult(s.Call(_, s.MethodCallee(_, name), (_, *_))) if name in _SPLITTING:
-                return 1
+            case CallResult(s.Call(_, s.MethodCallee(_, name), (_, *_))) if self._is_of_text(name):
+                return _PARTS_OF_TEXT[name]
             case CallResult(call):
                 return min((self._size(v, f, assumed) for f, v in self._results(call)), default=0)
             case AnyValue() | ClassValue() | ObjectValue():
                 return 0
             case _:
                 return self._size(value, function, assumed)
+
+    def _is_of_text(self, method: str) -> bool:
+        """Whether a method is one of texts that tells how many parts there are, and of no other."""
+        return method in _PARTS_OF_TEXT and not self.origins.methods_of_any(method)
 
     def bound(self, value: e.Expression, function: str) -> int:
         """How many elements a container may always have."""

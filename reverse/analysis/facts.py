@@ -90,7 +90,7 @@ class Implies:
 
     value: e.Expression
     is_true: bool
-    fact: HasSize | HasKey
+    fact: HasSize | HasKey | IsThere
 
 
 Fact: TypeAlias = (

@@ -26,9 +26,9 @@ class Handlers:
         caught, passed = set[Problem | Called](), set[Problem | Called]()
         for each in raised:
             match each:
-                case Called(name, tests):
-                    caught.add(Called(name, (*tests, catches)))
-                    passed.add(Called(name, (*tests, passes)))
+                case Called(name, tests, gives):
+                    caught.add(Called(name, (*tests, catches), gives))
+                    passed.add(Called(name, (*tests, passes), gives))
                 case Problem():
                     (caught if catches(each) else passed).add(each)
         return caught, passed

@@ -13,8 +13,16 @@ from rebsync.reverse.ir.operators import COMPARISONS, ImplicitCall, Operator
 from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import Node, parts
 
-_COMPARED = frozenset(o for o in COMPARISONS if o not in (Operator.SAME, Operator.NOT_SAME))
+_CONTAINED = (Operator.IN, Operator.NOT_IN)
+_EQUALITY = (Operator.EQUAL, Operator.UNEQUAL)
+_COMPARED = COMPARISONS - {Operator.SAME, Operator.NOT_SAME, *_CONTAINED}
 _ITERATED = (ImplicitCall.ITERATE, ImplicitCall.NEXT)
+# What compares elements of containers, in Python.
+_COMPARING = frozenset(
+    {"sort", "sorted", "max", "min", "index", "remove", "count", "insort", "insort_left"}
+    | {"insort_right", "bisect", "bisect_left", "bisect_right", "heappush", "heappop", "heapify"}
+    | {"heapreplace", "heappushpop", "nlargest", "nsmallest", "merge"}
+)
 _KEYS = (ImplicitCall.HASH, Operator.EQUAL)
 
 
@@ -114,19 +122,24 @@ class _Visitor:
 
     def _binary(self, operator: Operator) -> None:
         """An operator of classes; containers apply it to their elements."""
-        self._runs(*(_COMPARED if operator in _COMPARED else (operator,)))
-        if operator in (Operator.IN, Operator.NOT_IN):
+        if operator in _EQUALITY:
+            self._runs(*_EQUALITY)
+        else:
+            self._runs(*(_COMPARED if operator in _COMPARED else (operator,)))
+        if operator in _CONTAINED:
+            self._runs(*_CONTAINED, *_COMPARED)
             self._iterates()
             self._runs(*_KEYS)
         self._runs(ImplicitCall.TEXT, ImplicitCall.NUMBER)
 
     def _statement(self, node: Node) -> None:
         match node:
-            case s.CompoundAssign(target, operator, _, dynamic):
+            case s.CompoundAssign(target, operator, value, dynamic):
                 self.visit(target)
                 if dynamic:
                     self._binary(operator)
-                    self._iterates()
+                    if not isinstance(value, e.Literal):  # a list takes what one goes through
+                        self._iterates()
             case s.ForEach() | s.Yield():
                 self._iterates()
             case s.Await():
@@ -163,6 +176,10 @@ class _Visitor:
             self._iterates()
         if isinstance(node.callee, s.MethodCallee) and node.callee.dynamic:
             self._gets(node.callee.name)
+        called = node.callee
+        name = called.name if isinstance(called, s.MethodCallee | s.LibraryCallee) else ""
+        if name.rpartition(".")[2] in _COMPARING:
+            self._runs(*_COMPARED)
         self._runs(ImplicitCall.CALL)
 
 

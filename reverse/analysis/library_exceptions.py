@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Literal, TypeAlias
+
 from rebsync.reverse.analysis.facts import Facts, HasKey, bare, names_of
 from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
-from rebsync.reverse.analysis.origins import ANYTHING, LibraryOrigin, Origin, PlainOrigin
+from rebsync.reverse.analysis.origins import PlainOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.stores import CallResult, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
 from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.unions import assert_never
+
+
+def _is_positive(value: object) -> bool:
+    return isinstance(value, int | float) and value > 0
+
+
+_OfNumbers: TypeAlias = Literal[Raises.NEGATIVE, Raises.ZERO_SECOND, Raises.ZERO_STEP, Raises.POWER]
+_WHOLE = (["utf-8"], ["utf8"], ["UTF-8"])  # encodings that have all characters
 
 
 class LibraryExceptions:
@@ -32,7 +41,7 @@ class LibraryExceptions:
     ) -> frozenset[str]:
         """The exceptions that a call of a library may raise, by what it gets."""
         plain = [a.value for a in node.arguments if a.name is None]
-        if receiver is not None and self._is_foreign(receiver):
+        if receiver is not None and self.expressions.foreign.has(receiver, self.function):
             return frozenset()
         raised = outcome.raises if self._may_raise(node, outcome.when, facts) else frozenset()
         of = receiver
@@ -48,32 +57,6 @@ class LibraryExceptions:
         if is_many or (of is not None and self.expressions.size(of, facts)):
             return raised
         return raised | outcome.empty
-
-    def _is_foreign(self, value: e.Expression) -> bool:
-        """Whether a value is of a library that no table knows, or a part of what it made."""
-        if not self.table.trusts_others:
-            return False
-        held = self.origins.of(value, self.function)
-        if held != ANYTHING:
-            return all(map(self._is_object_of_others, held))
-        key = key_of(value, self.function)
-        stored = [v for _, v in self.origins.graph.stores.of(key)] if key is not None else []
-        match value:
-            case e.Attribute(of) if not stored:
-                return self._is_foreign(of)
-            case e.Temporary():
-                calls = [v.call.callee for v in stored if isinstance(v, CallResult)]
-                methods = [c for c in calls if isinstance(c, s.MethodCallee)]
-                return len(methods) == len(stored) > 0 and all(
-                    self._is_foreign(c.receiver) for c in methods
-                )
-            case _:
-                return False
-
-    def _is_object_of_others(self, origin: Origin) -> bool:
-        if not isinstance(origin, LibraryOrigin) or not origin.of_object:
-            return False
-        return origin.name not in PLAIN_CLASSES and not self.table.is_standard(origin.name)
 
     def _may_raise(self, node: s.Call, when: Raises, facts: Facts) -> bool:
         """Whether a call gets arguments for which its rule says that it raises."""
@@ -91,20 +74,21 @@ class LibraryExceptions:
                 return len(values) < 2 and not self._is_there(node, facts)
             case Raises.ABSENT:
                 return len(values) > 1 or not self._is_there(node, facts)
-            case Raises.NEGATIVE:
-                return not all(self.expressions.is_positive(v, facts) for v in values[:1])
+            case Raises.NEGATIVE | Raises.ZERO_SECOND | Raises.ZERO_STEP | Raises.POWER:
+                return not self._are_numbers(values, when, facts)
             case Raises.COUNT:
                 return self._is_count(node, facts)
             case Raises.PART:
                 return takes_part(node) or self._is_count(node, facts)
             case Raises.POSITION:
                 return bool(values) and is_position(bare(values[0]))
-            case Raises.ZERO_STEP:
-                return not all(self.expressions.is_nonzero(v, facts) for v in values[2:])
             case Raises.TEXT:
-                return not all(map(self._is_number, values[:1]))
+                first = values[:1]
+                return not all(self._is_number(v) or self._is_of_number(v, float) for v in first)
             case Raises.INFINITE:
                 is_finite = Magnitudes(self.origins, self.function).is_finite
+                if all(self._is_of_number(v, int) for v in values[:1]):
+                    return False
                 return not all(self._is_number(v) and is_finite(v) for v in values[:1])
             case Raises.COMPUTED:
                 return not all(map(self.expressions.is_written, values))
@@ -112,8 +96,27 @@ class LibraryExceptions:
                 return len(values) < 3 and not any(
                     self.expressions.size(v, facts) for v in values[1:]
                 )
+            case Raises.CODED:
+                return any(self.expressions.texts(v) not in _WHOLE for v in values)
+            case Raises.UNWRITTEN:
+                return not all(map(self.expressions.texts, values[:1]))
             case Raises.UNORDERED:
                 return not self._are_ordered(values, facts)
+            case _:
+                assert_never(when)
+
+    def _are_numbers(self, values: Sequence[e.Expression], when: _OfNumbers, facts: Facts) -> bool:
+        """Whether the arguments are numbers for which a rule says that a call does not raise."""
+        match when:
+            case Raises.NEGATIVE:
+                return all(self.expressions.is_positive(v, facts) for v in values[:1])
+            case Raises.ZERO_SECOND:
+                return all(self.expressions.is_nonzero(v, facts) for v in values[1:2])
+            case Raises.ZERO_STEP:
+                return all(self.expressions.is_nonzero(v, facts) for v in values[2:])
+            case Raises.POWER:
+                numbers = [bare(v) for v in values[1:2]]
+                return all(isinstance(v, e.Literal) and _is_positive(v.value) for v in numbers)
             case _:
                 assert_never(when)
 
@@ -128,6 +131,14 @@ class LibraryExceptions:
     def _is_number(self, value: e.Expression) -> bool:
         """Whether a value is a number by how it is computed."""
         return self.origins.of(value, self.function) == {PlainOrigin()}
+
+    def _is_of_number(self, value: e.Expression, kind: type[int] | type[float]) -> bool:
+        """Whether a value is one of some texts in the source, which are those of numbers."""
+        texts = self.expressions.texts(value)
+        try:
+            return bool(texts) and all(isinstance(kind(text), kind) for text in texts)
+        except ValueError:
+            return False
 
     def _is_count(self, node: s.Call, facts: Facts) -> bool:
         """Whether a call gets a number of elements that may be negative."""

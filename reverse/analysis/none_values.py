@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from rebsync.reverse.analysis.facts import Facts, Holds, IsThere, names_of, tested
 from rebsync.reverse.analysis.origins import LibraryOrigin
-from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, Member, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -29,6 +29,7 @@ class NoneValues:
         self._origins = notes.origins
         self._graph = notes.origins.graph
         self._name = notes.function.name
+        self._loops: list[s.ForEach] | None = None
 
     def check(
         self,
@@ -38,8 +39,29 @@ class NoneValues:
         failure: str = "is None",
     ) -> None:
         """Notes that something is asked of a value that None has not."""
-        if self._notes.table.language is Language.PYTHON and self.may_be(value, facts):
+        if self._notes.table.language is not Language.PYTHON:
+            return
+        if self.may_be(value, facts):
             self._notes.fails(node, failure)
+        elif (given := self.given(value, facts)) is not None:
+            self._notes.fails(node, failure, given)
+
+    def given(self, value: e.Expression, facts: Facts) -> ParameterNeed | None:
+        """The parameter of the function that a value is, if nothing says that it is not None."""
+        is_known = any(fact in facts for fact in (Holds(value), IsThere(value)))
+        if is_known or not isinstance(value, e.Local) or not self._notes.is_parameter(value):
+            return None
+        is_own = value.name == self._notes.function.receiver
+        return None if is_own else ParameterNeed(self._name, value.name)
+
+    def is_default(self, function: str, parameter: str) -> bool:
+        """Whether a parameter is None where no argument is for it."""
+        return parameter in self._graph.stores.absent_by_default.get(function, ())
+
+    def has_none(self, container: e.Expression) -> bool:
+        """Whether None may be stored in a container as an element."""
+        key = key_of(container, self._name)
+        return key is not None and key in self._graph.stores.holding_none
 
     def may_be(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a value may be None."""
@@ -71,11 +93,21 @@ class NoneValues:
         """The functions that store None under the name of a value."""
         if isinstance(value, e.Literal) and value.value is None:
             yield self._name
+        if isinstance(value, e.Index) and self.has_none(value.object):
+            yield self._name
+        if isinstance(value, e.Local) and any(map(self.has_none, self._gone_through(value))):
+            yield self._name
         key = key_of(value, self._name)
         stored = self._graph.stores.of(key) if key is not None else ()
         for each in stored:
             if self._is_nothing(each, 0) and not self._is_of_other(value, key, each[0]):
                 yield each[0]
+
+    def _gone_through(self, element: e.Local) -> Iterator[e.Expression]:
+        """The containers of which a variable of the function is an element in a loop."""
+        if self._loops is None:
+            self._loops = [n for n in walk(self._notes.function) if isinstance(n, s.ForEach)]
+        return (loop.iterable for loop in self._loops if loop.target == element)
 
     def _is_of_other(self, value: e.Expression, key: object, function: str) -> bool:
         """Whether what a function stores is an attribute of its own object, of another class."""
@@ -120,10 +152,18 @@ class NoneValues:
                 return len(call.arguments) < 2 or not name.endswith("get")
             case s.MethodCallee(receiver, "get") if len(call.arguments) == 1:
                 return self._origins.of(receiver, function) == {LibraryOrigin("dict", True)}
+            case s.MethodCallee(receiver, name) if self._may_give_none(receiver, name, function):
+                return True
             case callee:
                 around = self._graph.program.function(function)
                 called = self._graph.callee(callee, around).functions
         return depth < _DEEPEST and any(self._returns_nothing(name, depth + 1) for name in called)
+
+    def _may_give_none(self, receiver: e.Expression, method: str, function: str) -> bool:
+        """Whether a method of a library may give None, by the class of its object."""
+        held = self._origins.of(receiver, function)
+        classes = (o.name for o in held if isinstance(o, LibraryOrigin) and o.of_object)
+        return any(self._notes.table.method(each, method).may_be_none for each in classes)
 
     def _returns_nothing(self, name: str, depth: int) -> bool:
         function = self._graph.program.function(name)

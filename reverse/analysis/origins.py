@@ -281,6 +281,19 @@ class Origins:
         return frozenset(n.name for n in nodes if isinstance(n, e.Attribute))
 
     @cached_property
+    def naming(self) -> dict[str, frozenset[str]]:
+        """By each name of an attribute the functions that read or call it."""
+        found: dict[str, set[str]] = {}
+        for function in self.graph.program.functions:
+            for node in walk(self.graph.program.function(function)):
+                match node:
+                    case e.Attribute(_, name) | s.Call(_, s.MethodCallee(_, name)):
+                        found.setdefault(name, set()).add(function)
+                    case _:
+                        pass
+        return {name: frozenset(functions) for name, functions in found.items()}
+
+    @cached_property
     def sets_by_text(self) -> bool:
         """Whether code of Python sets attributes whose names it computes."""
         return any(

@@ -11,6 +11,7 @@ from rebsync.reverse.analysis.facts import (
     without_shared,
 )
 from rebsync.reverse.analysis.format_strings import has_pieces
+from rebsync.reverse.analysis.given_arguments import GivenArguments
 from rebsync.reverse.analysis.library_exceptions import LibraryExceptions
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
@@ -56,6 +57,11 @@ _OF_NUMBERS = frozenset(
 _UNKNOWN = "what is called is not known"
 
 
+def _is_constant(name: str) -> bool:
+    """Whether a name of a library is written as those of constants are."""
+    return name.rpartition(".")[2].isupper()
+
+
 class OutcomeCalls:
     """Calls in one function."""
 
@@ -71,9 +77,11 @@ class OutcomeCalls:
         self._exceptions = LibraryExceptions(notes, expressions)
         self.origins = notes.origins
         self.function = notes.function.name
+        self._here: Facts = frozenset()  # what is known where the call stands
 
     def call(self, node: s.Call, facts: Facts) -> Facts:
         """Notes what a call may do, and gives what is known after it."""
+        self._here = facts
         self._arguments(node, facts)
         match node.callee:
             case s.FunctionCallee(name):
@@ -105,6 +113,7 @@ class OutcomeCalls:
 
     def construct(self, node: s.Construct, facts: Facts) -> Facts:
         """Notes what making an object of a class of the program may do."""
+        self._here = facts
         for argument in node.arguments:
             self.expressions.check(argument.value, facts)
         if node.constructor is not None:
@@ -140,6 +149,17 @@ class OutcomeCalls:
         """A function of the program runs."""
         if self.notes.is_model(name):
             self.notes.problem(node, f'"{name.rpartition("/")[2]}" is the model\'s')
+        elif isinstance(node, s.Call | s.Construct):
+            called = self.origins.graph.program.function(name)
+            gives = GivenArguments(self.expressions, node, called, self._here)
+            self.notes.take({Called(name, (), gives)})
+        else:
+            self.notes.take({Called(name)})
+
+    def _hands(self, node: s.Statement, name: str) -> None:
+        """A function is handed over, and may run with other arguments than those of the call."""
+        if self.notes.is_model(name):
+            self._enters(node, name)
         else:
             self.notes.take({Called(name)})
 
@@ -167,10 +187,10 @@ class OutcomeCalls:
                     case FunctionOrigin(name):
                         known = self.notes.elements.get(name, 0)
                         self.notes.elements[name] = max(known, *sizes)
-                        self._enters(node, name)
+                        self._hands(node, name)
                     case ClassOrigin(name, False) if not keeps:
                         self._makes(node, name)
-                    case LibraryOrigin(name, False) if not keeps:
+                    case LibraryOrigin(name, False) if not keeps and not _is_constant(name):
                         outcome = self.notes.table.function(name)
                         self._library(node, name, outcome, None, facts)
                     case _:
@@ -208,6 +228,9 @@ class OutcomeCalls:
                 self._library(node, name, self.notes.table.function(name), None, facts)
             case LibraryOrigin(name) if not self.notes.table.is_standard(name):
                 pass
+            case LibraryOrigin(name) if self.notes.table.has_methods_of(name):
+                outcome = self.notes.table.method(name, "__call__")
+                self._library(node, name, outcome, None, facts)
             case _:
                 # What a function gets was looked at where it was handed over.
                 if not self.notes.is_parameter(value):
@@ -255,9 +278,26 @@ class OutcomeCalls:
                 outcome = self.notes.table.method(callee.declared, callee.name)
                 self._library(node, callee.name, outcome, callee.receiver, facts)
             return
+        if callee.after is not None:
+            self._of_base(node, callee, callee.after, facts)
+            return
         held = self.origins.of(callee.receiver, self.function)
         for origin in sorted(held, key=str):
             self._of_object(node, callee, origin, facts)
+
+    def _of_base(self, node: s.Call, callee: s.MethodCallee, after: str, facts: Facts) -> None:
+        """A method that comes after those of a class, in the order of its bases or another's."""
+        graph = self.origins.graph
+        family = graph.family(after) - graph.subclasses.get(after, {after})
+        classes = (graph.program.classes.get(name) for name in family)
+        own = [f for c in classes if c is not None for n, f in c.methods if n == callee.name]
+        for name in sorted(own):
+            self._enters(node, name)
+        for base in sorted(family - graph.program.classes.keys()):
+            table = self.notes.table
+            makes = callee.name == "__init__"
+            outcome = table.function(base) if makes else table.method(base, callee.name)
+            self._library(node, callee.name, outcome, callee.receiver, facts)
 
     def _of_object(
         self, node: s.Call, callee: s.MethodCallee, origin: Origin, facts: Facts

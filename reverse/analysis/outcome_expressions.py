@@ -14,14 +14,15 @@ from rebsync.reverse.analysis.facts import (
     size_of,
     tested,
 )
+from rebsync.reverse.analysis.foreign_values import ForeignValues
+from rebsync.reverse.analysis.least_numbers import LeastNumbers
 from rebsync.reverse.analysis.none_values import NoneValues
 from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origin
-from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.signs import Signs
-from rebsync.reverse.analysis.stores import AnyValue, CallResult, TemporaryVariable, key_of
+from rebsync.reverse.analysis.stores import AnyValue, key_of
 from rebsync.reverse.analysis.unset_names import UnsetNames
 from rebsync.reverse.ir import expressions as e
-from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.walk import parts
@@ -34,13 +35,13 @@ _DIVIDING = frozenset(
         *(Operator.TRUNCATING_DIVIDE, Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER),
     }
 )
-_LEAST = frozenset({"INT32_MIN", "INT64_MIN", "INT_MIN", "LONG_MIN", "LLONG_MIN"})
 # Operators that None has too.
 _ASKING_NONE = frozenset(
     {Operator.SAME, Operator.NOT_SAME, Operator.EQUAL, Operator.UNEQUAL}
     | {Operator.IN, Operator.NOT_IN}
 )
 _INDEXING = ("__getitem__", "__class_getitem__")
+_SEQUENCES = ("list", "tuple", "deque", "str")
 _MODULO = (Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER)
 
 
@@ -55,6 +56,7 @@ class OutcomeExpressions:
         self._constants = ConstantNumbers(notes.origins, notes.function.name)
         self.none = NoneValues(notes)
         self._unset = UnsetNames(notes)
+        self.foreign = ForeignValues(notes.origins)
 
     def check(self, value: e.Expression, facts: Facts) -> None:
         """Notes what evaluating an expression may do."""
@@ -144,38 +146,15 @@ class OutcomeExpressions:
         if value.operator is Operator.FLOOR_MODULO and self.is_text(left):
             return
         if not self.is_nonzero(right, facts) and not self._constants.of(right):
-            self.notes.fails(value, "divides by zero")
-        if is_cpp and self._is_least(left) and not self.is_positive(right, facts):
+            sizes = [f for f in facts if isinstance(f, IsSize) and f.value == bare(right)]
+            given = [g for f in sizes if (g := self.sized_by_caller(f.container, 1)) is not None]
+            self.notes.fails(value, "divides by zero", next(iter(given), None))
+        if (
+            is_cpp
+            and LeastNumbers(self.origins, self.function).may_be(left)
+            and not self.is_positive(right, facts)
+        ):
             self.notes.fails(value, "divides the least number by -1")
-
-    def _is_least(self, value: e.Expression) -> bool:
-        """Whether a number may be one that is written as the least of its type."""
-        match bare(value):
-            case e.LibraryReference(name):
-                return name.rpartition("::")[2] in _LEAST
-            case e.Literal(int() as number):
-                return number in (-(1 << 31), -(1 << 63))
-            case e.Unary(Operator.NEGATE, e.Literal(int() as number)):
-                return number in (1 << 31, 1 << 63)
-            case inner:
-                key = key_of(inner, self.function)
-        stored = self.origins.graph.stores.of(key) if key is not None else []
-        return any(self._is_least_stored(v) for _, v in stored)
-
-    def _is_least_stored(self, value: object) -> bool:
-        while isinstance(value, e.Convert):
-            value = value.operand
-        match value:
-            case CallResult(s.Call(_, s.LibraryCallee(name))):
-                return name.endswith(("::min", "::lowest")) and "numeric_limits" in name
-            case e.Literal() | e.Unary() | e.LibraryReference():
-                return self._is_least(value)
-            case e.Temporary(number):
-                key = TemporaryVariable(self.function, number)
-                stored = [v for _, v in self.origins.graph.stores.of(key)]
-                return any(self._is_least_stored(v) for v in stored if isinstance(v, CallResult))
-            case _:
-                return False
 
     def _computes(self, value: e.Binary, facts: Facts) -> None:
         """Shifts and powers: by a negative number, or greater than any float."""
@@ -268,6 +247,19 @@ class OutcomeExpressions:
             for v in values
         )
 
+    def is_sequence(self, value: e.Expression) -> bool:
+        """Whether a value is a container that has its elements at numbers."""
+        return self._is_of(self.origins.of(value, self.function), *_SEQUENCES)
+
+    def sized_by_caller(self, container: e.Expression, size: int) -> ParameterNeed | None:
+        """That it is up to those who call the function whether a container has so many elements."""
+        is_known = self.notes.table.language is Language.PYTHON and size > 0
+        if not (is_known and isinstance(container, e.Local) and self.notes.is_parameter(container)):
+            return None
+        key = key_of(container, self.function)
+        is_changed = key is None or len(self.origins.graph.stores.of(key)) > 1
+        return None if is_changed else ParameterNeed(self.function, container.name, size)
+
     # --- elements --------------------------------------------------------------------------------
 
     def size(self, container: e.Expression, facts: Facts) -> int:
@@ -287,6 +279,8 @@ class OutcomeExpressions:
         kinds = self.origins.of(value.object, self.function)
         if all(self._is_foreign(kind) or self._answers(kind) for kind in kinds):
             return
+        if isinstance(value.index, e.Literal) and self.foreign.has(value.object, self.function):
+            return
         is_mapping = self._is_of(kinds, "dict") or _is_typed_mapping(value.object)
         if self._is_of(kinds, "dict", "defaultdict"):
             literal = isinstance(value.index, e.Literal)
@@ -296,9 +290,12 @@ class OutcomeExpressions:
                 return
         if not is_mapping and self._is_within(value, facts):
             return
-        self.notes.fails(value, "lacks the key" if is_mapping else "lacks the element")
+        at = value.index.value if isinstance(value.index, e.Literal) else None
+        given = self.sized_by_caller(value.object, at + 1) if isinstance(at, int) else None
+        given = None if is_mapping or AnyOrigin() not in kinds else given
+        self.notes.fails(value, "lacks the key" if is_mapping else "lacks the element", given)
         if AnyOrigin() in kinds and not is_mapping and value.from_end:
-            self.notes.fails(value, "lacks the key")
+            self.notes.fails(value, "lacks the key", given)
 
     def _is_foreign(self, kind: Origin) -> bool:
         """Whether a value is an object of a library that no table has to know."""

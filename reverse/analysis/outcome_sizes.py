@@ -10,6 +10,7 @@ from rebsync.reverse.analysis.facts import (
     Implies,
     IsBelow,
     IsSize,
+    IsThere,
     bare,
     size_of,
     sized,
@@ -90,6 +91,8 @@ class OutcomeSizes:
                 return frozenset({Implies(node.target, False, HasSize(of, 1))})
             case Tells.HAS if first is not None:
                 return frozenset({Implies(node.target, True, HasKey(of, first))})
+            case Tells.OBJECT:
+                return frozenset({Implies(node.target, True, IsThere(of))})
             case Tells.SAME:
                 return sized(node.target, self.expressions.size(of, facts))
             case Tells.RANGE if len(node.arguments) == 1:

@@ -321,7 +321,9 @@ class OutcomeWalk:
         size = self.notes.counts.elements(node.iterable, self.name)
         if self.notes.is_parameter(node.iterable):
             size = max(size, self.notes.elements.get(self.name, 0))
-        known = {*sized(node.target, size), IsBound(node.target), IsThere(node.target)}
+        known = {*sized(node.target, size), IsBound(node.target)}
+        if not self._expressions.none.has_none(node.iterable):
+            known.add(IsThere(node.target))
         for fact in inside:
             if isinstance(fact, IsSize) and fact.value == node.iterable:
                 known.add(HasKey(fact.container, node.target))

@@ -20,12 +20,14 @@ from rebsync.reverse.analysis.element_counts import ElementCounts
 from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.facts import NO_FACTS
 from rebsync.reverse.analysis.fixpoint import Equation, LeastFixpoint, in_cycles
+from rebsync.reverse.analysis.given_arguments import with_none
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcome_statements import ENDLESS, OutcomeWalk
 from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
 from rebsync.reverse.analysis.silent_calls import SilentCalls
+from rebsync.reverse.analysis.unset_names import LACKS, UNSET
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
@@ -35,6 +37,7 @@ from rebsync.reverse.libraries.outcome_classes import TERMINATES
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.source import NOWHERE, Span
 
+_GETS_NONE = frozenset({"__eq__", "__ne__", "__exit__"})
 RECURSES = "this may call itself, and may not end"
 
 
@@ -64,7 +67,7 @@ class OutcomeAnalysis:
 
     def of(self, name: str) -> frozenset[Problem]:
         """What one call of a function may do besides giving a value."""
-        return self._solutions.of(name)
+        return frozenset(p for p in self._solutions.of(name) if p.given is None)
 
     def _of_function(self, name: str) -> Equation[Problem]:
         return self._of_body(self.program.function(name), frozenset({name}))
@@ -90,7 +93,8 @@ class OutcomeAnalysis:
             self._nested[function.name] = tuple(_nested(function.body))
         there = _within(self._nested[function.name], span)
         body = replace(function, body=tuple(there))
-        return self._solutions.solved(self._of_body(body, frozenset()))
+        found = self._solutions.solved(self._of_body(body, frozenset()))
+        return frozenset(p for p in found if p.given is None)
 
     def raised_by(self, function: Function, span: Span) -> frozenset[Problem]:
         """The exceptions of statements at a place that leave the function, or end the program."""
@@ -112,8 +116,8 @@ class OutcomeAnalysis:
         for node in self.iterators.gone_through(function):
             notes.problem(node, ENDLESS)
         found = implicit_calls(self.graph, function)
-        asks = found.has_library and (not self.table.trusts_others or self._hands_own(function))
-        implicit = found.functions | (self.origins.operators if asks else frozenset())
+        asked = self._asked(function) if found.has_library else frozenset()
+        implicit = found.functions | asked
         self._run(function, implicit, notes)
         called = {c.function for c in notes.found if isinstance(c, Called)}
         self._calls.setdefault(function.name, set()).update(called)
@@ -127,11 +131,16 @@ class OutcomeAnalysis:
         uses = ((c.function, lambda p, c=c: frozenset(map(_ending, c.leaving(p)))) for c in calls)
         return Equation(frozenset(map(_ending, own)), tuple(uses))
 
-    def _hands_own(self, function: Function) -> bool:
-        """Whether a call in a function gets an object of a class of the program."""
+    def _asked(self, function: Function) -> frozenset[str]:
+        """The operators that libraries may run of the objects that a function hands to them."""
+        if not self.table.trusts_others:
+            return self.origins.operators
         calls = (n for n in walk(function) if isinstance(n, s.Call))
         values = (a.value for call in calls for a in call.arguments)
-        return any(self.origins.own_classes(value, function.name) for value in values)
+        classes = {c for v in values for c in self.origins.own_classes(v, function.name)}
+        families = {each for c in classes for each in self.graph.family(c)}
+        owners = {n: self.program.function(n).owner for n in self.origins.operators}
+        return frozenset(n for n, owner in owners.items() if owner in families)
 
     def _notes(self, function: Function) -> ProblemNotes:
         return ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)
@@ -140,7 +149,9 @@ class OutcomeAnalysis:
         """Notes functions that run though no call of them stands in a function."""
         for name in names:
             if not self.is_model(name) and name != function.name:
-                notes.take({Called(name)})
+                compares = name.rpartition(".")[2] in _GETS_NONE
+                gives = with_none if compares else None
+                notes.take({Called(name, (_is_no_name,), gives)})
                 if name in self._endless:
                     notes.take({Problem(name, self.program.function(name).place, ENDLESS)})
 
@@ -166,6 +177,11 @@ class OutcomeAnalysis:
                 if isinstance(node, e.Closure) and node.defaults:
                     found[node.function] = tuple((around, value) for _, value in node.defaults)
         return found
+
+
+def _is_no_name(problem: Problem) -> bool:
+    """Whether a problem is another than a name without a value, of which few run so have one."""
+    return not problem.why.endswith((LACKS, UNSET))
 
 
 def _ending(problem: Problem) -> Problem:
@@ -210,5 +226,25 @@ def _within(nested: Iterable[_Nested], span: Span) -> Iterator[s.Statement]:
                 yield from final if is_there else _within(at_the_end, span)
             case statement if is_there:
                 yield statement
-            case _:
+            case statement:
                 yield from _within(node.inner, span)
+                is_around = node.place.start <= span.start and span.end <= node.place.end
+                if is_around and not any(_meets(inner.place, span) for inner in node.inner):
+                    yield from _head(statement)
+
+
+def _meets(place: Span, span: Span) -> bool:
+    return place.start < span.end and span.start < place.end
+
+
+def _head(statement: s.Statement) -> Iterator[s.Statement]:
+    """What runs of a statement though nothing that stands in it does: its test, what it enters."""
+    match statement:
+        case s.If():
+            yield replace(statement, then=(), otherwise=())
+        case s.Loop():
+            yield s.If(statement.test, (), (), statement.dynamic, statement.place)
+        case s.ForEach() | s.With():
+            yield replace(statement, body=())
+        case _:
+            pass

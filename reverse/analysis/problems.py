@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.element_counts import ElementCounts
@@ -15,29 +16,56 @@ from rebsync.source import Span
 
 
 @dataclass(frozen=True, slots=True)
+class ParameterNeed:
+    """A parameter for which a function may get None, or (`size`) fewer elements than so many."""
+
+    function: str
+    parameter: str
+    size: int = 0
+
+
+@dataclass(frozen=True, slots=True)
 class Problem:
     """A place in a function; `raises` is the exception that is raised there, if one is.
 
-    Nothing catches what has none: it does not end, acts, or has no lowering. Nor does anything
-    catch `TERMINATES`.
+    Where something is `given`, that is so only of calls that give it; what such a call may raise
+    for that `is_of_call`. Nothing catches what has no exception: it does not end, acts, or has no
+    lowering. Nor does anything catch `TERMINATES`.
     """
 
     function: str
     place: Span
     why: str
     raises: str = ""
+    given: ParameterNeed | None = None
+    is_of_call: bool = False
+
+    def of_call(self) -> Problem:
+        """The same of a call, whatever is given to the function that it stands in."""
+        return replace(self, given=None, is_of_call=True)
 
 
 @dataclass(frozen=True, slots=True)
 class Called:
-    """A function that runs, with which of its problems leave what is around the call."""
+    """A function that runs, with which of its problems leave what is around the call.
+
+    `gives` says what they are with the arguments of the call; without it none of these is None, and
+    of containers among them nothing is known.
+    """
 
     function: str
     tests: tuple[Callable[[Problem], bool], ...] = ()
+    gives: Callable[[Problem], frozenset[Problem]] | None = None
 
     def leaving(self, problem: Problem) -> frozenset[Problem]:
-        """What a problem of the function is for who calls it: itself, or nothing."""
-        return frozenset({problem}) if all(t(problem) for t in self.tests) else frozenset()
+        """What a problem of the function is for who calls it; nothing if it does not leave."""
+        if not all(test(problem) for test in self.tests):
+            return frozenset()
+        if self.gives is not None:
+            return self.gives(problem)
+        if problem.given is None:
+            return frozenset({problem})
+        return frozenset({problem.of_call()} if problem.given.size else ())
 
 
 class ProblemNotes:
@@ -67,14 +95,23 @@ class ProblemNotes:
         """What is known of libraries."""
         return self.origins.table
 
-    def problem(self, node: s.Statement | e.Expression, why: str, raises: str = "") -> None:
-        """Notes what may happen at a place."""
+    def problem(
+        self,
+        node: s.Statement | e.Expression,
+        why: str,
+        raises: str = "",
+        given: ParameterNeed | None = None,
+    ) -> None:
+        """Notes what may happen at a place, or does where something is given."""
         place = getattr(node, "place", self.function.place)
-        self.found.add(Problem(self.function.name, place, why, raises))
+        self.found.add(Problem(self.function.name, place, why, raises, given))
 
-    def fails(self, node: s.Statement | e.Expression, failure: str) -> None:
+    def fails(
+        self, node: s.Statement | e.Expression, failure: str, given: ParameterNeed | None = None
+    ) -> None:
         """Notes that an operation may raise what the language raises for a failure."""
-        self.problem(node, f"this may fail: it {failure}", self.table.of_failure(failure))
+        raises = self.table.of_failure(failure)
+        self.problem(node, f"this may fail: it {failure}", raises, given)
 
     def take(self, problems: Iterable[Problem | Called]) -> None:
         """Notes what was found elsewhere, or what functions run."""

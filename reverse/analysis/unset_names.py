@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from rebsync.reverse.analysis.entry_attributes import is_set_at_entry
 from rebsync.reverse.analysis.facts import Facts, HasKey, IsBound
 from rebsync.reverse.analysis.none_values import falls_through
 from rebsync.reverse.analysis.origins import ClassOrigin, Origins
@@ -61,11 +62,11 @@ class UnsetNames:
             return False
         graph = self._notes.origins.graph
         classes = {owner, *graph.subclasses.get(owner, ())} & self._program.classes.keys()
-        return any(_may_lack(self._notes.origins, each, name) for each in classes)
+        return any(_may_lack(self._notes.origins, self._function, each, name) for each in classes)
 
 
-def _may_lack(origins: Origins, owner: str, name: str) -> bool:
-    """Whether a new object of a class may lack an attribute that only the program gives it."""
+def _may_lack(origins: Origins, function: Function, owner: str, name: str) -> bool:
+    """Whether an object of a class may lack an attribute where a method of it is entered."""
     graph, program = origins.graph, origins.graph.program
     line = [owner, *graph.bases(owner)]
     known = [program.classes[c] for c in line if c in program.classes]
@@ -86,7 +87,14 @@ def _may_lack(origins: Origins, owner: str, name: str) -> bool:
         return False  # what the program itself calls, it calls before it needs what that sets
     makers = (f for c in known for n, f in c.methods if n == "__init__")
     first = next(makers, None)
-    return first is None or name not in _set_by(origins, program.function(first), frozenset())
+    made = frozenset[str]()
+    if first is not None:
+        made = _set_by(origins, program.function(first), frozenset())
+
+    def sets(user: Function, node: s.Statement) -> frozenset[str]:
+        return _set_at(origins, user, node, frozenset({user.name}))
+
+    return not is_set_at_entry(origins, function, name, made, sets)
 
 
 def _bases(classes: Iterable[Class]) -> set[str | None]:

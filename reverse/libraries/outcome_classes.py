@@ -25,6 +25,8 @@ FAILURES: Mapping[str, tuple[str, str]] = {
     "may have no such attribute yet": ("", "builtins.AttributeError"),
     "does not hold": ("", "builtins.AssertionError"),
 }
+# Of transforms between frames that are not there, or not yet.
+TRANSFORM_EXCEPTIONS = ("LookupException", "ConnectivityException", "ExtrapolationException")
 # Each exception with the class that it extends.
 EXCEPTIONS: Mapping[str, str] = {
     **dict.fromkeys(("std::out_of_range", "std::invalid_argument"), "std::logic_error"),
@@ -65,6 +67,19 @@ EXCEPTIONS: Mapping[str, str] = {
     **dict.fromkeys(("builtins.RuntimeError", "builtins.StopIteration"), "builtins.Exception"),
     **dict.fromkeys(("builtins.AssertionError", "builtins.TypeError"), "builtins.Exception"),
     **dict.fromkeys(("builtins.AttributeError", "struct.error"), "builtins.Exception"),
+    **dict.fromkeys(
+        ("re.error", "queue.Empty", "queue.Full", "yaml.YAMLError"), "builtins.Exception"
+    ),
+    "numpy.linalg.LinAlgError": "builtins.ValueError",
+    "rospy.ServiceException": "rospy.ROSException",
+    "rospy.ROSException": "builtins.Exception",
+    # Each under the names that packages give it, the oldest first.
+    **{f"tf.{name}": f"tf2_ros.{name}" for name in TRANSFORM_EXCEPTIONS},
+    **{f"tf2_ros.{name}": f"tf2_py.{name}" for name in TRANSFORM_EXCEPTIONS},
+    **{f"tf2_py.{name}": "tf2_ros.TransformException" for name in TRANSFORM_EXCEPTIONS},
+    "tf2_ros.TransformException": "tf2_py.TransformException",
+    "tf2_py.TransformException": "tf.Exception",
+    "tf.Exception": "builtins.Exception",
     "builtins.UnboundLocalError": "builtins.NameError",
     "builtins.NameError": "builtins.Exception",
     "builtins.Exception": "builtins.BaseException",

@@ -12,7 +12,13 @@ import sys
 from collections.abc import Iterable, Mapping
 
 from rebsync.records import dataclass
-from rebsync.reverse.libraries import cpp, outcome_classes, outcome_rules, python
+from rebsync.reverse.libraries import (
+    cpp,
+    outcome_classes,
+    outcome_rules,
+    python,
+    python_outcomes,
+)
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.outcome_rules import Raises, Size, Tells
 from rebsync.reverse.libraries.registry import derived
@@ -23,6 +29,9 @@ _LOOKS = frozenset(
     {*(Effect.NONE, Effect.CLOCK, Effect.LOGS, Effect.READS, Effect.RANDOM), Effect.CHANGES}
 )
 _UNKNOWN = "nothing is known of it"
+_ANY_EXCEPTION = frozenset(
+    {"builtins.Exception"}
+)  # what Python may raise of which no more is known
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,19 +95,24 @@ class LibraryOutcomes:
             return CallOutcome()
         if effect is not Effect.UNKNOWN:
             return CallOutcome(acts=effect.value)
-        return CallOutcome(acts=_UNKNOWN if self.is_standard(name) else "")
+        return self._unknown(name) if self.is_standard(name) else CallOutcome()
 
     def method(self, of: str | None, name: str) -> CallOutcome:
         """How a call of a method may end, by its object's class, if that is known."""
         if of is not None and (found := self._of_class(of, name)) is not None:
             return found
         if of is not None and self.is_standard(of):
-            return CallOutcome(acts=_UNKNOWN)
+            return self._unknown(of)
         is_asking = name in python.asking_names() if self.language is Language.PYTHON else False
         acting = python.acting_methods() if self.language is Language.PYTHON else cpp.acting()
         if is_asking or name in acting:
             return CallOutcome(acts="acts on a node")
         return self._named.get(f".{name}", CallOutcome())
+
+    def _unknown(self, name: str) -> CallOutcome:
+        """How what no table knows of a standard library may end; client libraries raise nothing."""
+        is_quiet = self.language is Language.CPP or python.is_of_client(name)
+        return CallOutcome(frozenset() if is_quiet else _ANY_EXCEPTION, acts=_UNKNOWN)
 
     def of_failure(self, failure: str) -> str:
         """The exception that an operation raises; empty where none can be caught."""
@@ -120,6 +134,10 @@ class LibraryOutcomes:
             found = self._named.get(f".{name}", CallOutcome())
         return found
 
+    def has_methods_of(self, name: str) -> bool:
+        """Whether the table has methods of a class."""
+        return any(known.startswith(f"{name}.") for known in self._named)
+
     def is_standard(self, name: str) -> bool:
         """Whether a name is of a standard library, or of one that nodes are made with."""
         if self.language is Language.PYTHON:
@@ -133,7 +151,7 @@ class LibraryOutcomes:
 @derived
 def _named(language: Language) -> Mapping[str, CallOutcome]:
     found: dict[str, CallOutcome] = {}
-    for rule in (*outcome_rules.RULES, *THROWN):
+    for rule in (*outcome_rules.RULES, *THROWN, *python_outcomes.MODULES):
         for name in (rule.cpp if language is Language.CPP else rule.python).split():
             found[name] = CallOutcome(
                 frozenset(rule.raises.split()),

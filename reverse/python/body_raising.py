@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
-from rebsync.reverse.analysis.unset_names import LACKS, UNSET
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import Scope
 from rebsync.reverse.syntax.py_tree import named
@@ -49,19 +48,35 @@ def _raised(reader: BodyStatementReader, place: Span) -> Iterator[str]:
     assert form is not None
     here = reader.frame.scope
     for problem, scope in form.raised(reader.frame.py, place):
-        is_listed = scope.node.id != here.node.id and _is_read(reader, scope)
-        # What only may run here, as operators and generators do, is not asked for names.
-        is_other = scope.node.id != here.node.id and problem.why.endswith((LACKS, UNSET))
+        is_elsewhere = scope.node.id != here.node.id and not problem.is_of_call
+        is_listed = is_elsewhere and _is_read(reader, scope, problem.place)
         is_exact = (scope.py.source.path, problem.place) in reading.exact
-        if not is_listed and not is_exact and not is_other and problem.raises != _ASSERTION:
+        if not is_listed and not is_exact and problem.raises != _ASSERTION:
             yield problem.why
 
 
-def _is_read(reader: BodyStatementReader, function: Scope) -> bool:
-    """Whether the statements of a function were read, so that what they raise is listed there."""
+def _is_read(reader: BodyStatementReader, function: Scope, place: Span) -> bool:
+    """Whether the statement at a place in a function was read, so that what it raises is there."""
     body = function.node.child_by_field_name("body")
     listed = reader.reading.listed
-    return body is not None and any(n.id in listed for n in (body, *named(body)))
+    if body is None or not any(n.id in listed for n in (body, *named(body))):
+        return False
+    around = _statement_at(function, body, place)
+    return around is None or around.id in listed
+
+
+def _statement_at(function: Scope, body: Node, place: Span) -> Node | None:
+    """The innermost statement at a place in a body."""
+    found = None
+    waiting = [body]
+    while waiting:
+        node = waiting.pop()
+        for child in named(node):
+            span = function.py.span(child)
+            if span.start <= place.start and place.end <= span.end:
+                found = child if node.type == "block" else found
+                waiting.append(child)
+    return found
 
 
 def _own(reader: BodyStatementReader, node: Node) -> Iterator[Node]:
