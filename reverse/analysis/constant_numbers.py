@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.held_values import held_by
 from rebsync.reverse.analysis.origins import Origins
-from rebsync.reverse.analysis.stores import key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Operator
@@ -35,8 +35,7 @@ class ConstantNumbers:
             case e.Binary(operator, left, right):
                 return _computed(operator, self.of(left, depth), self.of(right, depth))
             case e.Global() | e.Attribute() | e.Local() if depth < _DEEPEST:
-                key = key_of(value, self.function)
-                stored = self.origins.graph.stores.of(key) if key is not None else []
+                stored = held_by(self.origins, value, self.function)
                 return self.of(stored[0][1], depth + 1) if len(stored) == 1 else None
             case _:
                 return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 
+from rebsync.reverse.analysis.held_values import held_by, is_own
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origin, Origins
 from rebsync.reverse.analysis.stores import (
     AnyValue,
@@ -61,6 +62,8 @@ class ElementCounts:
                 return min(self._size(p, function, assumed) for p in (left, right))
             case e.Copy(of) | e.Dereference(of) | e.AddressOf(of):
                 return self._size(of, function, assumed)
+        if isinstance(value, e.Attribute) and not is_own(self.origins, value.object, function):
+            return 0
         key = key_of(value, function)
         return 0 if key is None or self._may_lose(key) else self._least(key, assumed)
 
@@ -140,7 +143,7 @@ class ElementCounts:
     def has_key(self, value: e.Expression, key: e.Literal, function: str) -> bool:
         """Whether a mapping has something at a constant key, whenever that is asked."""
         name = key_of(value, function)
-        stored = self.graph.stores.of(name) if name is not None else []
+        stored = held_by(self.origins, value, function)
         return (
             name is not None
             and bool(stored)
@@ -166,7 +169,7 @@ class ElementCounts:
         key = key_of(value, function)
         if key is None or key in self._growing or key in around:
             return 0
-        stored = self.graph.stores.of(key)
+        stored = held_by(self.origins, value, function)
         return min((self._elements(each, around | {key}) for each in stored), default=0)
 
     def _elements(self, stored: Stored, around: frozenset[Key]) -> int:

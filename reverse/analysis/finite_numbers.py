@@ -10,7 +10,8 @@ from functools import reduce
 
 from rebsync.intervals import TRUTH, Interval, exactly, of_unary, signed, unsigned
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.call_graph import CallGraph
+from rebsync.reverse.analysis.held_values import is_own
+from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.stores import (
     AnyValue,
     CallResult,
@@ -60,8 +61,9 @@ _ANY_WHOLE = Limits()
 class FiniteNumbers:
     """The numbers of one program."""
 
-    def __init__(self, graph: CallGraph, table: LibraryOutcomes) -> None:
-        self.graph = graph
+    def __init__(self, origins: Origins, table: LibraryOutcomes) -> None:
+        self.origins = origins
+        self.graph = origins.graph
         self.table = table
 
     def limits(self, value: e.Expression, function: str) -> Limits | None:
@@ -100,8 +102,13 @@ class FiniteNumbers:
     def _stored(self, value: e.Expression, function: str, within: frozenset[Key]) -> Limits | None:
         """The limits of all that is ever stored under a name."""
         key = key_of(value, function)
-        if key is None or (isinstance(value, e.Attribute) and not self._is_own(value, function)):
+        if key is None:
             return None
+        if isinstance(value, e.Attribute):
+            # The types of C++ say more than what is stored is known to.
+            is_typed = not isinstance(value.type, t.Unknown)
+            if is_typed or not is_own(self.origins, value.object, function):
+                return None
         if key in within:
             return _ANY_WHOLE  # Only what is stored besides counts.
         changed = self.graph.stores.changed(key)
@@ -122,16 +129,6 @@ class FiniteNumbers:
                 return None
             case _:
                 return self._limits(value, function, within)
-
-    def _is_own(self, value: e.Attribute, function: str) -> bool:
-        """Whether only the program stores in an attribute: one of a method's own object."""
-        if not isinstance(value.type, t.Unknown):
-            return False  # The types of C++ say more than what is stored is known to.
-        program = self.graph.program
-        is_method = any(function == f for c in program.classes.values() for _, f in c.methods)
-        parameters = program.function(function).parameters if is_method else ()
-        own = parameters[0].name if parameters else None
-        return isinstance(value.object, e.Local) and value.object.name == own
 
     def _of_call(self, call: s.Call, function: str, within: frozenset[Key]) -> Limits | None:
         values = [a.value for a in call.arguments if a.name is None and not a.stars]

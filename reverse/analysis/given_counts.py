@@ -30,8 +30,9 @@ def count_given(node: s.Call) -> e.Expression | None:
     value = _bare(value)
     type_ = getattr(value, "type", t.UNKNOWN)
     is_alone = len(node.arguments) == 1 and name != UNKNOWN_CLASS and "string" not in name
-    is_number = isinstance(type_, t.Integer | t.Float) or (is_alone and type_ == t.UNKNOWN)
-    return value if is_number else None
+    is_filled = isinstance(getattr(_bare(node.arguments[-1].value), "type", None), t.Integer)
+    may_be = type_ == t.UNKNOWN and (is_alone or (is_filled and len(node.arguments) == 2))
+    return value if may_be or isinstance(type_, t.Integer | t.Float) else None
 
 
 def takes_part(node: s.Call) -> bool:

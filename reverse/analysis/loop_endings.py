@@ -47,7 +47,7 @@ class LoopEndings:
 
     @cached_property
     def _bounded(self) -> LoopEnds:
-        numbers = FiniteNumbers(self._origins.graph, self._notes.table)
+        numbers = FiniteNumbers(self._origins, self._notes.table)
         name, in_bound = self._function.name, self._changes.in_bound
         return LoopEnds(numbers, name, self._sizes.is_bound, in_bound, self._lent)
 

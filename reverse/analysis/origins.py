@@ -256,6 +256,14 @@ class Origins:
 
     # --- classes ---------------------------------------------------------------------------------
 
+    @cached_property
+    def object_of(self) -> dict[str, str]:
+        """For each method of Python the name of the parameter that is its object."""
+        program = self.graph.program
+        methods = (f for c in program.classes.values() for _, f in c.methods if f in program)
+        given = ((f, program.function(f).parameters) for f in methods)
+        return {f: parameters[0].name for f, parameters in given if parameters}
+
     def methods(self, of: str, name: str) -> frozenset[str]:
         """The functions that a method of an object may be, by the class it is declared of."""
         classes = (self.graph.program.classes.get(c) for c in self.graph.family(of))

@@ -15,6 +15,7 @@ from rebsync.reverse.analysis.facts import (
     tested,
 )
 from rebsync.reverse.analysis.foreign_values import ForeignValues
+from rebsync.reverse.analysis.held_values import held_by
 from rebsync.reverse.analysis.least_numbers import LeastNumbers
 from rebsync.reverse.analysis.none_values import NoneValues
 from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origin
@@ -196,8 +197,9 @@ class OutcomeExpressions:
 
     def texts(self, value: e.Expression) -> list[str]:
         """The texts that a value may be; none if that is not known."""
-        key = key_of(value, self.function)
-        stored = [v for _, v in self.origins.graph.stores.of(key)] if key is not None else [value]
+        is_variable = key_of(value, self.function) is not None
+        held = held_by(self.origins, value, self.function)
+        stored = [v for _, v in held] if is_variable else [value]
         texts = [v.value for v in stored if isinstance(v, e.Literal) and isinstance(v.value, str)]
         return texts if len(texts) == len(stored) else []
 
@@ -239,9 +241,7 @@ class OutcomeExpressions:
         """Whether all that is ever stored under a name are numbers other than zero."""
         if not isinstance(value, e.Global | e.Attribute | e.Local | e.Captured):
             return False
-        key = key_of(value, self.function)
-        stored = self.origins.graph.stores.of(key) if key is not None else []
-        values = [v for _, v in stored]
+        values = [v for _, v in held_by(self.origins, value, self.function)]
         return bool(values) and all(
             isinstance(v, e.Literal) and isinstance(v.value, int | float) and v.value != 0
             for v in values
@@ -358,8 +358,7 @@ class OutcomeExpressions:
         """Whether all that is ever stored under an index's name is below a size."""
         if not isinstance(index, e.Global | e.Attribute):
             return False
-        key = key_of(index, self.function)
-        stored = self.origins.graph.stores.of(key) if key is not None else []
+        stored = held_by(self.origins, index, self.function)
         return bool(stored) and all(self._is_low(v, size) for _, v in stored)
 
     def _is_low(self, value: object, size: int) -> bool:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from rebsync.reverse.analysis.facts import Facts, IsBelow, IsPositive, IsSize, tested
+from rebsync.reverse.analysis.held_values import held_by
 from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.stores import AnyValue, CallResult, TemporaryVariable, key_of
+from rebsync.reverse.analysis.stores import AnyValue, CallResult, TemporaryVariable
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -114,8 +115,7 @@ class Signs:
 
         What sets a size takes a reference to a number, and leaves it as it is.
         """
-        key = key_of(value, self._notes.function.name)
-        stored = [v for _, v in self._notes.origins.graph.stores.of(key)] if key else []
+        stored = [v for _, v in held_by(self._notes.origins, value, self._notes.function.name)]
         calls = [n for n in walk(self._notes.function) if isinstance(n, s.Call)]
         sizes = [c for c in calls if isinstance(c.callee, s.LibraryCallee)]
         lent = sum(

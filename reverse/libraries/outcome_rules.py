@@ -286,7 +286,7 @@ RULES = (
         when=Raises.POSITION,
     ),
     OutcomeRule(
-        "std::vector.at std::array.at std::map.at std::string.at", raises="std::out_of_range"
+        ".at std::vector.at std::array.at std::map.at std::string.at", raises="std::out_of_range"
     ),
     OutcomeRule(
         "std::string.append std::string.assign",

@@ -145,8 +145,8 @@ def _filled(
     if len(values) == 1 and values[0].type == type_:
         by_value(context, target, type_, values[0], place)
         return
-    if len(values) == 2 and values[0].type == values[1].type == t.UNKNOWN:
-        arguments = tuple(s.CallArgument(as_value(context, v, place)) for v in values)
+    if len(values) <= 2 and values[0].type == t.UNKNOWN:  # a count, perhaps
+        arguments = tuple(s.CallArgument(v.expression) for v in values)
         context.emit(s.Call(target, s.LibraryCallee("std::vector"), arguments, place))
         return
     if not isinstance(values[0].type, t.Integer) or len(values) > 2:
@@ -168,7 +168,8 @@ def _text(context: Context, target: e.Lvalue, nodes: Sequence[Node], place: Span
     values = [lower_value(context, node) for node in nodes]
     numbers = [isinstance(value.type, t.Integer) for value in values]
     is_part = isinstance(values[0].type, t.Text) and all(numbers[1:]) and len(values) <= 3
-    if not is_part and numbers != [True, True]:
+    is_unknown = values[0].type == t.UNKNOWN and numbers == [False, True]
+    if not is_part and not is_unknown and numbers != [True, True]:
         raise Unlowered("a construction by arguments that is not known")
     found = [
         implicitly(context, v, t.Integer(64, False), place).expression

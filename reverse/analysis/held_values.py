@@ -1,0 +1,36 @@
+"""What a variable may hold: all that the program stores in it, if nothing else may store there."""
+
+from __future__ import annotations
+
+from rebsync.reverse.analysis.origins import ClassOrigin, Origins
+from rebsync.reverse.analysis.stores import ANY_VALUE, Stored, key_of
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import types as t
+
+
+def held_by(origins: Origins, value: e.Expression, function: str) -> list[Stored]:
+    """All that is ever stored in what an expression of a function names, and by which functions.
+
+    Attributes are told apart by names. Those of an object that the program did not make, as a
+    message that came, may hold anything. Empty for what is no variable, or is stored nowhere.
+    """
+    key = key_of(value, function)
+    if key is None:
+        return []
+    if isinstance(value, e.Attribute) and not is_own(origins, value.object, function):
+        return [(function, ANY_VALUE)]
+    return origins.graph.stores.of(key)
+
+
+def is_own(origins: Origins, value: e.Expression, function: str) -> bool:
+    """Whether a value is a class of the program, or an object of one: nothing else stores there."""
+    type_ = getattr(value, "type", t.UNKNOWN)
+    type_ = type_.to if isinstance(type_, t.Reference) else type_
+    if type_ != t.UNKNOWN:
+        return isinstance(type_, t.Record) and type_.name in origins.graph.program.classes
+    if isinstance(value, e.ModuleReference):
+        return True
+    if isinstance(value, e.Local) and value.name == origins.object_of.get(function):
+        return True
+    held = origins.of(value, function)
+    return bool(held) and all(isinstance(o, ClassOrigin) for o in held)
