@@ -210,7 +210,7 @@ class PyStatements:
         values = [
             self._array(v, inner)
             if isinstance(v, m.ArrayInitializer)
-            else self.expressions.stored(v, inner)
+            else self.expressions.stored(bare(v), inner)  # a formatter takes parentheses away
             for v in initial.values
         ]
         return f"Array([{', '.join(values)}])"

@@ -14,7 +14,7 @@ from rebsync import model as m
 from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.generated.send_functions import is_kept
 from rebsync.reverse.python.model_formats import FORMATS
-from rebsync.reverse.python.model_posts import is_told, tells_arguments
+from rebsync.reverse.python.model_posts import POST, is_told, tells_arguments
 from rebsync.reverse.python.model_roles import PyRoles
 from rebsync.reverse.python.model_types import (
     call_parts,
@@ -23,6 +23,8 @@ from rebsync.reverse.python.model_types import (
     passed_on,
     type_of,
 )
+from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 from rebsync.static.types import PRIMITIVES
@@ -100,17 +102,24 @@ def _is_as_it_is(value: Node, type_: m.Type | None) -> bool:
             return False
 
 
+def _is_posted(call: Node) -> bool:
+    """Whether a call stands in what is posted: it is done later, for a message of its own."""
+    above = (n for n in ancestors(call) if n.type == "call")
+    return any(text_of(field(n, "function")) == POST for n in above)
+
+
 def _asks_for_sender(code: PyCode, handler: Scope) -> bool:
     """Whether a function, or one that it may call by its name, asks who has sent a message."""
     waiting, seen = [handler], {id(handler)}
     functions: dict[str, list[Scope]] = {}
     while waiting:
-        calls = [text_of(field(call, "function")) for call in calls_in(waiting.pop().node)]
+        now = (c for c in calls_in(waiting.pop().node) if not _is_posted(c))
+        calls = [text_of(field(call, "function")) for call in now]
         if _ASKS in calls or any(each.endswith("mailbox.sender") for each in calls):
             return True
         if calls and not functions:
             for scope in code.scopes.values():
-                if scope.kind == FUNCTION:
+                if scope.kind == FUNCTION and not is_runtime_file(scope.py.source):
                     functions.setdefault(scope.name, []).append(scope)
         names = {each.rpartition(".")[2] for each in calls}
         found = [f for name in names for f in functions.get(name, ()) if id(f) not in seen]

@@ -95,6 +95,8 @@ def _rule(node: object) -> object:
             return replace(node, value=_bare(value))
         case m.Declarator(initial=m.Paren() as value):
             return replace(node, initial=_bare(value))
+        case m.ArrayInitializer(values):
+            return replace(node, values=tuple(map(_bare, values)))
         case m.Return(m.Paren() as value):
             return replace(node, value=_bare(value))
         case m.For(updates=updates, condition=condition):
