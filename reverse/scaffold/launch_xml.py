@@ -34,7 +34,9 @@ def facts_of_launch(source: Source, package: str) -> Iterator[Fact]:
     """The facts of a file; remaps outside of nodes, which all that follow have, are of no node."""
     root = read_xml(source)
     if not isinstance(root, Unknown):  # what cannot be read, extraction lists
-        given = dict(_defaults(root))
+        found = set(_defaults(root))
+        names = [name for name, _ in found]
+        given = {name: value for name, value in found if names.count(name) == 1}
         yield from _Tags(source, package, frozenset(_nodes(root)), given).facts(root)
 
 
@@ -62,8 +64,10 @@ def _nodes(element: XmlElement) -> Iterator[str]:
 
 
 def _defaults(root: XmlElement) -> Iterator[tuple[str, str]]:
-    """The arguments that a file takes, each with its default, as `$(arg name)`."""
+    """The arguments that a file, and the groups in it, take, with their defaults: `$(arg name)`."""
     for each in root.elements():
+        if each.name == "group":
+            yield from _defaults(each)
         given = {name: attribute.value for name, attribute in each.attributes.items()}
         if each.name == "arg" and "default" in given and "name" in given:
             yield f"$(arg {given['name']})", given["default"]
