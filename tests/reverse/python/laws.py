@@ -96,7 +96,8 @@ def _rule(node: object) -> object:
         case m.Declarator(initial=m.Paren() as value):
             return replace(node, initial=_bare(value))
         case m.ArrayInitializer(values):
-            return replace(node, values=tuple(map(_bare, values)))
+            bare = (v if isinstance(v, m.ArrayInitializer) else _bare(v) for v in values)
+            return replace(node, values=tuple(bare))
         case m.Return(m.Paren() as value):
             return replace(node, value=_bare(value))
         case m.For(updates=updates, condition=condition):
