@@ -96,8 +96,8 @@ def _rule(node: object) -> object:
         case m.Declarator(initial=m.Paren() as value):
             return replace(node, initial=_bare(value))
         case m.ArrayInitializer(values):
-            bare = (v if isinstance(v, m.ArrayInitializer) else _bare(v) for v in values)
-            return replace(node, values=tuple(bare))
+            plain = (v if isinstance(v, m.ArrayInitializer) else _bare(v) for v in values)
+            return replace(node, values=tuple(plain))
         case m.Return(m.Paren() as value):
             return replace(node, value=_bare(value))
         case m.For(updates=updates, condition=condition):
