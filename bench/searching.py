@@ -2,9 +2,8 @@
 
     python bench/searching.py ENGINE LANGUAGE MODEL [CONSTANT=VALUE ...]
 
-ENGINE is `interpreted`, `compiled`, or `compiled:N` for N threads. Searches several times if that
-is quick; `cpu` is the least time of this process for a search, of all its threads, `wall` the least
-by the clock, and `growth` what it added to the memory of the process, in bytes.
+Searches several times if that is quick; `cpu` is the least time of this process for a search,
+and `growth` what it added to the memory of the process, in bytes.
 """
 
 from __future__ import annotations
@@ -47,15 +46,13 @@ def program_of(path: Path, constants: dict[str, str]) -> Program:
 def search_of(engine: str, program: Program, semantics: Semantics) -> Search:
     if engine == "interpreted":
         return Interpreted(program, semantics)
-    workers = int(engine.partition(":")[2] or 1)
-    return CompiledSearch(program, semantics, workers=workers)
+    return CompiledSearch(program, semantics)
 
 
-def timed(search: Search) -> tuple[float, float, Exploration]:
-    """The time of the processor, that by the clock, and what was found."""
-    start, began = time.process_time(), time.perf_counter()
+def timed(search: Search) -> tuple[float, Exploration]:
+    start = time.process_time()
     found = search.run(Limits())
-    return time.process_time() - start, time.perf_counter() - began, found
+    return time.process_time() - start, found
 
 
 def main() -> None:
@@ -64,19 +61,18 @@ def main() -> None:
     semantics: Literal["core", "ftts"] = "core" if language == "core" else "ftts"
     search = search_of(engine, program, semantics)
     before = used_memory()
-    cpu, wall, found = timed(search)
+    cpu, found = timed(search)
     growth = peak_memory() - before
     spent = cpu
     while spent < ENOUGH:
-        again, clock, found = timed(search_of(engine, program, semantics))
-        cpu, wall = min(cpu, again), min(wall, clock)
+        again, found = timed(search_of(engine, program, semantics))
+        cpu = min(cpu, again)
         spent += again
     assert found.reason is None and not found.events
     figures = {
         "states": found.states,
         "transitions": found.transitions,
         "cpu": cpu,
-        "wall": wall,
         "growth": growth,
     }
     print(json.dumps(figures))

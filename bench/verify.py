@@ -1,6 +1,6 @@
 """What verification costs: time and memory for each state, against SPIN, and whole commands.
 
-    python bench/verify.py [family] [engines] [spin] [workers] [first] [actors] [--plot FILE]
+    python bench/verify.py [family] [engines] [spin] [first] [actors] [--plot FILE]
 
 Without a name, all of them. `--plot` draws the family: docs/cost-per-state.svg. A machine that has
 other work to do makes all figures worse, so its load is printed as well.
@@ -8,7 +8,6 @@ other work to do makes all figures worse, so its load is printed as well.
 family   cost of a state from 10^4 to 10^7 states of models that grow with one parameter
 engines  the compiled engine and the interpreter on the same searches
 spin     an untimed model against SPIN on its twin (needs spin and gcc)
-workers  the compiled engine with one thread and with two: all processor time, and time by the clock
 first    whole commands on the models of the thesis: nothing is compiled
 actors   whole commands on large models: built before, and with an empty cache
 """
@@ -36,13 +35,11 @@ FAMILIES = (
 
 @dataclass(frozen=True, slots=True)
 class Searched:
-    """A search alone, without the start of Python: `cpu` (of all threads) and `wall` in seconds,
-    `growth` in bytes."""
+    """A search alone, without the start of Python: `cpu` in seconds, `growth` in bytes."""
 
     states: int
     transitions: int
     cpu: float
-    wall: float
     growth: int
 
     @property
@@ -93,19 +90,6 @@ def engines() -> None:
     print()
 
 
-def workers() -> None:
-    """The same searches with one thread and with several, in turns."""
-    print("model            threads       states  processor s  clock s  bytes/state")
-    chosen = (("laps", "laps=6"), ("crowd", "longest=20"), ("untimed", "laps=3"))
-    for name, constant in chosen:
-        language = "core" if name == "untimed" else "timed"
-        for threads in (1, 2, 1, 2):
-            it = searched(f"compiled:{threads}", language, MODELS / f"{name}.rebeca", constant)
-            times = f"{it.cpu:13.2f}{it.wall:9.2f}{it.growth / it.states:13.0f}"
-            print(f"{name:17}{threads:7}{it.states:13,}{times}")
-    print()
-
-
 KINDS = (("", 0), ("_unsafe", 3))  # with the exit status of the verdict
 THESIS = tuple((f"experiment{n}{kind}", s) for n in (1, 2, 3) for kind, s in KINDS)
 
@@ -141,7 +125,6 @@ def actors() -> None:
 PARTS: dict[str, Callable[[], object]] = {
     "engines": engines,
     "spin": spin,
-    "workers": workers,
     "first": first,
     "actors": actors,
 }

@@ -59,8 +59,7 @@ class CompiledSearch:
     """A search of a program made native. `invariants` are the predicates whose failure is an event.
 
     Of `persistent` one rebec acts alone when it can. With `hash_compaction` only 64 bits of each
-    state are remembered; with a `symmetry` only canonical states are. So many `workers` (threads)
-    search, which changes nothing that is found; with `hash_compaction` it is one.
+    state are remembered; with a `symmetry` only canonical states are.
 
     Raises Unavailable when it cannot be built, or `build` is false and it has not been built
     before, or is not `wanted` any more meanwhile.
@@ -75,7 +74,6 @@ class CompiledSearch:
         symmetry: Symmetry | None = None,
         *,
         hash_compaction: bool = False,
-        workers: int = 1,
         build: bool = True,
         wanted: Callable[[], bool] = always,
     ) -> None:
@@ -92,23 +90,16 @@ class CompiledSearch:
         self._spent = 0.0
         self._engine: int | None = None
         self._library, self._model = _libraries(program, build, wanted)
-        table = native.numbers(native.persistent_table(persistent, len(program.rebecs)))
-        alone = table, len(persistent)
-        view = native.SEMANTICS.index(semantics)
         self._engine = self._library.rebsync_new(
             ctypes.addressof(ctypes.c_char.in_dll(self._model, "rebsync_model")),
-            view,
+            native.SEMANTICS.index(semantics),
             hash_compaction,
             native.numbers(invariants),
             len(invariants),
-            *alone,
+            native.numbers(native.persistent_table(persistent, len(program.rebecs))),
+            len(persistent),
         )
-        together = not hash_compaction and workers > 1
-        if (
-            not self._engine
-            or (together and not self._library.rebsync_team(self._engine, workers, view, *alone))
-            or not self._reduce()
-        ):
+        if not self._engine or not self._reduce():
             raise Unavailable("there is no memory for a search, or no place for its temporary file")
         self.build_seconds = time.perf_counter() - started
 

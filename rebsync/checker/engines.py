@@ -65,7 +65,6 @@ def _compiled(
         persistent,
         symmetry,
         hash_compaction=options.hash_compaction,
-        workers=options.workers,
         build=build,
         wanted=wanted,
     )

@@ -24,20 +24,7 @@ KERNEL = (
     "collecting.h",
     "kernel.c",
 )
-PARTS = (
-    *KERNEL,
-    "search.h",
-    "visited.h",
-    "compaction.h",
-    "judging.h",
-    "storing.h",
-    "afterwards.h",
-    "team.h",
-    "gathering.h",
-    "joining.h",
-    "rounds.h",
-    "standstill.h",
-)
+PARTS = (*KERNEL, "search.h", "visited.h", "compaction.h", "storing.h", "standstill.h")
 SEMANTICS: tuple[Semantics, ...] = ("tts", "ftts", "core")
 END = ("finished", "slice", "states", "endless", "memory", "stopped", "violated")
 NOT_FOUND = -2  # instead of a state: there is no memory, or it was ended
@@ -175,8 +162,6 @@ def declare(library: ctypes.CDLL) -> None:
     signed, result = ctypes.c_int64, ctypes.POINTER(Event)
     library.rebsync_new.restype = pointer
     library.rebsync_new.argtypes = [pointer, number, number, pointer, number, pointer, number]
-    library.rebsync_team.restype = number
-    library.rebsync_team.argtypes = [pointer, ctypes.c_uint32, number, pointer, number]
     library.rebsync_symmetry.restype = number
     library.rebsync_symmetry.argtypes = [pointer, Symmetries, *[pointer] * 5]
     library.rebsync_free.restype = None

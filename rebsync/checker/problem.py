@@ -98,7 +98,6 @@ class Problem:
 class Options:
     """How to verify. `semantics` None leaves the view to the model and its properties.
 
-    `workers` is how many threads the compiled engine searches with; what is found is the same.
     With `first` the search ends at the first violation; what is not decided then is undetermined.
     """
 
@@ -108,7 +107,6 @@ class Options:
     fairness: Fairness = "none"
     allowed: frozenset[str] = frozenset()
     hash_compaction: bool = False
-    workers: int = 1
     reduce: bool = False
     symmetry: bool = False
 

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from rebsync.checker.steps import Semantics
 
 FORMATS = ("text", "json", "svg", "html")
-MOST_WORKERS = 64
 MOST_INSTRUCTIONS = 10**10  # their delays together stay within 64 bits
 
 
@@ -107,14 +106,6 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     "--hash-compaction",
     is_flag=True,
     help="Keep 64 bits for each state: less memory, and a small risk of missing states.",
-)
-@click.option(
-    "--workers",
-    type=click.IntRange(1, MOST_WORKERS),
-    default=1,
-    show_default=True,
-    metavar="N",
-    help="Search with N threads, and find the same.",
 )
 @click.option(
     "--reduce", is_flag=True, help="Leave out orders of steps that cannot matter to the verdict."
@@ -267,16 +258,6 @@ def _swept(model: str, given: dict[str, Any], output: str) -> Status:
     return write_sweep(problem.source.path, parameters, rows, given["style"], output)
 
 
-def _refuse_workers(given: dict[str, Any]) -> None:
-    """Raises UsageError where one thread searches, and more are asked for."""
-    if given["workers"] == 1:
-        return
-    if given["engine"] == "interpreted":
-        raise click.UsageError("the interpreter is one thread: leave --workers out")
-    if given["hash_compaction"]:
-        raise click.UsageError("one thread keeps fingerprints: leave --workers out")
-
-
 def _read(model: str, given: dict[str, Any]) -> Problem:
     """The model in a file, or that of the code of a package."""
     if _is_code(model):
@@ -304,7 +285,6 @@ def _options(given: dict[str, Any], model: str) -> Options:
         raise click.UsageError("--language core has no time: leave --fairness progress out")
     if given["between"] and view_named(given) not in (None, "tts"):
         raise click.UsageError("--time-between needs the exact view: --semantics tts")
-    _refuse_workers(given)
     return Options(
         semantics=view_named(given),
         engine=given["engine"],
@@ -318,7 +298,6 @@ def _options(given: dict[str, Any], model: str) -> Options:
         fairness=given["fairness"],
         allowed=frozenset({*given["allow"], *_allowed(model)}),
         hash_compaction=given["hash_compaction"],
-        workers=given["workers"],
         reduce=given["reduce"],
         symmetry=given["symmetry"],
         first=_first(given),

@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-import os
-import shutil
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
-from unittest import mock
 
 from rebsync.checker.exploration import Exploration, Limits, Search
 from rebsync.checker.lowering import lower
@@ -120,12 +115,3 @@ def _violation(system: System, failure: Failure) -> Violation:
         return Violation("deadline", rebec.name, program.body_at(failure.pc).name)
     line = system.source.position(program.spans[failure.pc].start).line
     return Violation(failure.kind, rebec.name, line)
-
-
-@contextmanager
-def little_room() -> Iterator[None]:
-    """Compiled searches made in here have tables, batches and rounds for a few states only."""
-    found = filter(None, map(shutil.which, ("cc", "gcc", "clang")))
-    compiler = os.environ.get("CC") or next(found, "cc")
-    with mock.patch.dict(os.environ, CC=f"{compiler} -DLITTLE_ROOM"):
-        yield

@@ -40,13 +40,13 @@ main {
 PROPERTIES = "property { define { odd = w0.odd; } Assertion { small: w0.at < 3; even: !odd; } }"
 
 
-def walkers(count: int, size: int) -> System:
+def _walkers(count: int, size: int) -> System:
     main = "\n".join(f"    Walker w{i}():();" for i in range(count))
     return System.of(WALKERS.replace("%SIZE%", str(size)).replace("%MAIN%", main), PROPERTIES)
 
 
 def _program(count: int = 2, size: int = 5) -> Program:
-    return walkers(count, size).program
+    return _walkers(count, size).program
 
 
 def _figures(found: Exploration) -> tuple[object, ...]:
@@ -168,8 +168,8 @@ import resource, sys
 from pathlib import Path
 from rebsync.checker.compiled import CompiledSearch
 from rebsync.checker.exploration import Limits
-from tests.checker.test_compiled import walkers
-search = CompiledSearch(walkers(4, 400).program, "ftts", (0,), workers=int(sys.argv[2]))
+from tests.checker.test_compiled import _walkers
+search = CompiledSearch(_walkers(4, 400).program, "ftts", (0,))
 search.run(Limits(states=100))
 paths = [search.path(state) for state in range(100)]
 held = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
@@ -186,10 +186,9 @@ assert len(search.path(found.states - 1)) > found.depth
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is bounded as Linux does")
-@pytest.mark.parametrize("workers", [1, 3])
 @pytest.mark.parametrize("more", [20, 30, 40])  # so that it ends in different places
-def test_without_memory_it_tells_what_it_has_found(more: int, workers: int) -> None:
-    command = [sys.executable, "-c", _LITTLE_MEMORY, str(more), str(workers)]
+def test_without_memory_it_tells_what_it_has_found(more: int) -> None:
+    command = [sys.executable, "-c", _LITTLE_MEMORY, str(more)]
     subprocess.run(command, cwd=Path(__file__).parents[2], check=True, timeout=60)
 
 

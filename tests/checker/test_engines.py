@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 from dataclasses import astuple
 from itertools import pairwise
+from unittest import mock
 
 import pytest
 from hypothesis import assume, given, settings
@@ -18,7 +21,7 @@ from rebsync.checker.result import Result
 from rebsync.checker.search import Interpreted
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.checker.verify import verify
-from tests.checker.comparing import System, by_engine, by_reference, findings, little_room
+from tests.checker.comparing import System, by_engine, by_reference, findings
 from tests.checker.draw_networks import networks
 from tests.checker.draw_outlines import Features
 from tests.checker.draw_systems import (
@@ -162,7 +165,10 @@ def test_the_compiled_engine_with_little_room(
     features: Features, view: Semantics, data: st.DataObject
 ) -> None:
     """Its tables are enlarged again and again, its memories forget, its batches are short."""
-    with little_room():
+    compiler = os.environ.get("CC") or next(
+        filter(None, map(shutil.which, ("cc", "gcc", "clang"))), "cc"
+    )
+    with mock.patch.dict(os.environ, CC=f"{compiler} -DLITTLE_ROOM"):
         _compare(data.draw(systems(features)), view, None)
 
 

@@ -20,7 +20,7 @@ from rebsync.checker.steps import Semantics
 from rebsync.checker.verify import verify
 from rebsync.model import Binary, Member, Name
 from rebsync.properties import Measure
-from tests.checker.comparing import System, little_room
+from tests.checker.comparing import System
 from tests.checker.draw_outlines import Features
 from tests.checker.draw_systems import DRIVEN, TIMED, UNTIMED, WITHOUT_DELAY, Drawn, systems
 
@@ -133,10 +133,9 @@ def test_the_compiled_engine_measures_the_same(view: Semantics) -> None:
     assert (place.least, place.greatest, place.undefined) == (-3, 4, -1)
     assert (left.least, left.greatest) == (0, 1)
     assert quotient.undefined >= 0
-    for compacted, workers in ((False, 1), (True, 1), (False, 3)):
+    for compacted in (False, True):
         try:
-            with little_room():
-                search = CompiledSearch(program, view, hash_compaction=compacted, workers=workers)
+            search = CompiledSearch(program, view, hash_compaction=compacted)
         except Unavailable as unavailable:
             pytest.skip(f"no compiled engine: {unavailable}")
         assert search.run(Limits()).measured == expected.measured

@@ -18,12 +18,10 @@
 #ifdef LITTLE_ROOM
 enum { BATCH = 3, OBSERVED = 2, MEMO = 2, MEMO_AT_MOST = 8, TABLE = 8, SLOTS = 8, TURNS = 2, GONE = 3 };
 enum { SHARDS = 2, SHARD = 1, COLLECT = 500 };
-enum { CHUNK = 1, ROUND = 7, WORTH = 2, GATHERED = 5 };
 #else
 enum { BATCH = 64, OBSERVED = 1024, MEMO = 1024, MEMO_AT_MOST = 1 << 18, TABLE = 256 };
 enum { SLOTS = 1 << 14, TURNS = 256, GONE = 4096 };
 enum { SHARDS = 256, SHARD = 64, COLLECT = 1 << 22 };
-enum { CHUNK = 64, ROUND = 1 << 13, WORTH = 512, GATHERED = 1 << 22 };
 #endif
 
 #define NEVER INT64_MAX

@@ -12,7 +12,7 @@
  * another process or to a file as one content for each rebec (`kernel_content`, `kernel_number`).
  *
  * Kernels share nothing but the model, which is constant: threads have one each. No function may be
- * called by two threads at once for one kernel, but for `kernel_content`, which changes nothing.
+ * called by two threads at once for one kernel.
  */
 #ifndef REBSYNC_KERNEL_H
 #define REBSYNC_KERNEL_H

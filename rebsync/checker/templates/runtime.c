@@ -1,7 +1,6 @@
 /* The breadth-first search. */
-#include "afterwards.h"
-#include "rounds.h"
 #include "standstill.h"
+#include "storing.h"
 
 /* Why a slice of the search ends. */
 enum end { FINISHED, SLICE, STATES, CUT, MEMORY, STOPPED, AT_FIRST };
@@ -22,16 +21,20 @@ static void make_packed(struct search *s)
     s->unpacked = zeroed(s->escape, s->rebecs, sizeof *s->unpacked);
 }
 
+static void measure_nothing(struct search *s)
+{
+    for (int32_t i = 0; i < s->model->measures; i++)
+        s->measured[i] = (struct measured){0, -1, 0, -1, -1};
+}
+
 void rebsync_free(struct search *s)
 {
     void *parts[] = {
-        s->fields, s->batch_words, s->ids, s->unpacked, s->judge->events.data, s->states.data,
-        s->parents.data, s->times.data, s->table, s->taken, s->invariants, s->faults,
-        s->judge->measured};
+        s->fields, s->batch_words, s->ids, s->unpacked, s->events.data, s->states.data,
+        s->parents.data, s->times.data, s->table, s->invariants, s->faults, s->measured};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
     free_prints(s);
-    free_team(s->team);
     if (s->arrivals)
         fclose(s->arrivals);
     kernel_free(s->kernel);
@@ -63,27 +66,9 @@ struct search *rebsync_new(const struct model *model, int semantics, int compact
     kernel_meet(s->kernel, meet, s);
     s->invariants = copied(s->escape, invariants, (size_t)invariant_count);
     s->invariant_count = (uint32_t)invariant_count;
-    *s->judge = (struct judge){.search = s, .kernel = s->kernel, .escape = s->escape};
-    s->judge->measured = zeroed(s->escape, (size_t)model->measures, sizeof *s->judge->measured);
-    measure_nothing(s->judge);
-    s->shares = 1;
-    s->taken = zeroed(s->escape, 1, sizeof *s->taken);
+    s->measured = zeroed(s->escape, (size_t)model->measures, sizeof *s->measured);
+    measure_nothing(s);
     return s;
-}
-
-/* Lets so many threads search, before it begins; `semantics` and `persistent` as in rebsync_new. Not
- * with fingerprints. 0 without memory. */
-int rebsync_team(struct search *s, uint32_t workers, int semantics, const int32_t *persistent,
-                 int persistent_count)
-{
-    if (setjmp(s->escape->to))
-        return 0;
-    free(s->taken);
-    s->taken = NULL;
-    s->taken = zeroed(s->escape, workers, sizeof *s->taken);
-    s->shares = workers;
-    make_team(s, workers, semantics, persistent, persistent_count);
-    return 1;
 }
 
 /* Lets the search reduce states to canonical ones, with the tables of orbits.h; 0 without memory. */
@@ -92,11 +77,7 @@ int rebsync_symmetry(struct search *s, struct symmetries found, const int32_t *n
                      const int32_t *references)
 {
     s->symmetric = 1;
-    int done = kernel_symmetry(s->kernel, found, names, origins, positions, orbit, references);
-    for (uint32_t i = 0; done && s->team && i < s->team->workers; i++)
-        done = kernel_symmetry(s->team->worker[i].kernel, found, names, origins, positions, orbit,
-                               references);
-    return done;
+    return kernel_symmetry(s->kernel, found, names, origins, positions, orbit, references);
 }
 
 /* --- searching */
@@ -115,7 +96,7 @@ static int begin(struct search *s)
     enum answer answer = kernel_initial(s->kernel, store, s);
     if (answer == UNENDING)
         return 0;
-    expect(s->escape, answer);
+    expect(s, answer);
     flush(s);
     begun(s);
     return 1;
@@ -125,12 +106,12 @@ static int begin(struct search *s)
 static void undo(struct search *s)
 {
     s->count = s->pending = s->dropped = 0;
-    s->parents.count = s->times.count = s->judge->events.count = 0;
+    s->parents.count = s->times.count = s->events.count = 0;
     free_prints(s);
     if (s->compact)
         rewind(s->arrivals);
-    s->slots = s->share_slots = 0;
-    measure_nothing(s->judge);
+    s->slots = 0;
+    measure_nothing(s);
 }
 
 /* Enters the next level, when the last one is expanded; 0 when there is none. */
@@ -157,20 +138,13 @@ static int search_on(struct search *s, uint64_t states, int64_t due)
         }
         if (turn % TURNS == 0 && clock_now() >= due)
             return SLICE;
-        enum attempt attempt = expand_together(s, states, due);
-        if (attempt == REFUSED)
-            return STOPPED;
-        if (attempt == EXPANDED) {
-            turn = TURNS - 1;
-            continue;
-        }
         unpack(s, words_of(s, s->expanded), s->ids);
         enum answer answer = kernel_successors(s->kernel, s->ids, 1, &made, store, s);
         if (answer == UNENDING) {
             flush(s);
             return CUT;
         }
-        expect(s->escape, answer);
+        expect(s, answer);
         s->expanded++;
         if (s->compact && turn % TURNS == 0) {
             flush(s);
@@ -185,7 +159,6 @@ static void exhaust(struct search *s)
     free(s->table);
     s->table = NULL;
     free_prints(s);
-    disband(s->team);
     s->pending = 0;
     s->exhausted = 1;
     if (s->beginning)
@@ -204,7 +177,6 @@ static void stop(struct search *s)
 /* What is asked now and then, by searches and by what is done afterwards; NULL asks nobody. */
 void rebsync_watch(struct search *s, void (*look)(int *goes_on))
 {
-    s->look = look;
     kernel_watch(s->kernel, look);
 }
 
@@ -223,8 +195,14 @@ void rebsync_stop_at_first(struct search *s, const int32_t *faults, int count, i
     s->first = 1;
 }
 
-static int search_until(struct search *s, uint64_t states, int64_t due)
+/* Searches for about so many nanoseconds, until `states` are found, up to the time `until`; a body
+ * may run so many instructions. */
+int rebsync_search(struct search *s, uint64_t states, int64_t until, int64_t instructions,
+                   int64_t nanoseconds)
 {
+    int64_t due = clock_now() + nanoseconds;
+    s->until = until;
+    kernel_limit(s->kernel, instructions);
     int escaped = setjmp(s->escape->to);
     if (escaped == NO_MEMORY)
         exhaust(s);
@@ -232,7 +210,7 @@ static int search_until(struct search *s, uint64_t states, int64_t due)
         stop(s);
     if (escaped == VIOLATED && s->beginning)
         begun(s);
-    if (s->judge->violated)
+    if (s->violated)
         return AT_FIRST;
     if (s->exhausted)
         return MEMORY;
@@ -247,21 +225,7 @@ static int search_until(struct search *s, uint64_t states, int64_t due)
     return end;
 }
 
-/* Searches for about so many nanoseconds, until `states` are found, up to the time `until`; a body
- * may run so many instructions. */
-int rebsync_search(struct search *s, uint64_t states, int64_t until, int64_t instructions,
-                   int64_t nanoseconds)
-{
-    s->until = until;
-    kernel_limit(s->kernel, instructions);
-    for (uint32_t i = 0; s->team && !s->team->disbanded && i < s->team->workers; i++)
-        kernel_limit(s->team->worker[i].kernel, instructions);
-    int end = search_until(s, states, clock_now() + nanoseconds);
-    end_threads(s->team);
-    return end;
-}
-
-/* --- what was found */
+/* --- afterwards */
 
 void rebsync_figures(struct search *s, struct figures *f)
 {
@@ -271,27 +235,132 @@ void rebsync_figures(struct search *s, struct figures *f)
     f->level = s->depth;
     f->depth = s->depth + (s->count > s->level_end);
     f->dropped = s->dropped;
-    f->events = s->judge->events.count;
+    f->events = s->events.count;
     f->cut = kernel_cut(s->kernel);
     f->initials = s->initials;
 }
 
 const struct event *rebsync_events(struct search *s)
 {
-    return (struct event *)s->judge->events.data;
+    return (struct event *)s->events.data;
 }
 
 const struct measured *rebsync_measured(struct search *s)
 {
-    return s->judge->measured;
+    return s->measured;
 }
 
 /* Copies which servers and branches ran, and the largest bags. */
 void rebsync_covered(struct search *s, unsigned char *served, unsigned char *covered, uint32_t *largest)
 {
     kernel_covered(s->kernel, served, covered, largest);
-    if (s->team)
-        add_covered(s->team, served, covered, largest);
+}
+
+/* The first step from a state to another, and where it is sought. */
+struct way {
+    struct search *search;
+    uint64_t from, to;
+    int64_t code; /* -1: not found yet */
+};
+
+static void find_way(void *visitor, const struct transition *step)
+{
+    struct way *w = visitor;
+    struct search *s = w->search;
+    if (w->code >= 0 || !step->state || !is_state(s, step->state, (int64_t)w->to))
+        return;
+    int64_t before = s->times.count ? ((int64_t *)s->times.data)[w->from] : 0;
+    if (!s->times.count || before + step->time <= s->until)
+        w->code = (int64_t)step->code;
+}
+
+/* The state before one on its shortest way, or -1; `code` is that of the step between. It is -2
+ * when there is no memory to find out, or the file of steps cannot be read. */
+int64_t rebsync_before(struct search *s, uint64_t state, int64_t *code)
+{
+    if (s->compact) {
+        struct arrival arrival;
+        if (!read_arrival(s, state, &arrival))
+            return -2;
+        *code = arrival.code;
+        return arrival.parent == NONE ? -1 : (int64_t)arrival.parent;
+    }
+    uint32_t parent = ((uint32_t *)s->parents.data)[state];
+    if (state < s->initials) {
+        *code = parent;
+        return -1;
+    }
+    size_t made;
+    struct way way = {s, parent, state, -1};
+    unpack(s, words_of(s, parent), s->ids);
+    if (kernel_successors(s->kernel, s->ids, 1, &made, find_way, &way) != COMPLETE)
+        return -2;
+    *code = way.code;
+    return parent;
+}
+
+/* Where the steps of states go, and how many there are. */
+struct graph {
+    uint64_t *first;
+    int64_t *target;
+    int32_t *actor;
+    int64_t *time;
+    uint64_t *labels;
+    uint16_t *turn; /* of a quotient: by which permutation the target is canonical */
+};
+
+struct drawing {
+    struct search *search;
+    struct graph graph;
+    int turns; /* whether there are permutations */
+    uint64_t edges;
+};
+
+/* Notes a step that fails, or leads to a state that was seen. */
+static void draw(void *visitor, const struct transition *step)
+{
+    struct drawing *d = visitor;
+    int64_t target = step->state ? seen(d->search, step->state) : -1;
+    if (step->state && target < 0)
+        return;
+    if (d->turns && step->state)
+        d->graph.turn[d->edges] = (uint16_t)step->turn;
+    d->graph.target[d->edges] = target;
+    d->graph.actor[d->edges] = step->actor;
+    d->graph.time[d->edges++] = step->time;
+}
+
+static void label(struct search *s, uint64_t *labels, uint32_t words)
+{
+    memset(labels, 0, words * sizeof *labels);
+    kernel_observe(s->kernel, s->ids);
+    for (int32_t p = 0; p < s->model->predicates; p++) {
+        struct valuation found = value_of(s, p);
+        if (found.defined && found.value)
+            labels[p / 64] |= UINT64_C(1) << p % 64;
+    }
+}
+
+/* Expands states again, from number `from` up to `to`, into arrays that are large enough; gives
+ * how many edges there are so far, or -1 without memory. */
+int64_t rebsync_graph(struct search *s, struct graph graph, uint64_t from, uint64_t to, uint64_t edges)
+{
+    uint32_t words = s->model->predicates ? (uint32_t)(s->model->predicates + 63) / 64 : 1;
+    struct drawing drawing = {s, graph, s->symmetric, edges};
+    size_t made;
+    if (setjmp(s->escape->to))
+        return -1;
+    if (!s->table)
+        fill_table(s, 2 * s->count + 1);
+    for (uint64_t state = from; state < to; state++) {
+        unpack(s, words_of(s, state), s->ids);
+        label(s, graph.labels + state * words, words);
+        graph.first[state] = drawing.edges;
+        if (state < s->expanded)
+            expect(s, kernel_successors(s->kernel, s->ids, 1, &made, draw, &drawing));
+    }
+    graph.first[to] = drawing.edges;
+    return (int64_t)drawing.edges;
 }
 
 /* One library: what steps are is in here, and none of the above sees it. */

@@ -24,16 +24,6 @@ struct measured {
 
 enum { PREDICATE = 8, DEADLOCK = 9 };
 
-/* What one thread has found out about the states that it has judged; see judging.h. */
-struct judge {
-    const struct search *search; /* what is asked */
-    struct kernel *kernel;
-    struct escape *escape;
-    struct vector events;
-    struct measured *measured;
-    int violated; /* an event is one at which the search ends */
-};
-
 /* States on their way into the visited set; `event` is a failed step instead, or -1. */
 struct pending {
     uint64_t hash;
@@ -68,8 +58,8 @@ struct search {
     uint64_t count, forgotten, expanded, transitions, dropped, level_end, initials;
     uint64_t depth;
     uint32_t *table;
-    uint64_t slots, share_slots, *taken; /* in all; in each share, and how many of each are not free */
-    uint32_t number_bits, shares;
+    uint64_t slots;
+    uint32_t number_bits;
     struct shard shards[SHARDS];
     FILE *arrivals;
     size_t collect_at; /* bytes of local states */
@@ -85,23 +75,22 @@ struct search {
     int beginning; /* the states that are stored are initial */
     int64_t until;
 
-    struct judge judge[1];
+    struct vector events;
     int32_t *invariants; /* predicates */
     uint32_t invariant_count;
+    struct measured *measured;
     int first; /* the search ends at the first violation: at one of these predicates, for example */
     int32_t *faults;
     uint32_t fault_count;
-    int deadlock_is_fault;
-    void (*look)(int *goes_on);
-    struct team *team; /* of several threads, or NULL */
+    int deadlock_is_fault, violated;
     struct escape escape[1];
 };
 
 /* Leaves the search if the kernel could not do all. */
-static inline void expect(struct escape *out, enum answer answer)
+static inline void expect(struct search *s, enum answer answer)
 {
     if (answer != COMPLETE)
-        longjmp(out->to, answer);
+        longjmp(s->escape->to, answer);
 }
 
 #endif

@@ -1,9 +1,84 @@
-/* States that are reached: counted, looked up in batches, stored. */
+/* States that are reached: counted, looked up in batches, stored, judged. */
 #ifndef REBSYNC_STORING_H
 #define REBSYNC_STORING_H
 
 #include "compaction.h"
-#include "judging.h"
+
+/* --- what is wrong */
+
+/* Whether an event is a violation. */
+static int is_fault(const struct search *s, const struct event *found)
+{
+    if (found->kind == DEADLOCK)
+        return s->deadlock_is_fault;
+    if (found->kind != PREDICATE)
+        return 1;
+    for (uint32_t i = 0; i < s->fault_count; i++)
+        if (s->faults[i] == found->pc)
+            return 1;
+    return 0;
+}
+
+/* Notes an event unless its cause is known. */
+static void note(struct search *s, struct event found)
+{
+    const struct event *known = (struct event *)s->events.data;
+    for (size_t i = 0; i < s->events.count; i++)
+        if (known[i].kind == found.kind && known[i].pc == found.pc && known[i].rebec == found.rebec)
+            return;
+    *(struct event *)added(s->escape, &s->events, sizeof found) = found;
+    s->violated |= s->first && is_fault(s, &found);
+}
+
+static struct valuation value_of(struct search *s, int32_t number)
+{
+    struct valuation found = kernel_evaluate(s->kernel, number);
+    expect(s, found.answer);
+    return found;
+}
+
+/* The extremes of a measure with the state observed last. */
+static void measure(struct search *s, int32_t number, int64_t state)
+{
+    struct measured *m = s->measured + number;
+    struct valuation found = value_of(s, s->model->predicates + number);
+    if (!found.defined) {
+        m->undefined = m->undefined < 0 ? state : m->undefined;
+        return;
+    }
+    if (m->least_state < 0 || found.value < m->least) {
+        m->least = found.value;
+        m->least_state = state;
+    }
+    if (m->greatest_state < 0 || found.value > m->greatest) {
+        m->greatest = found.value;
+        m->greatest_state = state;
+    }
+}
+
+/* A predicate that does not hold, or has no value, in the state observed last. */
+static void judge_invariant(struct search *s, int32_t predicate, int64_t state)
+{
+    struct valuation found = value_of(s, predicate);
+    if (!found.defined)
+        note(s, (struct event){found.kind, found.pc, -1, state, -1});
+    else if (!found.value)
+        note(s, (struct event){PREDICATE, predicate, 0, state, -1});
+}
+
+static void judge(struct search *s, uint64_t state, const uint64_t *words, int deadlock)
+{
+    if (s->invariant_count || s->model->measures) {
+        unpack(s, words, s->unpacked);
+        kernel_observe(s->kernel, s->unpacked);
+    }
+    for (uint32_t i = 0; i < s->invariant_count; i++)
+        judge_invariant(s, s->invariants[i], (int64_t)state);
+    for (int32_t i = 0; i < s->model->measures; i++)
+        measure(s, i, (int64_t)state);
+    if (deadlock)
+        note(s, (struct event){DEADLOCK, 0, 0, (int64_t)state, -1});
+}
 
 /* --- batches */
 
@@ -19,21 +94,16 @@ static void add_state(struct search *s, const struct pending *p, const uint64_t 
     if (s->until != NEVER)
         *(int64_t *)added(s->escape, &s->times, sizeof(int64_t)) = p->time;
     s->count++;
-    if (is_asked(s)) {
-        unpack(s, words, s->unpacked);
-        judge(s->judge, s->unpacked, (int64_t)state);
-    }
-    if (p->deadlock)
-        note_deadlock(s->judge, (int64_t)state);
+    judge(s, state, words, p->deadlock);
 }
 
 static void settle(struct search *s, const struct pending *p, const uint64_t *words)
 {
     if (p->event >= 0) {
-        note(s->judge, s->failed[p->event]);
+        note(s, s->failed[p->event]);
         return;
     }
-    room_for_state(s, p->hash);
+    room_for_state(s);
     if (s->compact) {
         if (!is_new_print(s, p->hash))
             return;
@@ -42,7 +112,6 @@ static void settle(struct search *s, const struct pending *p, const uint64_t *wo
         if (s->table[at])
             return;
         s->table[at] = tag_of(s, p->hash) | (uint32_t)(s->count + 1);
-        s->taken[kernel_owner(p->hash, s->shares)]++;
     }
     add_state(s, p, words);
 }
@@ -54,7 +123,7 @@ static void flush(struct search *s)
     s->pending = 0;
     for (uint32_t i = 0; i < count; i++) {
         settle(s, s->batch + i, s->batch_words + (size_t)i * s->words);
-        if (!s->judge->violated)
+        if (!s->violated)
             continue;
         s->transitions -= s->beginning ? 0 : count - i - 1;
         longjmp(s->escape->to, VIOLATED);

@@ -49,17 +49,7 @@ static inline uint64_t hash_words(struct search *s, const uint64_t *words)
     return hash;
 }
 
-/* --- the table of those seen: numbers from 1 on, with some bits of the hash above them.
- *
- * It is one share for each thread, that of `kernel_owner(hash, shares)`: what looks for a state stays
- * in its share. A share has so many slots as a power of two. */
-
-/* Where to look behind a slot. */
-static inline uint64_t next_slot(const struct search *s, uint64_t at)
-{
-    at++;
-    return at & (s->share_slots - 1) ? at : at - s->share_slots;
-}
+/* --- the table of those seen: numbers from 1 on, with some bits of the hash above them */
 
 static inline uint64_t slot_of(struct search *s, uint64_t hash)
 {
@@ -77,62 +67,37 @@ static void make_table(struct search *s, uint64_t slots)
     s->table = NULL;
     s->table = zeroed(s->escape, slots, sizeof *s->table);
     s->slots = slots;
-    s->share_slots = slots / s->shares;
-    memset(s->taken, 0, s->shares * sizeof *s->taken);
     s->number_bits = 1;
     while (s->number_bits < 32 && slots >> s->number_bits)
         s->number_bits++;
 }
 
-/* Puts the states of a share into its empty slots; some are on their way while others are hashed. */
-static void fill_share(struct search *s, uint32_t share)
-{
-    enum { AHEAD = 16 };
-    uint64_t hashes[AHEAD] = {0}, taken = 0;
-    for (uint64_t state = 0; state < s->count + AHEAD; state++) {
-        uint64_t hash = hashes[state % AHEAD];
-        if (state >= AHEAD && kernel_owner(hash, s->shares) == share) {
-            uint64_t at = slot_of(s, hash);
-            while (s->table[at])
-                at = next_slot(s, at);
-            s->table[at] = tag_of(s, hash) | (uint32_t)(state - AHEAD + 1);
-            taken++;
-        }
-        if (state < s->count) {
-            hash = hashes[state % AHEAD] = hash_words(s, words_of(s, state));
-            if (kernel_owner(hash, s->shares) == share)
-                __builtin_prefetch(s->table + slot_of(s, hash), 1);
-        }
-    }
-    s->taken[share] = taken;
-}
-
-/* Puts all states into a new table. */
+/* Puts all states into a new table; some are on their way to it while others are hashed. */
 static void fill_table(struct search *s, uint64_t slots)
 {
+    enum { AHEAD = 16 };
+    uint64_t hashes[AHEAD];
     make_table(s, slots);
-    for (uint32_t share = 0; share < s->shares; share++)
-        fill_share(s, share);
+    for (uint64_t state = 0; state < s->count + AHEAD; state++) {
+        if (state >= AHEAD) {
+            uint64_t hash = hashes[state % AHEAD], at = slot_of(s, hash);
+            while (s->table[at])
+                at = at + 1 == s->slots ? 0 : at + 1;
+            s->table[at] = tag_of(s, hash) | (uint32_t)(state - AHEAD + 1);
+        }
+        if (state < s->count) {
+            hashes[state % AHEAD] = hash_words(s, words_of(s, state));
+            __builtin_prefetch(s->table + slot_of(s, hashes[state % AHEAD]), 1);
+        }
+    }
 }
 
-/* The size of a table that has room. */
-static uint64_t larger_table(const struct search *s)
-{
-    return s->slots ? 2 * s->slots : (uint64_t)SLOTS * s->shares;
-}
-
-/* Whether a share has no room for `more` states. */
-static inline int is_full(const struct search *s, uint32_t share, uint64_t more)
-{
-    return 10 * (s->taken[share] + more) >= 6 * s->share_slots;
-}
-
-static inline void room_for_state(struct search *s, uint64_t hash)
+static void room_for_state(struct search *s)
 {
     if (s->count >= NONE - 2)
         give_up(s->escape);
-    while (!s->compact && is_full(s, kernel_owner(hash, s->shares), 1))
-        fill_table(s, larger_table(s));
+    if (!s->compact && 10 * (s->count + 1) >= 6 * s->slots)
+        fill_table(s, s->slots ? 2 * s->slots : SLOTS);
 }
 
 /* The slot of a state, or the free one where it would be. */
@@ -141,7 +106,7 @@ static inline uint64_t find(struct search *s, const uint64_t *words, uint64_t ha
     uint64_t at = slot_of(s, hash);
     uint32_t tag = tag_of(s, hash), entry;
     uint32_t numbers = (uint32_t)((UINT64_C(1) << s->number_bits) - 1);
-    for (; (entry = s->table[at]); at = next_slot(s, at)) {
+    for (; (entry = s->table[at]); at = at + 1 == s->slots ? 0 : at + 1) {
         if ((entry ^ tag) & ~numbers)
             continue;
         const uint64_t *known = words_of(s, (entry & numbers) - 1);
@@ -238,7 +203,7 @@ static void repack(struct search *s)
     free(before);
     s->wide = 0;
     if (!s->compact)
-        fill_table(s, s->slots ? s->slots : larger_table(s));
+        fill_table(s, s->slots ? s->slots : SLOTS);
 }
 
 #endif
