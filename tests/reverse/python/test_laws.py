@@ -130,3 +130,20 @@ def test_texts_with_quotes_come_back(text: str, target: str) -> None:
     body = f'reactiveclass R(2) {{ R() {{ assertion(true, "{text}"); }} }} main {{ R r():(); }}'
     model = parse_model(Source("model", body)).model
     assert_says(python_files(model, target), model)
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_who_asks_for_a_sender_later_or_elsewhere_leaves_shims_as_they_are(target: str) -> None:
+    """A handler asks for no sender if one that it posts does, nor if the run-time part may."""
+    text = """
+    interface Movable { msgsrv speed(); }
+    reactiveclass Robot implements Movable (3) {
+      Robot() { self.speed(); }
+      msgsrv speed() { self.again((byte) 1); }
+      msgsrv again(byte code) { ((Robot) sender).again(code); }
+    }
+    reactiveclass Other(3) { Other() {} msgsrv level(byte code) { self.level(code); } }
+    main { Robot robot():(); Other other():(); }
+    """
+    model = parse_model(Source("model", text)).model
+    assert_says(python_files(model, target), model)
