@@ -9,13 +9,13 @@ from __future__ import annotations
 import ast
 import posixpath
 import re
-import warnings
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from rebsync.records import dataclass
 from rebsync.reverse.build.cmake import BUILD
 from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.files.python_files import LAUNCHES, SETUP, SUFFIX, is_launch, is_python
+from rebsync.reverse.syntax.py_module import module_of
 from rebsync.source import Source
 
 _DYNAMIC = frozenset(
@@ -70,11 +70,8 @@ def _is_any_twice(texts: Iterable[str]) -> bool:
 
 def _read(text: str) -> _Module | None:
     """A module; None where it cannot be read, or may import whatever there is."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            tree = ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    tree = module_of(text)
+    if tree is None:
         return None
     nodes = list(ast.walk(tree))
     imports = frozenset(imported_by(tree))
@@ -90,7 +87,16 @@ def _read(text: str) -> _Module | None:
 
 def imported_by(tree: ast.Module) -> Iterator[str]:
     """The names of modules that a file may import, wherever it does."""
-    return (name for node in ast.walk(tree) for name in _imported(node))
+    return (name for node in _statements(tree) for name in _imported(node))
+
+
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """The statements of a module at every depth, without their expressions."""
+    for field in ("body", "orelse", "finalbody", "handlers", "cases"):
+        inner = getattr(node, field, ())
+        for child in inner if isinstance(inner, list) else ():
+            yield child
+            yield from _statements(child)
 
 
 def _imported(node: ast.AST) -> Iterator[str]:

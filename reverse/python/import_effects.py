@@ -7,7 +7,6 @@ nothing but to bind names may change the run-time part, the environment, or the 
 from __future__ import annotations
 
 import ast
-import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import TypeAlias, TypeGuard
 
@@ -15,6 +14,7 @@ from rebsync.reverse.build.built_python import files_of_import, imported_by
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.routines import Effect, Language
+from rebsync.reverse.syntax.py_module import module_of
 from rebsync.source import Source, Span
 
 _WHY = "this runs when the module is imported: what it does is not in the model"
@@ -62,7 +62,7 @@ def list_import_effects(
     sources: Mapping[str, Source], generated: Collection[str], findings: Findings
 ) -> None:
     """Lists what modules do that generated ones import; these are given by their paths."""
-    trees = {path: parsed(sources[path].text) for path in sources}
+    trees = {path: module_of(sources[path].text) for path in sources}
     reached = set[str]()
     waiting = [path for path, source in sources.items() if source.path in generated]
     while waiting:
@@ -84,21 +84,21 @@ def list_definition_effects(source: Source, own: Collection[str], findings: Find
 
     `own` are the names of these classes, which are read themselves.
     """
-    tree = parsed(source.text)
+    tree = module_of(source.text)
     if tree is not None:
         _list(source, _ImportedCode(tree).defining(own), findings)
 
 
 def list_setup_effects(source: Source, findings: Findings) -> None:
     """Lists what `setup.py` does besides to say what is installed."""
-    tree = parsed(source.text)
+    tree = module_of(source.text)
     if tree is not None:
         _list(source, _ImportedCode(tree, _IN_SETUP).acting(), findings)
 
 
 def list_launch_effects(source: Source, findings: Findings) -> None:
     """Lists what a launch file does itself besides to describe what is started."""
-    tree = parsed(source.text)
+    tree = module_of(source.text)
     if tree is None:
         return
     code = _LaunchCode(tree)
@@ -113,16 +113,6 @@ def _list(source: Source, nodes: Iterable[ast.stmt], findings: Findings) -> None
         start = source.start_of(node.lineno)
         line = source.text[start:].partition("\n")[0]
         findings.unreadable(source, Unread(Span(start, start + len(line)), _WHY), "")
-
-
-def parsed(text: str) -> ast.Module | None:
-    """The tree of a module; None of what is no Python."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            return ast.parse(text)
-        except (SyntaxError, ValueError, RecursionError, MemoryError):
-            return None
 
 
 class _ImportedCode:

@@ -11,10 +11,10 @@ from functools import lru_cache
 from tree_sitter import Node
 
 from rebsync.reverse.generated.user_blocks import user_blocks
-from rebsync.reverse.python.import_effects import parsed
 from rebsync.reverse.python.log_words import HARMLESS
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.user_effects import effects_of
+from rebsync.reverse.syntax.py_module import module_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.source import Source
 
@@ -52,7 +52,7 @@ def check(reader: ModelExpressionReader, node: Node) -> None:
 @lru_cache(maxsize=8)
 def _modelled(source: Source) -> frozenset[str]:
     """What a module imports of the package but for plain values, by full names."""
-    tree = parsed(source.text) or ast.Module([], [])
+    tree = module_of(source.text) or ast.Module([], [])
     own = source.path.rpartition("/")[0].rpartition("/")[2]
     imports = (n for n in ast.walk(tree) if isinstance(n, ast.ImportFrom))
     return frozenset(

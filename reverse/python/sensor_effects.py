@@ -18,9 +18,9 @@ from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
-from rebsync.reverse.python.import_effects import parsed
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_module import module_of
 from rebsync.source import Source, Span
 
 _ASKED = "this runs when it is asked what a sensor saw"
@@ -51,7 +51,7 @@ def list_sensor_effects(code: PyCode, generated: Collection[str], findings: Find
 def _given(source: Source) -> list[ast.expr]:
     """What choices of the model are handed besides: what a sensor makes of its message."""
     found = []
-    for node in ast.walk(parsed(source.text) or ast.Module([], [])):
+    for node in ast.walk(module_of(source.text) or ast.Module([], [])):
         match node:
             case ast.Call(func=ast.Attribute(attr="choose"), args=[_, given]):
                 found.append(given)
@@ -76,7 +76,7 @@ def _is_plain(texts: dict[str, Source], given: ast.expr) -> bool:
     looked = _looked(given)
     if not isinstance(looked, ast.Name):
         return False
-    trees = (parsed(t.text) for t in texts.values() if f"def {looked.id}(" in t.text)
+    trees = (module_of(t.text) for t in texts.values() if f"def {looked.id}(" in t.text)
     nodes = (n for tree in trees if tree is not None for n in ast.walk(tree))
     functions = [n for n in nodes if isinstance(n, ast.FunctionDef) and n.name == looked.id]
     bodies = [n for f in functions for body in f.body for n in ast.walk(body)]

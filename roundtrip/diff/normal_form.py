@@ -16,7 +16,7 @@ folded apart from that (`as_in_python`), as C++ does show it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import fields, replace
+from dataclasses import fields, is_dataclass, replace
 from typing import TypeVar, cast
 
 from rebsync import model as m
@@ -46,19 +46,25 @@ def normal_frame(model: m.Model) -> tuple[tuple[m.Head, ...], m.Main | None]:
 
 
 def rewrite(node: _Node, rule: Callable[[object], object]) -> _Node:
-    """A tree with `rule` applied to every node, to the innermost ones first."""
-    changed = {}
+    """A tree with `rule` applied to every node, to the innermost ones first.
+
+    Nodes in which nothing changes stay the ones that they are.
+    """
+    changed: dict[str, object] = {}
     for each in fields(node):  # type: ignore[arg-type]
         if not each.compare:
             continue
         value = getattr(node, each.name)
         if isinstance(value, tuple):
-            changed[each.name] = tuple(
-                rewrite(v, rule) if hasattr(v, "__dataclass_fields__") else v for v in value
-            )
-        elif hasattr(value, "__dataclass_fields__"):
-            changed[each.name] = rewrite(value, rule)
-    return cast("_Node", rule(replace(node, **changed)))  # type: ignore[type-var]
+            inner = tuple(rewrite(v, rule) if is_dataclass(v) else v for v in value)
+            if any(new is not old for new, old in zip(inner, value, strict=True)):
+                changed[each.name] = inner
+        elif is_dataclass(value):
+            inner_node = rewrite(value, rule)
+            if inner_node is not value:
+                changed[each.name] = inner_node
+    rebuilt = replace(node, **changed) if changed else node  # type: ignore[type-var]
+    return cast("_Node", rule(rebuilt))
 
 
 def as_in_python(node: _Node) -> _Node:

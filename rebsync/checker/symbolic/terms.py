@@ -9,7 +9,7 @@ operands give equal results, and nothing else is known. What each operation mean
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any, TypeAlias
 
 import z3
@@ -171,6 +171,18 @@ ARITIES: dict[str, int] = {name: count for name, (_, count, _) in _OPERATIONS.it
 
 def computed(op: str, *operands: Term) -> Term:
     """The result of an operation on its operands, from left to right."""
+    if all(isinstance(operand, int) for operand in operands):
+        return _of_numbers(op, *operands)
+    return _result(op, *operands)
+
+
+# Loops count: the same few sums and comparisons of numbers are asked for again and again.
+@lru_cache(maxsize=4096)
+def _of_numbers(op: str, *operands: int) -> Term:
+    return _result(op, *operands)
+
+
+def _result(op: str, *operands: Term) -> Term:
     compute, _, bits = _OPERATIONS[op]
     return reduced(compute(*(widened(operand, bits) for operand in operands)))
 

@@ -1,6 +1,6 @@
 """Edits by hand in roscpp, rclcpp, rospy, rclpy and mixed packages are what they mean.
 
-Here one in three, or in eight, is read and judged, and some go through a sync as well;
+Here one in four, or in eight, is read and judged, and some go through a sync as well;
 `python -m tests.roundtrip.edits` does all of it with all of them, in each dialect.
 """
 
@@ -14,12 +14,12 @@ from tests.roundtrip.edits.drawing import drawn, in_one_dialect
 from tests.roundtrip.edits.steps import all_steps, is_judged
 from tests.roundtrip.edits.trial import FILES, Case, made
 
-_EVERY = 8  # of how many edits one goes through all steps
+_EVERY = 12  # of how many edits one goes through all steps
 
 
 def drawn_cases(file: str) -> list[Case]:
-    """One in three of the cases of a file, or in eight of the longest one."""
-    every = 8 if file == "cpp.toml" else 3
+    """One in four of the cases of a file, or in eight of the longest one."""
+    every = 8 if file == "cpp.toml" else 4
     return [case for case in in_one_dialect(file) if drawn("tested", case.name, every) == 0]
 
 
