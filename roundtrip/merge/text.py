@@ -1,17 +1,14 @@
-"""Merges texts line by line, three ways, as `git merge-file` does."""
+"""Merges texts line by line, three ways, with the conflict markers of git."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Hashable, Iterator, Sequence
 from difflib import SequenceMatcher
-from pathlib import Path
-from tempfile import TemporaryDirectory
+from posixpath import commonprefix
 
-from rebsync.git import finished
 from rebsync.records import dataclass
 
-_CONFLICT = 128  # from this exit status on `git merge-file` has failed; below it counts conflicts
 # A comment at the end of a line of C++ or Python; `a // b` of Python is none.
 _BESIDE = re.compile(r"(?<=[;{},:])[ \t]*//|(?<=\S)[ \t]+#")
 
@@ -24,27 +21,36 @@ class MergedText:
     conflicts: int = 0
 
 
-def merged_text(
-    ours: str, base: str, theirs: str, labels: tuple[str, str], favour: str = "markers"
-) -> MergedText:
+def merged_text(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> MergedText:
     """Both changes of a text; where they touch, both sides between conflict markers.
 
-    With the favour `ours` the model's side is taken there, which is `theirs` of the texts, and
-    with `theirs` that of the code.
+    What both left alone divides the texts into parts (diff3: Khanna, Kunal and Pierce, A formal
+    investigation of diff3, 2007). Code and the comments at the ends of its lines merge apart.
     """
-    if theirs in (base, ours):
-        return MergedText(ours)
-    if ours == base:
-        return MergedText(theirs)
-    found = _by_git(ours, base, theirs, labels)
-    if found is None or found.conflicts:
-        by_lines = merged_lines(ours, base, theirs, labels)
-        if found is None or by_lines.conflicts < found.conflicts:
-            found = by_lines
-    merged = found
-    if not merged.conflicts or favour == "markers":
-        return merged
-    return MergedText(decided(merged.text, labels, favour == "theirs"))
+    lines = [text.splitlines(keepends=True) for text in (ours, base, theirs)]
+    out: list[str] = []
+    conflicts = 0
+    for places in aligned(*lines):
+        mine, old, new = (text[place] for text, place in zip(lines, places, strict=True))
+        if mine == new or new == old:
+            out += mine
+        elif mine == old:
+            out += new
+        elif (both := _merged_apart(mine, old, new)) is not None:
+            out += both
+        else:
+            first, last = _common_ends(mine, new)
+            out += mine[:first]
+            out += _conflict(mine[first : len(mine) - last], new[first : len(new) - last], labels)
+            out += mine[len(mine) - last :]
+            conflicts += 1
+    return MergedText("".join(out), conflicts)
+
+
+def _common_ends(ours: list[str], theirs: list[str]) -> tuple[int, int]:
+    """How many lines two sides begin, and end, with in common."""
+    first = len(commonprefix([ours, theirs]))
+    return first, len(commonprefix([ours[first:][::-1], theirs[first:][::-1]]))
 
 
 def decided(text: str, labels: tuple[str, str], first: bool) -> str:
@@ -80,47 +86,6 @@ def both_sides(ours: str, theirs: str, our_label: str, their_label: str) -> str:
         else:
             out += _conflict(first[i:j], second[k:n], (our_label, their_label))
     return "".join(out)
-
-
-def _by_git(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> MergedText | None:
-    """The merge of git; None where there is no git, or it refuses."""
-    with TemporaryDirectory(prefix="rebsync-") as folder:
-        names = ("ours", "base", "theirs")
-        for name, text in zip(names, (ours, base, theirs), strict=True):
-            Path(folder, name).write_bytes(text.encode("utf-8"))
-        told = ("-L", labels[0], "-L", "as generated last time", "-L", labels[1])
-        try:
-            done = finished("merge-file", "-p", "-q", *told, *names, folder=folder)
-        except OSError:
-            return None
-    if not 0 <= done.returncode < _CONFLICT:
-        return None
-    return MergedText(done.stdout.decode("utf-8"), done.returncode)
-
-
-# --- without git --------------------------------------------------------------------------------
-
-
-def merged_lines(ours: str, base: str, theirs: str, labels: tuple[str, str]) -> MergedText:
-    """The same without git: what both left alone divides the texts into parts that are merged.
-
-    Code and the comments at the ends of its lines are merged apart, which git does not.
-    """
-    lines = [text.splitlines(keepends=True) for text in (ours, base, theirs)]
-    out: list[str] = []
-    conflicts = 0
-    for places in aligned(*lines):
-        mine, old, new = (text[place] for text, place in zip(lines, places, strict=True))
-        if mine == new or new == old:
-            out += mine
-        elif mine == old:
-            out += new
-        elif (both := _merged_apart(mine, old, new)) is not None:
-            out += both
-        else:
-            out += _conflict(mine, new, labels)
-            conflicts += 1
-    return MergedText("".join(out), conflicts)
 
 
 def _merged_apart(ours: list[str], base: list[str], theirs: list[str]) -> list[str] | None:

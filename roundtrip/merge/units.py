@@ -16,7 +16,7 @@ from rebsync.roundtrip.merge.order import (
     with_additions,
     with_edits,
 )
-from rebsync.roundtrip.merge.text import MergedText, aligned, merged_lines, merged_text
+from rebsync.roundtrip.merge.text import MergedText, aligned, merged_text
 
 
 def merged_unit(
@@ -37,8 +37,7 @@ def _leaf(ours: CodeUnit, base: CodeUnit, theirs: CodeUnit, labels: tuple[str, s
     """Lines without units; the empty ones above them are no reason for a conflict."""
     (gap, mine), (old_gap, old), (new_gap, new) = (split_gap(u.text) for u in (ours, base, theirs))
     gap = new_gap if gap == old_gap else gap
-    # git takes a text that was not there before for one of lines without "\r"
-    merged = (merged_text if old else merged_lines)(mine, old, new, labels)
+    merged = merged_text(mine, old, new, labels)
     if merged.conflicts and ours.names and theirs.names:
         from rebsync.reverse.python.py_import_sets import merged_imports
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 
 import pytest
 
 from rebsync.roundtrip.diff.operands import SourcedModel
 from rebsync.roundtrip.merge.models import Favour, MergedModel, merged_model
-from rebsync.roundtrip.merge.text import MergedText, merged_lines, merged_text
+from rebsync.roundtrip.merge.text import merged_text
 from rebsync.roundtrip.package.models import parsed
 from rebsync.source import Source
 
@@ -148,12 +147,16 @@ LABELS = ("mine", "theirs")
 LINES = "a\nb\nc\nd\ne\n"
 
 
-@pytest.mark.parametrize("merge", [merged_text, merged_lines])
-def test_lines(merge: Callable[..., MergedText]) -> None:
-    apart = merge(LINES.replace("a", "A"), LINES, LINES.replace("e", "E\nf"), LABELS)
+def test_lines() -> None:
+    apart = merged_text(LINES.replace("a", "A"), LINES, LINES.replace("e", "E\nf"), LABELS)
     assert (apart.text, apart.conflicts) == ("A\nb\nc\nd\nE\nf\n", 0)
-    both = merge(LINES.replace("c", "x"), LINES, LINES.replace("c", "y"), LABELS)
+    both = merged_text(LINES.replace("c", "x"), LINES, LINES.replace("c", "y"), LABELS)
     wanted = "a\nb\n<<<<<<< mine\nx\n=======\ny\n>>>>>>> theirs\nd\ne\n"
     assert (both.text, both.conflicts) == (wanted, 1)
-    same = merge(LINES.replace("c", "x"), LINES, LINES.replace("c", "x"), LABELS)
+    same = merged_text(LINES.replace("c", "x"), LINES, LINES.replace("c", "x"), LABELS)
     assert (same.text, same.conflicts) == (LINES.replace("c", "x"), 0)
+    nearly = merged_text(
+        LINES.replace("c", "n\nx\nm"), LINES, LINES.replace("c", "n\ny\nz\nm"), LABELS
+    )
+    wanted = "a\nb\nn\n<<<<<<< mine\nx\n=======\ny\nz\n>>>>>>> theirs\nm\nd\ne\n"
+    assert (nearly.text, nearly.conflicts) == (wanted, 1)

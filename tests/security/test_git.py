@@ -316,18 +316,6 @@ def test_a_repository_of_somebody_else(
     assert (status, "git does not trust this repository" in shown) == (2, True), shown
 
 
-def test_merging_texts_does_not_depend_on_settings(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from rebsync.roundtrip.merge.text import merged_text
-
-    settings = tmp_path / "gitconfig"
-    settings.write_text("[merge]\n\tconflictStyle = diff3\n")
-    monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(settings))
-    merged = merged_text("a\n", "b\n", "c\n", ("x", "y"))
-    assert merged.text == "<<<<<<< x\na\n=======\nc\n>>>>>>> y\n"
-
-
 # --- the house ----------------------------------------------------------------------------------
 
 

@@ -10,7 +10,7 @@ from random import Random
 from rebsync.config import Config
 from rebsync.forward.generate import generate
 from rebsync.grammars.parser import parse_model
-from rebsync.roundtrip.merge.text import merged_lines
+from rebsync.roundtrip.merge.text import merged_text
 from rebsync.roundtrip.package.markers import user_blocks, with_user_blocks
 from rebsync.source import Source
 from rebsync.static import analyse
@@ -61,7 +61,7 @@ def as_generated(
         ours = files.get(path, "")
         blocks = user_blocks(ours)
         base = with_user_blocks(before.get(path, ""), blocks)
-        merged = merged_lines(ours, base, with_user_blocks(theirs, blocks), _LABELS)
+        merged = merged_text(ours, base, with_user_blocks(theirs, blocks), _LABELS)
         if merged.conflicts:
             return None
         result[path] = merged.text
