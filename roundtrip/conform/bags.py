@@ -18,7 +18,6 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.conform.mcap import whole_records
 from rebsync.roundtrip.conform.recording import Event, Place, Truncated
 from rebsync.roundtrip.conform.rosbag1 import Connection, DamagedBag, intact_records
-from rebsync.roundtrip.conform.sqlite import whole_rows
 from rebsync.roundtrip.conform.topic_filter import TopicChoice
 from rebsync.roundtrip.conform.topics import Topic
 
@@ -179,8 +178,7 @@ def events_2(path: str, file: int, wanted: TopicChoice, own: OwnTypes) -> Iterat
     source = _Source(path, file, wanted, own, True)
     try:
         for part in _parts(Path(path)):
-            is_database = part.suffix == ".db3"
-            with (whole_rows if is_database else whole_records)(part) as (readable, is_cut):
+            with whole_records(part) as (readable, is_cut):
                 yield from _of_part(source, readable)
             if is_cut:
                 yield source.end("it ends within a record")
