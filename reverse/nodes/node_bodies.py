@@ -212,6 +212,10 @@ class Bodies:
             self.regions[path] = Regions(self.code.files, names, values, constants)
         return self.regions[path]
 
+    def unread(self, cpp: Cpp, node: Node, why: str, hint: str = "") -> None:
+        """Lists a place of the unit that the model lacks."""
+        self.findings.unreadable(cpp.source, Unread(cpp.span(node), why, hint), self.unit.name)
+
     def within(self, name: str) -> str:
         """The name of a body in findings."""
         return f"{self.setup.within}.{name}"

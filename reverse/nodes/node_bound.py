@@ -55,9 +55,7 @@ def note_bound(bodies: Bodies) -> None:
             scope = bodies.scope(cpp, function)
             for place in _given(bodies.code, member, scope, value):
                 why = f'"{member.name}" may use or change "{text_of(place)}" where it is not seen'
-                bodies.findings.unreadable(
-                    cpp.source, Unread(cpp.span(place), why), bodies.unit.name
-                )
+                bodies.unread(cpp, place, why)
             if isinstance(scope.members.get(member.name), Outside):
                 for touches in _made_by(bodies.code, Effects(cpp, scope), value):
                     bodies.findings.unreadable(cpp.source, touches, bodies.unit.name)

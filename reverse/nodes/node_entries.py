@@ -8,7 +8,6 @@ from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_effects import touching
 from rebsync.reverse.bodies.scope import Called, Inline, Scope
-from rebsync.reverse.findings import Unread
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_programs import NodeObject
 from rebsync.reverse.nodes.node_starts import used_in_main
@@ -35,13 +34,11 @@ def note_entry(bodies: Bodies, start: Start | None) -> None:
         if at < made.end_byte or any(each.start_byte <= at < each.end_byte for each in read):
             continue
         for why in _acts(entry.cpp, scope, call):
-            unread = Unread(entry.cpp.span(call.node), why)
-            bodies.findings.unreadable(entry.cpp.source, unread, bodies.unit.name)
+            bodies.unread(entry.cpp, call.node, why)
     for node in inside(entry.body, "declaration"):
         is_late = node.start_byte >= made.end_byte
         if is_late and (_hands_on(bodies, start, node) or _keeps_function(start.made, node)):
-            unread = Unread(entry.cpp.span(node), "what this does to the object is not known")
-            bodies.findings.unreadable(entry.cpp.source, unread, bodies.unit.name)
+            bodies.unread(entry.cpp, node, "what this does to the object is not known")
 
 
 def _keeps_function(made: NodeObject | None, declaration: Node) -> bool:

@@ -14,7 +14,6 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_messages import is_pointer
 from rebsync.reverse.bodies.cpp_pointees import is_only_read, leads_to, made_in
-from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
@@ -44,8 +43,7 @@ def note_handed(bodies: Bodies) -> None:
         for call in calls_in(function.body) if function.body is not None else ():
             handed = _Handed.of(call, function, functions, fields, pointers)
             if handed is not None and handed.may_change():
-                unread = Unread(function.cpp.span(call.node), _CHANGED)
-                bodies.findings.unreadable(function.cpp.source, unread, unit.name)
+                bodies.unread(function.cpp, call.node, _CHANGED)
 
 
 def _received(bodies: Bodies) -> Iterator[PublisherFact]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rebsync.reverse.bodies.scope import Record, Variable
-from rebsync.reverse.findings import Unread
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_reach import called_by
 from rebsync.reverse.syntax.cpp_calls import calls_in
@@ -21,19 +20,16 @@ def note_hidden(bodies: Bodies) -> None:
     for member in _hiding(bodies):
         if isinstance(bodies.scope(member.cpp, None).members.get(member.name), Variable | Record):
             why = f'"{member.name}" hides the member of that name in a base class'
-            unread = Unread(member.cpp.span(member.node), why, "give one of them another name")
-            bodies.findings.unreadable(member.cpp.source, unread, bodies.unit.name)
+            bodies.unread(member.cpp, member.node, why, "give one of them another name")
     for function, name in _dispatched(bodies):
         why = f'"{name}" of the base class runs here: the object is not yet of the class below'
-        unread = Unread(function.cpp.span(function.node), why)
-        bodies.findings.unreadable(function.cpp.source, unread, bodies.unit.name)
+        bodies.unread(function.cpp, function.node, why)
     for function in bodies.unit.functions:
         if function.body is None or _CAST not in (function.body.text or b""):
             continue
         for call in calls_in(function.body):
             if call.name.startswith("const_cast"):
-                unread = Unread(function.cpp.span(call.node), "this may change what is constant")
-                bodies.findings.unreadable(function.cpp.source, unread, bodies.unit.name)
+                bodies.unread(function.cpp, call.node, "this may change what is constant")
 
 
 def _dispatched(bodies: Bodies) -> Iterator[tuple[CppFunction, str]]:

@@ -79,3 +79,9 @@ def _overridden(code: Code, unit: Unit) -> set[str]:
         return set()
     functions = (f for above in unit.lineage for f in above.functions)
     return {f.name for f in functions if f.overrides or text_of(f.node).startswith("virtual ")}
+
+
+def all_functions(code: Code) -> list[CppFunction]:
+    """The functions of classes, and what is defined outside of their bodies."""
+    owned = [f for owner in code.classes.values() for f in code.functions_of(owner)]
+    return [*owned, *(f for found in code.definitions.values() for f in found)]

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.runtime_part import runtime_part
-from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.nodes.node_bodies import Bodies
+from rebsync.reverse.nodes.node_reach import all_functions
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, part, text_of
@@ -27,20 +27,14 @@ def note_signals(bodies: Bodies, generated: bool) -> None:
     Those of the run-time part of `generated` classes are known: `check` compares its text.
     """
     runtime = runtime_part(bodies.code, generated)
-    for function in _functions(bodies):
+    for function in all_functions(bodies.code):
         if function.cpp in runtime:
             continue
         for call in bodies.code.calls_of(function):
             if call.target is not None or call.name.rpartition("::")[2] not in _SETS:
                 continue
             if not all(map(_only_ends, _handlers(bodies, function, call))):
-                unread = Unread(function.cpp.span(call.node), _WHY)
-                bodies.findings.unreadable(function.cpp.source, unread, bodies.unit.name)
-
-
-def _functions(bodies: Bodies) -> list[CppFunction]:
-    owned = (f for c in bodies.code.classes.values() for f in bodies.code.functions_of(c))
-    return [*owned, *(f for found in bodies.code.definitions.values() for f in found)]
+                bodies.unread(function.cpp, call.node, _WHY)
 
 
 def _handlers(bodies: Bodies, function: CppFunction, call: CppCall) -> Iterator[Node | None]:
@@ -52,7 +46,7 @@ def _handlers(bodies: Bodies, function: CppFunction, call: CppCall) -> Iterator[
     for each in named:
         yield from (part(n, "body") for n in inside(each, "lambda_expression"))
     names = {text_of(n) for each in named for n in inside(each, "identifier", "field_identifier")}
-    yield from (f.body for f in _functions(bodies) if f.name in names)
+    yield from (f.body for f in all_functions(bodies.code) if f.name in names)
 
 
 def _only_ends(handler: Node | None) -> bool:

@@ -11,12 +11,12 @@ from typing import TypeAlias
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import ServiceFact, SubscriptionFact, TimerFact
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_loops import later, loops_in
+from rebsync.reverse.nodes.node_reach import all_functions
 from rebsync.reverse.nodes.node_units import Start
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
@@ -44,9 +44,7 @@ def note_spinning(bodies: Bodies, start: Start | None) -> None:
         return
     program = _Spun(bodies.code, main, main.body, start.made.variable if start.made else "")
     if (found := _unserved(program, start)) is not None:
-        node, why = found
-        unread = Unread(main.cpp.span(node), why)
-        bodies.findings.unreadable(main.cpp.source, unread, bodies.unit.name)
+        bodies.unread(main.cpp, *found)
 
 
 def _unserved(program: _Spun, start: Start) -> tuple[Node, str] | None:
@@ -80,11 +78,8 @@ class _Spun:
     def serving(self) -> Iterator[Serving]:
         """Where `main`, or what it leads to by the names in it, names what serves messages."""
         by_name: dict[str, list[CppFunction]] = {}
-        for (_, name), functions in self.code.definitions.items():
-            by_name.setdefault(name, []).extend(functions)
-        for owner in self.code.classes.values():
-            for function in self.code.functions_of(owner):
-                by_name.setdefault(function.name, []).append(function)
+        for function in all_functions(self.code):
+            by_name.setdefault(function.name, []).append(function)
         words = libraries.named(Kind.SPIN, Kind.SERVE)
         by_name.pop("main", None)  # those of other programs, too
         seen, waiting = {self.main.node.id}, [self.main]
@@ -129,18 +124,14 @@ class _Spun:
     def taken_out(self) -> tuple[Node, str] | None:
         """What takes the node out of an executor, or makes a group that is in none."""
         names = {"remove_node", "create_callback_group", "add_callback_group"}
-        calls = [c for f in self._functions() for c in self.code.calls_of(f) if c.name in names]
+        functions = (f for f in all_functions(self.code) if f.body is not None)
+        calls = [c for f in functions for c in self.code.calls_of(f) if c.name in names]
         if not any(c.name == "add_callback_group" for c in calls):
             for call in calls:
                 apart = len(call.arguments) > 1 and text_of(call.arguments[1]) != "true"
                 if call.name == "create_callback_group" and apart:
                     return call.node, _GROUP
         return next(((c.node, _REMOVED) for c in calls if c.name == "remove_node"), None)
-
-    def _functions(self) -> list[CppFunction]:
-        owned = [f for c in self.code.classes.values() for f in self.code.functions_of(c)]
-        free = [f for found in self.code.definitions.values() for f in found]
-        return [f for f in (*owned, *free) if f.body is not None]
 
     def shut_down(self, serving: list[Node]) -> Node | None:
         """What shuts the client library down before all places that serve messages."""
@@ -160,8 +151,7 @@ class _Spun:
 
     def is_handed_on(self) -> bool:
         """Whether something that is not known may let messages be served."""
-        known = {name for _, name in self.code.definitions}
-        known |= {f.name for c in self.code.classes.values() for f in self.code.functions_of(c)}
+        known = {f.name for f in all_functions(self.code)}
         return any(
             (call.on == self.variable or any(self._has(a) for a in call.arguments))
             if call.target is not None

@@ -12,7 +12,6 @@ from tree_sitter import Node
 
 from rebsync.intervals import TRUTH, Interval, signed, unsigned
 from rebsync.reverse.bodies.cpp_ranges import range_of
-from rebsync.reverse.findings import Unread
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_namespaces import note_namespaces
 from rebsync.reverse.nodes.node_units import Unit
@@ -38,13 +37,13 @@ def note_unmodelled(bodies: Bodies) -> None:
         for function in bodies.unit.constructors(owner):
             if _out_of_order(bodies, owner, function):
                 why = "members are made in the order of their declarations, not in this one"
-                _list(bodies, function, function.initialisers or function.node, why)
+                bodies.unread(function.cpp, function.initialisers or function.node, why)
     for function in bodies.unit.functions:
         if function.name.startswith("~") and _acts(function) and _ends_before(bodies):
             why = (
                 "this runs when the object ends, before the program does: the model has none of it"
             )
-            _list(bodies, function, function.node, why)
+            bodies.unread(function.cpp, function.node, why)
     narrow = _narrow_enums(bodies)
     for function in bodies.unit.functions:
         if function.body is None:
@@ -53,14 +52,11 @@ def note_unmodelled(bodies: Bodies) -> None:
             scope = bodies.scope(function.cpp, function)
             found = range_of(function.cpp, scope, node)
             if found is None or not narrow[name].includes(found.values):
-                _list(bodies, function, node, f'"{name}" holds less than this may be')
+                bodies.unread(function.cpp, node, f'"{name}" holds less than this may be')
         for node in _aliases(function.body):
-            _list(bodies, function, node, "another name for an object through which it is changed")
-
-
-def _list(bodies: Bodies, function: CppFunction, node: Node, why: str) -> None:
-    unread = Unread(function.cpp.span(node), why)
-    bodies.findings.unreadable(function.cpp.source, unread, bodies.unit.name)
+            bodies.unread(
+                function.cpp, node, "another name for an object through which it is changed"
+            )
 
 
 # --- the end of objects -------------------------------------------------------------------------
