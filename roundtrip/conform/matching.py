@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -67,18 +66,13 @@ class Subject:
         return self.observable.package.settings.slack
 
 
-Watch = Callable[[Event], None]
-"""Is called with each event that is read, in the order of the recording."""
-
-
-def _unwatched(_: Event) -> None:
+def _unseen(_: Event) -> None:
     return
 
 
 def conform(
     subject: Subject,
     recording: Recording,
-    watch: Watch = _unwatched,
     most: int = REACHED,
     keeps_run: bool = False,
     widest: int = WIDEST,
@@ -89,12 +83,12 @@ def conform(
     possible states at one moment the search is cut.
     """
     graph = StateGraph(subject.program, subject.observable)
-    first = Stream(recording.events(), len(subject.program.rebecs), _unwatched)
+    first = Stream(recording.events(), len(subject.program.rebecs), _unseen)
     hidden = _hidden(subject, first, recording)
     attempt = _Attempt(subject, recording, graph, most, keeps_run, hidden, widest)
     refused: Conformance | None = None
-    for number, mode in enumerate(modes(graph, first, hidden)):
-        found = attempt.run(mode, watch if number == 0 else _unwatched)
+    for mode in modes(graph, first, hidden):
+        found = attempt.run(mode)
         if found.verdict not in ("deviates", "undetermined"):
             return found
         if refused is None or found.compared > refused.compared:
@@ -142,16 +136,11 @@ class _Attempt:
     hidden: frozenset[int]
     widest: int
 
-    def run(self, mode: Mode, watch: Watch) -> Conformance:
+    def run(self, mode: Mode) -> Conformance:
         """What becomes of it."""
         subject, graph = self.subject, self.graph
         clocks = Clocks(subject.observable.nodes, subject.time_unit)
-
-        def others(event: Event) -> None:
-            clocks.see(event)
-            watch(event)
-
-        stream = Stream(self.recording.events(), len(subject.program.rebecs), others)
+        stream = Stream(self.recording.events(), len(subject.program.rebecs), clocks.see)
         begun = start(graph, stream, mode, self.most)
         passed = _Passed()
         evaluation = Evaluation(subject.program, subject.formulas, subject.assertions)

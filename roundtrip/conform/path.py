@@ -33,11 +33,6 @@ class Path:
         for config in configs:
             self._from[time, config] = None
 
-    def restart(self, time: int, config: Config) -> None:
-        """This state is possible, and was visited, like all before it."""
-        self._visited = (time, config)
-        self._from = {self._visited: None}
-
     def link(self, time: int, after: Iterable[Config], before: int, config: Config) -> None:
         """Steps from a possible state at a time to others."""
         for each in after:

@@ -19,7 +19,6 @@ from rebsync.roundtrip.conform.path import Path
 from rebsync.roundtrip.conform.persistent import PersistentSets
 from rebsync.roundtrip.conform.possible import Config, Dead, Observer, Reason
 from rebsync.roundtrip.conform.recording import Served
-from rebsync.roundtrip.conform.single import Single
 from rebsync.roundtrip.conform.stream import Positions, Stream
 
 WIDEST = 20_000  # possible states at one moment
@@ -73,7 +72,6 @@ class Search:
         self.widest = 0
         self._persistent = PersistentSets(graph, stream)
         self._waiting: dict[int, set[Config]] = {}
-        self._next: list[int] = []
         self._dead: list[Dead] = []
         self._depth = -1
         self._overflow = False
@@ -85,8 +83,6 @@ class Search:
         if self.path is not None:
             self.path.begin(time, configs)
         while True:
-            if len(configs) == 1 and not self._waiting:
-                configs[0], time = self._followed(configs[0], time)
             self.widest = max(self.widest, len(configs))
             before = self._depth, list(self._dead), {t: set(c) for t, c in self._waiting.items()}
             try:
@@ -110,24 +106,6 @@ class Search:
             time = min(self._waiting)
             configs = list(self._waiting.pop(time))
             self._drop(configs, time)
-
-    def _followed(self, config: Config, time: int) -> tuple[Config, int]:
-        """Where the only possible state leads to, as long as there is one step that fits."""
-        if config.begun:
-            return config, time
-        visit = None
-        if self.path is not None:
-            self.path.settle(time, config)
-            visit = self.path.visit
-        single = Single(self.graph, self.stream, self._persistent, self.passed, visit)
-        try:
-            node, positions, time = single.follow(config.node, config.positions, time)
-        except EndlessBody:
-            return config, time
-        after = Config(node, positions)
-        if self.path is not None and after != config:
-            self.path.restart(time, after)
-        return after, time
 
     def _cut(self, time: int, reason: str) -> SearchResult:
         return SearchResult("cut", max(self._depth, 0), time, (), reason, self.widest)
