@@ -44,6 +44,11 @@ class Finding:
     within: str = ""
 
     @property
+    def place(self) -> str:
+        """The file and the line."""
+        return f"{self.source.path}:{self.source.position(self.span.start).line}"
+
+    @property
     def text(self) -> str:
         """The code at the place, on one line."""
         return " ".join(self.source.slice(self.span).split())

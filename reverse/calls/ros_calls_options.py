@@ -6,7 +6,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.routines import Options
-from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.cpp_calls import call_around
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.values.cpp_flow import declaration_of, made_of
 from rebsync.reverse.values.cpp_flow_types import unscoped_member
@@ -78,7 +78,7 @@ def _at(place: Node, frame: Frame, roles: Options) -> dict[str, Given]:
         role = roles.fields.get(text_of(part(above, "field")))
         if role and role != "type" and part(holder, "left") == above:
             return {role: Given(part(holder, "right"), frame)}
-    call = climb(place, lambda n: n.type in ("call_expression", "compound_statement"))
-    if call is not None and call.type == "call_expression" and part(call, "function") == above:
+    call = call_around(place)
+    if call is not None and part(call, "function") == above:
         return _created(call, frame, roles)
     return {}

@@ -20,7 +20,7 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.libraries.routines import Routine
 from rebsync.reverse.syntax.ancestors import climb
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of, unqualified
 from rebsync.reverse.values.cpp_flow import declaration_of, made_of
 from rebsync.reverse.values.cpp_values_names import one_of
 from rebsync.reverse.values.cpp_values_plain import Frame
@@ -42,8 +42,7 @@ class Asked:
 
 def types_of(node: Node | None) -> tuple[Node, ...]:
     """The arguments of the template that a name, or the last of several, is one of."""
-    while node is not None and node.type == "qualified_identifier":
-        node = part(node, "name")
+    node = unqualified(node) if node is not None else None
     if node is None or node.type not in TEMPLATES:
         return ()
     return tuple(named(part(node, "arguments")))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.findings import Grade
 from rebsync.reverse.graph import ParameterFact, PublisherFact
 from rebsync.reverse.libraries.routines import Access
 from rebsync.reverse.nodes.node_joined import Joined
@@ -27,7 +27,7 @@ def assumed(extracted: Extracted) -> Iterator[str]:
     closed_ends = _closed_ends(extracted.joined)
     for finding in different(extracted.findings):
         if finding.grade is Grade.ASSUMED and finding.why not in closed_ends:
-            yield f"{_place(finding)}: {finding.why}"
+            yield f"{finding.place}: {finding.why}"
     yield from dict.fromkeys(_parameters(extracted.joined))
     if inner := sorted(_topics_inside(extracted.joined)):
         yield f"nobody outside publishes to {', '.join(inner)}, and no message there is lost"
@@ -64,10 +64,6 @@ def _launched(joined: Joined) -> Iterator[str]:
         if any(word in source.text for source in launch.sources for word in _ARGUMENTS):
             path = launch.sources[0].path
             yield f"{path} is started with the defaults of its arguments, and no other environment"
-
-
-def _place(finding: Finding) -> str:
-    return f"{finding.source.path}:{finding.source.position(finding.span.start).line}"
 
 
 def _parameters(joined: Joined) -> Iterator[str]:

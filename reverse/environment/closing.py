@@ -113,7 +113,7 @@ class _Environment:
     def add(self, ends: Sequence[OpenEnd]) -> None:
         """A server that sends the messages of a topic, or calls a service."""
         name = unique(model_word((ends[0].name or ends[0].server).strip("/")), self.used)
-        parameters = [_parameters(self.model, end) for end in ends]
+        parameters = [parameters_of(self.model, end) for end in ends]
         fields = dict(self._fields(ends, parameters))
         sends = [
             _sent(end, [fields[path].variable for path in own])
@@ -199,7 +199,7 @@ def _server(model: m.Model, end: OpenEnd) -> tuple[m.ReactiveClass, m.MessageSer
     )
 
 
-def _parameters(model: m.Model, end: OpenEnd) -> dict[str, m.Parameter]:
+def parameters_of(model: m.Model, end: OpenEnd) -> dict[str, m.Parameter]:
     """The parameters of an open server by the paths of the fields that they get."""
     parameters = _server(model, end)[1].parameters
     paths = end.fields if len(end.fields) == len(parameters) else None

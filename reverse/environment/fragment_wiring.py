@@ -10,6 +10,7 @@ from typing import TypeGuard
 from rebsync import model as m
 from rebsync.names import unique
 from rebsync.reverse.bodies.cpp_messages import zero_of
+from rebsync.reverse.environment.closing import parameters_of
 from rebsync.reverse.environment.fragments import PUBLISH, SUBSCRIBE, Fragment, TopicServer
 from rebsync.reverse.environment.observation import Hearer
 from rebsync.reverse.models.building import bare
@@ -176,22 +177,10 @@ def _sends(
     for end in ends:
         given = tuple(
             values[path] if path in values else zero_of(parameter.type)
-            for path, parameter in _parameters(model, end).items()
+            for path, parameter in parameters_of(model, end).items()
         )
         assert None not in given
         known = tuple(g for g in given if g is not None)
         to = m.Call(m.Name(end.rebec), end.server, known, call.after, call.deadline)
         statements.append(m.ExpressionStatement(to))
     return m.Block(tuple(statements))
-
-
-def _parameters(model: m.Model, end: OpenEnd) -> dict[str, m.Parameter]:
-    """The parameters of a server by the paths of the fields that they get."""
-    server = next(
-        member
-        for owner in model.classes
-        if isinstance(owner, m.ReactiveClass) and owner.name == end.owner
-        for member in owner.members
-        if isinstance(member, m.MessageServer) and member.name == end.server
-    )
-    return dict(zip(end.fields, server.parameters, strict=True))

@@ -80,8 +80,6 @@ def node_tag(element: XmlElement, scope: LaunchScope, markers: Sequence[str]) ->
         remaps=(*given.remaps.values(), *inside.remaps.values()),
         arguments=arguments,
         nodelet=_nodelet(package, type_, arguments),
-        machine=scope.text(element, "machine"),
-        required=scope.text(element, "required") in ("true", "True"),
         test=test,
         anonymous="$(anon " in (element.get("name") or ""),
         only_if=scope.only_if + (() if condition is True else condition),
@@ -208,12 +206,10 @@ def _nodelet(package: Text, type_: Text, arguments: tuple[str, ...] | Open) -> N
     if package != "nodelet" or type_ != "nodelet" or isinstance(arguments, Open):
         return None
     match arguments:
-        case ("load", class_name, manager, *_):
-            return Nodelet("load", class_name, manager)
-        case ("standalone", class_name, *_):
-            return Nodelet("standalone", class_name, None)
+        case ("load", class_name, _, *_) | ("standalone", class_name, *_):
+            return Nodelet(arguments[0], class_name)
         case ("manager", *_):
-            return Nodelet("manager", None, None)
+            return Nodelet("manager", None)
         case _:
             return None
 

@@ -26,13 +26,11 @@ class LaunchedRemap:
 class Nodelet:
     """What a node of the package `nodelet` runs.
 
-    `command` is `load`, `standalone` or `manager`; a manager has no class, and only `load` names
-    the manager's node.
+    `command` is `load`, `standalone` or `manager`; a manager has no class.
     """
 
     command: str
     class_name: str | None
-    manager: str | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,8 +53,6 @@ class LaunchedNode:
     remaps: tuple[LaunchedRemap, ...]
     arguments: tuple[str, ...] | Open
     nodelet: Nodelet | None
-    machine: Text | None
-    required: bool
     test: bool
     anonymous: bool
     only_if: tuple[str, ...]

@@ -196,8 +196,6 @@ class Reader:
             remaps=tuple(self._remaps((*scope.remaps, *start.remaps), scope)),
             arguments=(),
             nodelet=None,
-            machine=None,
-            required=False,
             test=False,
             anonymous=False,
             only_if=scope.only_if,

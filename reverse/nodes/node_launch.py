@@ -27,7 +27,7 @@ _HINT = "name the launch file instead of the package to have its system"
 
 
 _PLAIN = LaunchedNode(
-    "", "/", "", "", (), (), (), None, None, False, False, False, (), (), Source("", ""), NOWHERE
+    "", "/", "", "", (), (), (), None, False, False, (), (), Source("", ""), NOWHERE
 )
 
 

@@ -17,7 +17,7 @@ from rebsync.reverse.scaffold.fact import (
     Fact,
     has_bearing,
 )
-from rebsync.reverse.scaffold.state_messages import facts_of_state_message, is_state_message
+from rebsync.reverse.scaffold.state_messages import FIELD, facts_of_state_message, is_state_message
 from rebsync.source import Source, Span
 
 _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
@@ -40,7 +40,6 @@ _LINE = re.compile(r"^(?:\[([^\]\n]*)\].*|(?![#;])(.*\S))$", re.MULTILINE)
 _BUILDING = re.compile(
     r"options.*|entry_points|build(?!_scripts).*|install.*|develop|global|easy_install"
 )
-_FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
 
 
 def facts_of_message(source: Source, package: str) -> Iterator[Fact]:
@@ -48,7 +47,7 @@ def facts_of_message(source: Source, package: str) -> Iterator[Fact]:
     if is_state_message(source.text):
         yield from facts_of_state_message(message, source)
         return
-    for m in _FIELD.finditer(source.text):
+    for m in FIELD.finditer(source.text):
         type_ = m[1].removeprefix(f"{package}/")
         yield Fact("field", message, m[2], type_, source, Span(*m.span()))
 

@@ -24,7 +24,7 @@ _DECLARED = re.compile(r"(?:const\s+)?[\w:<>]+[\s&*]+(\w+)\s*(?:=|\{|\(|;)")
 _FLAT = re.compile(r"flatten\s*\(\s*(.*?)\s*,\s*\w+\s*\.\s*(\w+)\s*\)\s*;", re.DOTALL)
 _SENT = re.compile(r"(?:this\s*->\s*)?(\w+)\s*(?:\.|->)\s*publish\s*\(")
 _MESSAGE = re.compile(r"^string server\nstring arguments$", re.MULTILINE)
-_FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
+FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
 
 
 def is_state_message(text: str) -> bool:
@@ -35,7 +35,7 @@ def is_state_message(text: str) -> bool:
 def facts_of_state_message(message: str, source: Source) -> Iterator[Fact]:
     """The types of the fields of a state message, which is called after its class."""
     owner = message.removesuffix(_SUFFIX)
-    for m in _FIELD.finditer(source.text):
+    for m in FIELD.finditer(source.text):
         yield Fact(TOLD_TYPE, owner, m[2], m[1], source, Span(*m.span()))
 
 

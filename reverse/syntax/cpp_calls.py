@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
 
@@ -86,3 +87,9 @@ def assigned_in(body: Node | None) -> Iterator[tuple[str, Node]]:
             if expression.type == "assignment_expression":
                 left = text_of(part(expression, "left")).removeprefix("this->")
                 yield left, part(expression, "right")
+
+
+def call_around(node: Node) -> Node | None:
+    """The innermost call that a node is a part of, within its statement."""
+    call = climb(node, lambda n: n.type in ("call_expression", "compound_statement"))
+    return call if call is not None and call.type == "call_expression" else None

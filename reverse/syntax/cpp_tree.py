@@ -347,3 +347,10 @@ def _trails(comment: Node) -> bool:
     """Whether a comment stands behind something on its line."""
     before = comment.prev_sibling
     return before is not None and before.end_point[0] == comment.start_point[0]
+
+
+def unqualified(name: Node) -> Node:
+    """A name, or the template that it is of, without the scopes before it."""
+    while name.type == "qualified_identifier":
+        name = part(name, "name")
+    return name

@@ -14,9 +14,9 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.ancestors import ancestors, climb
-from rebsync.reverse.syntax.cpp_declarations import unscoped
+from rebsync.reverse.syntax.cpp_declarations import CppAlias, unscoped
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, function_of
-from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of, unqualified
 from rebsync.reverse.syntax.cpp_words import places_of
 
 # Macros of tests that make a member function of the class they name first.
@@ -170,6 +170,22 @@ class Texts:
             seen.add(name)
         return self.code.all_classes.get(name, []) if len(seen) > 1 else []
 
+    def renamed(self, cpp: Cpp, name: Node) -> CppAlias | None:
+        """The declaration that gives a type the name that a file has for it: the nearest."""
+        text = text_of(unqualified(name))
+        aliases = self.code.aliases.get(text)
+        if not aliases or text in self.code.all_classes:
+            return None
+        best = max(aliases, key=lambda a: nearness(a.cpp, cpp))
+        return best if best.type.id != name.id else None
+
+    def pointed_to(self, name: str) -> str | None:
+        """The class whose pointers have a name as generated messages do: `ImageConstPtr`."""
+        for ending in ("ConstPtr", "Ptr"):
+            if name.endswith(ending) and name.removesuffix(ending) in self.code.all_classes:
+                return name.removesuffix(ending)
+        return None
+
     def names(self, class_: CppClass) -> list[str]:
         """The name of a class and the other names for it."""
         if self._other_names is None:
@@ -215,6 +231,11 @@ class Texts:
                     waiting += [c for c in above if c is not None]
             self._lineages[key] = list(found.values())
         return self._lineages[key]
+
+    def giving(self, class_: CppClass | None, name: str) -> CppFunction | None:
+        """The method of a class, or of those it descends from, whose result is declared."""
+        functions = (f for c in self.lineage(class_) for f in c.functions)
+        return next((f for f in functions if f.name == name and f.result is not None), None)
 
     def descendants(self, class_: CppClass) -> list[CppClass]:
         """The classes that descend from a class."""

@@ -10,6 +10,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.cpp_calls import call_around
 from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts, declaration_of, made_of, nearness
@@ -218,8 +219,7 @@ class Calls:
             return
         match above.type:
             case "template_function" | "template_method":
-                outer = climb(above, lambda n: n.type in ("call_expression", "compound_statement"))
-                if outer is not None and outer.type == "call_expression":
+                if (outer := call_around(above)) is not None:
                     yield self._use(cpp, outer, tuple(named(part(outer, "arguments"))))
                 elif above.parent is not None and above.parent.type == "field_initializer":
                     yield self._use(cpp, above.parent, _initialised(above.parent))
@@ -247,11 +247,10 @@ class Calls:
 
     def _by_maker(self, cpp: Cpp, arguments: Node) -> Iterator[Use]:
         """`make_shared<C>(x)`."""
-        function = arguments.parent
-        call = climb(arguments, lambda n: n.type in ("call_expression", "compound_statement"))
+        function, call = arguments.parent, call_around(arguments)
         if function is None or function.type != "template_function" or call is None:
             return
-        if call.type == "call_expression" and text_of(part(function, "name")).startswith("make_"):
+        if text_of(part(function, "name")).startswith("make_"):
             yield self._use(cpp, call, tuple(named(part(call, "arguments"))))
 
     def _as_member(self, declarator: Node) -> Iterator[Use]:

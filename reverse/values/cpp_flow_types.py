@@ -11,7 +11,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import CppClass, CppField, CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of, unqualified
 from rebsync.reverse.values.cpp_flow import Texts, declaration_of, made_of, nearness, scope_of
 
 HOLDERS = frozenset(
@@ -150,9 +150,7 @@ class Types:
         if type_.type in ("type_descriptor", "dependent_type"):
             inner = type_.child_by_field_name("type") or type_.named_children[-1]
             return self.plain(cpp, inner, depth + 1)
-        last = type_
-        while last.type == "qualified_identifier":
-            last = part(last, "name")
+        last = unqualified(type_)
         if last.type == "template_type":
             own = text_of(part(last, "name"))
             given = named(part(last, "arguments"))
@@ -167,15 +165,9 @@ class Types:
         name = text_of(last)
         if name in POINTERS and type_.type == "qualified_identifier":
             return "".join(text_of(type_).split()).rpartition("::")[0]
-        aliases = self.texts.code.aliases.get(name)
-        if aliases and name not in self.texts.code.all_classes:
-            best = max(aliases, key=lambda a: nearness(a.cpp, cpp))
-            if best.type.id != type_.id:
-                return self.plain(best.cpp, best.type, depth + 1)
-        for ending in ("ConstPtr", "Ptr"):
-            if name.endswith(ending) and name.removesuffix(ending) in self.texts.code.all_classes:
-                return name.removesuffix(ending)
-        return "".join(text_of(type_).split())
+        if (alias := self.texts.renamed(cpp, type_)) is not None:
+            return self.plain(alias.cpp, alias.type, depth + 1)
+        return self.texts.pointed_to(name) or "".join(text_of(type_).split())
 
     def type_of(self, cpp: Cpp, node: Node, depth: int = 0) -> str:
         """The type of an expression, as `plain` gives it; empty if it is not known."""
@@ -234,9 +226,7 @@ class Types:
             if name in _HELD:
                 return self.type_of(cpp, part(function, "argument"), depth + 1)
             return ""
-        last = function
-        while last.type == "qualified_identifier":
-            last = part(last, "name")
+        last = unqualified(function)
         if last is not function and text_of(last) in _OWN_MAKERS:
             return "".join(text_of(function).split()).rpartition("::")[0]
         if last.type in ("template_function", "template_type"):
@@ -253,11 +243,8 @@ class Types:
         return "".join(text_of(function).split()).partition("<")[0]
 
     def _result(self, owner: CppClass | None, name: str) -> str:
-        for class_ in self.texts.lineage(owner):
-            for function in class_.functions:
-                if function.name == name and function.result is not None:
-                    return self.plain(function.cpp, function.result)
-        return ""
+        function = self.texts.giving(owner, name)
+        return self.plain(function.cpp, function.result) if function is not None else ""
 
     def class_of(self, cpp: Cpp, node: Node, depth: int = 0) -> CppClass | None:
         """The class that an expression is of, if it is in the files."""
@@ -282,9 +269,7 @@ def is_list(variable: Variable) -> bool:
 
 def _template_of(variable: Variable) -> str:
     """The name of the template that a variable is an object of; empty for what is of none."""
-    type_ = variable.type
-    while type_ is not None and type_.type == "qualified_identifier":
-        type_ = part(type_, "name")
+    type_ = unqualified(variable.type) if variable.type is not None else None
     if type_ is None or type_.type != "template_type":
         return ""
     return text_of(part(type_, "name"))

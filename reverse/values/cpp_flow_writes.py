@@ -10,7 +10,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.cpp_calls import call_around
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts
@@ -87,10 +87,8 @@ class Writes:
             if writer.node == function.node or writer.name == function.owner:
                 continue
             for place in self.texts.within(function.cpp, writer.name, start, end):
-                call = climb(place, lambda n: n.type in ("call_expression", "compound_statement"))
-                if call is None or call.type != "call_expression":
-                    continue
-                if not text_of(part(call, "function")).endswith(writer.name):
+                call = call_around(place)
+                if call is None or not text_of(part(call, "function")).endswith(writer.name):
                     continue
                 if any(f.node == writer.node for f in calls.functions(function.cpp, call)):
                     yield Definition("called", place, call, text=str(writer.node.id))

@@ -13,8 +13,8 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
-from rebsync.reverse.values.cpp_flow import declaration_of, made_of, nearness
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of, unqualified
+from rebsync.reverse.values.cpp_flow import declaration_of, made_of
 from rebsync.reverse.values.cpp_flow_types import POINTERS, Types, Variable, unscoped_member
 
 POINTING = frozenset({"shared_ptr", "unique_ptr", "scoped_ptr", "weak_ptr", "intrusive_ptr"})
@@ -136,27 +136,21 @@ class StaticTypes:
                 pointers += around.type in _DECLARATORS
                 around = around.child_by_field_name("declarator")
             return self.written(cpp, node.child_by_field_name("type"), pointers, depth + 1)
-        last = node
-        while last.type == "qualified_identifier":
-            last = part(last, "name")
+        last = unqualified(node)
         text = "".join(text_of(node).split())
         if last.type == "template_type":
             given = tuple(named(part(last, "arguments")))
             full = text.removesuffix("".join(text_of(part(last, "arguments")).split()))
             return StaticType(cpp, full, given, pointers)
-        name, code = text_of(last), self.types.texts.code
+        name, texts = text_of(last), self.types.texts
         if last is node and _is_template_parameter(cpp, node):
             return None
         if name in POINTERS and last is not node:
             return StaticType(cpp, text.rpartition("::")[0].partition("<")[0], (), pointers + 1)
-        aliases = code.aliases.get(name)
-        if aliases and name not in code.all_classes:
-            best = max(aliases, key=lambda a: nearness(a.cpp, cpp))
-            if best.type.id != node.id:
-                return self.written(best.cpp, best.type, pointers, depth + 1)
-        for ending in ("ConstPtr", "Ptr"):
-            if name.endswith(ending) and name.removesuffix(ending) in code.all_classes:
-                return StaticType(cpp, name.removesuffix(ending), (), pointers + 1)
+        if (alias := texts.renamed(cpp, node)) is not None:
+            return self.written(alias.cpp, alias.type, pointers, depth + 1)
+        if (pointed := texts.pointed_to(name)) is not None:
+            return StaticType(cpp, pointed, (), pointers + 1)
         return StaticType(cpp, text, (), pointers)
 
     # --- what is inside -------------------------------------------------------------------------
@@ -241,9 +235,7 @@ class StaticTypes:
         function = part(node, "function")
         if function.type == "field_expression":
             return self._of_method(cpp, node, function, depth)
-        last = function
-        while last.type == "qualified_identifier":
-            last = part(last, "name")
+        last = unqualified(function)
         name, given = unscoped_member(last), named(part(node, "arguments"))
         if last.type == "template_function" and (types := named(part(last, "arguments"))):
             made = self.written(cpp, types[0])
@@ -280,11 +272,8 @@ class StaticTypes:
         return None
 
     def _result_of(self, owner: CppClass | None, name: str) -> StaticType | None:
-        for class_ in self.types.texts.lineage(owner):
-            for function in class_.functions:
-                if function.name == name and function.result is not None:
-                    return self.given(function)
-        return None
+        function = self.types.texts.giving(owner, name)
+        return self.given(function) if function is not None else None
 
     def given(self, function: CppFunction) -> StaticType | None:
         """The type of what a function gives, references left out."""

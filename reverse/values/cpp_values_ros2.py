@@ -13,9 +13,8 @@ from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.libraries.tables.standard import RATIOS, SUFFIXES, UNITS
 from rebsync.reverse.policies import NOT_KNOWN, UNKNOWN, USUAL, Period, either, policy_of
-from rebsync.reverse.syntax.ancestors import climb
-from rebsync.reverse.syntax.cpp_calls import string_of
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_calls import call_around, string_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of, unqualified
 from rebsync.reverse.values.cpp_evaluator import CppEvaluator
 from rebsync.reverse.values.cpp_flow_definitions import Definition
 from rebsync.reverse.values.cpp_values_names import resolved
@@ -76,9 +75,8 @@ def made(values: CppEvaluator, type_: str, use: Use, frame: Frame) -> Value | No
 
 def _declared_types(declarator: Node) -> tuple[Node, ...]:
     """The arguments of the template that a declared variable is an object of."""
-    type_ = declarator.parent.child_by_field_name("type") if declarator.parent else None
-    while type_ is not None and type_.type == "qualified_identifier":
-        type_ = part(type_, "name")
+    written = declarator.parent.child_by_field_name("type") if declarator.parent else None
+    type_ = unqualified(written) if written is not None else None
     if type_ is None or type_.type != "template_type":
         return ()
     return tuple(named(part(type_, "arguments")))
@@ -306,8 +304,7 @@ def declared(values: CppEvaluator, name: Node, frame: Frame) -> Value:
     found: list[Value] = []
     names = libraries.declaring() if isinstance(text, str) else ()
     for cpp, place in (found for n in sorted(names) for found in values.texts.everywhere(n)):
-        call = climb(place, lambda n: n.type in ("call_expression", "compound_statement"))
-        if call is None or call.type != "call_expression":
+        if (call := call_around(place)) is None:
             continue
         given = named(part(call, "arguments"))
         if len(given) > 1 and given[0].type == "string_literal" and string_of(given[0]) == text:

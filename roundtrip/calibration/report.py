@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any, TypeAlias
 
 from rebsync.checker.show.markup import Markup, element, joined
@@ -19,16 +19,20 @@ _LEFT = frozenset({1, 2, 9})  # columns of text
 def times_lines(times: RunTimes) -> Iterator[str]:
     """The table of what was measured."""
     yield f"times in units of {times.time_unit:g} s: {_about(times)}"
-    rows = [HEADS, *(_row(place) for place in times.places)]
-    widths = [max(len(row[i]) for row in rows) for i in range(len(HEADS))]
+    yield from table([HEADS, *(_row(place) for place in times.places)], _LEFT)
+    for slow in times.slow:
+        yield f"  line {slow.line}: {_slow(slow)}"
+
+
+def table(rows: Sequence[Sequence[str]], texts: Collection[int]) -> Iterator[str]:
+    """Rows as lines: the columns with these numbers are texts, all others numbers."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         cells = [
-            cell.ljust(width) if column in _LEFT else cell.rjust(width)
+            cell.ljust(width) if column in texts else cell.rjust(width)
             for column, (cell, width) in enumerate(zip(row, widths, strict=True))
         ]
         yield f"  {'  '.join(cells)}".rstrip()
-    for slow in times.slow:
-        yield f"  line {slow.line}: {_slow(slow)}"
 
 
 def proposal_lines(found: Calibration) -> Iterator[str]:

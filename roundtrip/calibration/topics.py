@@ -5,24 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from rebsync.roundtrip.calibration.report import numbers_of, statistics_json
+from rebsync.roundtrip.calibration.report import numbers_of, statistics_json, table
 from rebsync.roundtrip.calibration.times import Statistics
 from rebsync.roundtrip.conform.conformance import TopicInterval
 
 _HEADS = ("node", "callback", "kind", "topic", "count", "least", "median", "99 %", "greatest")
-_WORDS = 4  # columns of text
+_TEXTS = range(4)
 
 
 def interval_lines(intervals: Sequence[TopicInterval]) -> Iterator[str]:
     """The table of what was measured."""
     yield "times in seconds, by the stamps of the recording"
-    rows = [_HEADS, *(_row(each) for each in intervals)]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        both = list(zip(row, widths, strict=True))
-        cells = [text.ljust(width) for text, width in both[:_WORDS]]
-        cells += [text.rjust(width) for text, width in both[_WORDS:]]
-        yield f"  {'  '.join(cells)}".rstrip()
+    yield from table([_HEADS, *(_row(each) for each in intervals)], _TEXTS)
 
 
 def _row(each: TopicInterval) -> tuple[str, ...]:

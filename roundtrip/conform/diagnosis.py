@@ -218,11 +218,7 @@ class Diagnosis:
         graph = self.graph
         shown: tuple[tuple[str, str], ...] = ()
         if cells is not None:
-            observable = graph.observable
-            shown = tuple(
-                (name, observable.value(cells[cell], kind))
-                for name, kind, cell in observable.variables(rebec)
-            )
+            shown = tuple(graph.observable.shown(rebec, cells).items())
         if message is None:
             return Allowed(self._name(rebec), "constructor", "", 0, 0, shown, 0)
         server = graph.program.servers[message.server]

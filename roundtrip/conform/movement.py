@@ -79,14 +79,7 @@ def _between(ways: list[Way], frames: list[Frame]) -> RecordedMovement:
 
 def _rebec_of(observable: Observable, served: Served) -> ShownRebec:
     name = observable.program.rebecs[served.rebec].name
-    return ShownRebec(name, tuple(_state(observable, served).items()), ())
-
-
-def _state(observable: Observable, served: Served) -> dict[str, str]:
-    return {
-        name: observable.value(served.cells[cell], kind)
-        for name, kind, cell in observable.variables(served.rebec)
-    }
+    return ShownRebec(name, tuple(observable.shown(served.rebec, served.cells).items()), ())
 
 
 @dataclass(slots=True, eq=False)
@@ -114,7 +107,7 @@ class _Robot:
                 pass
 
     def _state(self, served: Served, time: float) -> None:
-        cell = self.gives.at(_state(self.observable, served), self.analysis.env)
+        cell = self.gives.at(self.observable.shown(served.rebec, served.cells), self.analysis.env)
         settings = self.observable.package.settings
         if self.start is None:
             self.start = cell

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import product
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeGuard
 
 from rebsync.checker.program import NULL, Cell, Kind, Program, Slot
 from rebsync.checker.values import cell_of, real
@@ -44,11 +44,11 @@ class Observable:
         is_plain = all(not slot.type.dimensions for slot in info.state)
 
         def decode(values: Sequence[Any]) -> Cells:
-            if is_plain and not any(map(_is_list, values)):
+            if is_plain and not any(map(is_list, values)):
                 return tuple([read(value) for read, value in zip(readers, values, strict=True)])
             cells: list[Cell] = []
             for (name, size, read), value in zip(slots, values, strict=True):
-                elements = [value] if size == 1 and not _is_list(value) else list(value)
+                elements = [value] if size == 1 and not is_list(value) else list(value)
                 if len(elements) != size:
                     raise ValueError(f"{name} has {len(elements)} elements, not {size}")
                 cells += map(read, elements)
@@ -109,6 +109,10 @@ class Observable:
             for name, cell in _elements(slot)
         )
 
+    def shown(self, rebec: int, cells: Cells) -> dict[str, str]:
+        """The values of the variables of a rebec as nodes write them, by name."""
+        return {name: self.value(cells[at], kind) for name, kind, at in self.variables(rebec)}
+
     def is_same(self, rebec: int, recorded: Cells, expected: Cells) -> bool:
         """Whether two states of a rebec are equal, up to the last bits of floating numbers."""
         return recorded == expected or not self.differing(rebec, recorded, expected)
@@ -121,7 +125,8 @@ def is_close(one: Cell, other: Cell, kind: Kind) -> bool:
     return math.isclose(real(one), real(other), rel_tol=_CLOSE[kind])
 
 
-def _is_list(value: object) -> bool:
+def is_list(value: object) -> TypeGuard[Sequence[Any]]:
+    """Whether a value is an array of a message."""
     return hasattr(value, "__len__") and not isinstance(value, (str, bytes))
 
 

@@ -127,14 +127,11 @@ class _BodyPair:
         if not in_order.found:
             return []
         named = self._with(by_name(self.left.body, self.right.body))
-        blind = self._compared((by_type(self.left.body), by_type(self.right.body)))
+        blind = self._with((by_type(self.left.body), by_type(self.right.body)))
         paired = self._with(by_pairs(self.left.body, self.right.body, blind.pairs))
         return min((named.found, paired.found, in_order.found), key=len)
 
     def _with(self, locals_: Mapped) -> BodyComparison:
-        return self._compared(locals_)
-
-    def _compared(self, locals_: Mapped) -> BodyComparison:
         first, second = self._tokens(locals_)
         bodies = BodyComparison(self.element, first, second, self.places)
         lists = first.list_of(self.left.body), second.list_of(self.right.body)

@@ -265,10 +265,7 @@ class _Comparing:
 
 def _tells(difference: Undetermined, left: bool, unread: UnreadPlace) -> bool:
     place = difference.left if left else difference.right
-    if place is None or difference.why != unread.why:
-        return False
-    same = place.source.path == unread.place.source.path
-    return same and place.span.start <= unread.place.span.start <= place.span.end
+    return place is not None and difference.why == unread.why and unread.place.begins_in(place)
 
 
 def _grouped(found: Sequence[Difference], left: Operand) -> Iterator[Difference]:

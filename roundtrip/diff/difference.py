@@ -69,6 +69,11 @@ class Place:
             return None
         return self.source.position(self.span.start).line
 
+    def begins_in(self, other: Place) -> bool:
+        """Whether it begins within another place."""
+        is_there = self.source.path == other.source.path
+        return is_there and other.span.start <= self.span.start <= other.span.end
+
     def __str__(self) -> str:
         return self.source.path if self.line is None else f"{self.source.path}:{self.line}"
 

@@ -92,9 +92,9 @@ class BodyComparison:
         if self._wrapped(lefts, rights, left, right):
             return
         for statement in lefts:
-            self._only_left(statement, right)
+            self._only(self.left, statement, right)
         for statement in rights:
-            self._only_right(statement, left)
+            self._only(self.right, statement, left)
 
     def _wrapped(
         self,
@@ -109,7 +109,7 @@ class BodyComparison:
         around = around_some(rights, lefts)
         if around is not None:
             outer, inner = around
-            self._only_right(outer, left, self._head_text(self.right, outer))
+            self._only(self.right, outer, left, self._head_text(self.right, outer))
             at = self._place(self.right, outer) or right
             self._lists(tuple(lefts), with_inner(rights, outer, inner), left, at)
             return True
@@ -117,7 +117,7 @@ class BodyComparison:
         if around is None:
             return False
         outer, inner = around
-        self._only_left(outer, right, self._head_text(self.left, outer))
+        self._only(self.left, outer, right, self._head_text(self.left, outer))
         at = self._place(self.left, outer) or left
         self._lists(with_inner(lefts, outer, inner), tuple(rights), at, right)
         return True
@@ -135,30 +135,25 @@ class BodyComparison:
         for statement in statements:
             place = self._place(tokens, statement)
             why = next(
-                (u.why for u in tokens.side.given.unread if place and _within(u.place, place)),
+                (u.why for u in tokens.side.given.unread if place and u.place.begins_in(place)),
                 "a statement that could not be read",
             )
             places = (place or left, right) if tokens is self.left else (left, place or right)
             self.found.append(Undetermined(self.element, why, *places))
 
-    def _only_left(self, statement: m.Statement, right: Place | None, head: str = "") -> None:
-        """`head` is what is told of a statement whose inside is compared."""
-        place = self._place(self.left, statement)
-        text = head or self._text(self.left, statement)
+    def _only(
+        self, tokens: Tokens, statement: m.Statement, other: Place | None, head: str = ""
+    ) -> None:
+        """A statement of one side; `head` is what is told of one whose inside is compared."""
+        place, text = self._place(tokens, statement), head or self._text(tokens, statement)
+        is_left = tokens is self.left
+        left, right = (place, other) if is_left else (other, place)
         if not head:
-            self.removed.append((statement, len(self.found)))
-        self.found.append(StatementRemoved(self.element, text, place, right))
+            (self.removed if is_left else self.inserted).append((statement, len(self.found)))
+        kind = StatementRemoved if is_left else StatementInserted
+        self.found.append(kind(self.element, text, left, right))
         if not head:
-            self._unread_inside(self.left, statement, place, right)
-
-    def _only_right(self, statement: m.Statement, left: Place | None, head: str = "") -> None:
-        place = self._place(self.right, statement)
-        text = head or self._text(self.right, statement)
-        if not head:
-            self.inserted.append((statement, len(self.found)))
-        self.found.append(StatementInserted(self.element, text, left, place))
-        if not head:
-            self._unread_inside(self.right, statement, left, place)
+            self._unread_inside(tokens, statement, left, right)
 
     def _unread_inside(
         self, tokens: Tokens, statement: m.Statement, left: Place | None, right: Place | None
@@ -287,13 +282,6 @@ class BodyComparison:
         if isinstance(written, tuple):
             written = written[0] if written else None
         return tokens.side.place(getattr(written, "span", NOWHERE))
-
-
-def _within(inner: Place, outer: Place) -> bool:
-    return (
-        inner.source.path == outer.source.path
-        and outer.span.start <= inner.span.start <= outer.span.end
-    )
 
 
 def _own_sends(element: Element) -> tuple[str, ...]:

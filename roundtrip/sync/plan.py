@@ -10,6 +10,7 @@ from pathlib import Path
 from rebsync.files import names_below, source_below
 from rebsync.patches import patch
 from rebsync.records import dataclass
+from rebsync.roundtrip.merge.code import LABELS
 from rebsync.roundtrip.merge.source import merged_source
 from rebsync.roundtrip.package.manifest import BASE, FOLDER
 from rebsync.roundtrip.package.markers import user_blocks, with_user_blocks
@@ -108,8 +109,7 @@ def _merged(path: str, old: str, base: str | None, text: str) -> Step:
         theirs, last = (
             with_user_blocks(each.replace(*ends) if ends[0] else each, own) for each in (text, base)
         )
-        labels = ("as edited", "as generated now")
-        merged = merged_source(path, (old, last, theirs), labels)
+        merged = merged_source(path, (old, last, theirs), LABELS)
         if not merged.conflicts:
             return Step(path, Action.MERGE, old, merged.text, new)
     return Step(path, Action.CONFLICT, old, new)

@@ -63,7 +63,7 @@ def test_a_node() -> None:
     found = launch('<node name="n" pkg="p" type="t" machine="m" required="true" args="-v 3"/>')
     (n,) = found.nodes
     assert (n.name, n.namespace, n.path, n.package, n.type) == ("n", "/", "/n", "p", "t")
-    assert (n.machine, n.required, n.arguments) == ("m", True, ("-v", "3"))
+    assert n.arguments == ("-v", "3")
     assert n.source.slice(n.span).startswith('<node name="n"')
     assert not found.unknowns
     assert [s.path for s in found.sources] == ["main.launch"]
@@ -583,9 +583,9 @@ def test_remappings_are_those_before_in_the_scope() -> None:
 @pytest.mark.parametrize(
     ("arguments", "nodelet"),
     [
-        ("manager", Nodelet("manager", None, None)),
-        ("load pkg/Class mgr in:=out", Nodelet("load", "pkg/Class", "mgr")),
-        ("standalone pkg/Class", Nodelet("standalone", "pkg/Class", None)),
+        ("manager", Nodelet("manager", None)),
+        ("load pkg/Class mgr in:=out", Nodelet("load", "pkg/Class")),
+        ("standalone pkg/Class", Nodelet("standalone", "pkg/Class")),
         ("unload pkg/Class mgr", None),
     ],
 )

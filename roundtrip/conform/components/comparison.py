@@ -72,7 +72,7 @@ def compare(closed: Closed, assembly: Assembly, bounds: Bounds) -> Conformance:
         doubt = assembly.doubts.get(component.name, "")
         judged.append(_Judge(component, found, closed.extracted.model, bounds, doubt).of())
         notes += (
-            f"not recorded, and so not compared: {f.text} ({_place(f)})"
+            f"not recorded, and so not compared: {f.text} ({f.place})"
             for f in found
             if NOT_SENT in f.why
         )
@@ -127,13 +127,9 @@ def _is_exact_here(finding: Finding) -> bool:
 
 
 def _named(findings: Sequence[Finding]) -> str:
-    shown = [f"{f.why} ({_place(f)})" for f in findings[:_FEW]]
+    shown = [f"{f.why} ({f.place})" for f in findings[:_FEW]]
     more = len(findings) - _FEW
     return ", ".join([*shown, f"and {more} more"] if more > 0 else shown)
-
-
-def _place(finding: Finding) -> str:
-    return f"{finding.source.path}:{finding.source.position(finding.span.start).line}"
 
 
 @dataclass(frozen=True, slots=True)

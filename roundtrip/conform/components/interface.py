@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from rebsync import model as m
 from rebsync.checker.program import Cell, Kind, Program
@@ -12,7 +12,7 @@ from rebsync.checker.values import cell_of, real
 from rebsync.records import dataclass
 from rebsync.reverse.models.texts import OTHER
 from rebsync.roundtrip.conform.components.environment import CLASS, Link
-from rebsync.roundtrip.conform.observable import is_close
+from rebsync.roundtrip.conform.observable import is_close, is_list
 
 _RANGES = {"byte": 2**7, "short": 2**15, "int": 2**31}
 
@@ -155,18 +155,13 @@ def reader(
         for slot, value in zip(parameters, values, strict=True):
             if isinstance(value, str):
                 value = texts.index(value) if value in texts else OTHER
-            elements = [value] if isinstance(value, (int, float)) else _elements(value)
+            elements = list(value) if is_list(value) else [value]
             if len(elements) != slot.size:
                 raise Unmodelled(f"{slot.name} has {len(elements)} elements, not {slot.size}")
             cells += [cell_of_field(slot.name, slot.kind, each) for each in elements]
         return tuple(cells)
 
     return cells_of
-
-
-def _elements(value: Any) -> list[object]:  # noqa: ANN401
-    is_list = hasattr(value, "__len__") and not isinstance(value, (str, bytes))
-    return list(value) if is_list else [value]
 
 
 def cell_of_field(name: str, kind: Kind, value: object) -> Cell:
@@ -190,20 +185,22 @@ def cell_of_field(name: str, kind: Kind, value: object) -> Cell:
             return int(whole)
 
 
+def kinds(program: Program, server: int) -> list[Kind]:
+    """The kinds of the cells of a message."""
+    parameters = program.bodies[program.servers[server].body].parameters
+    return [slot.kind for slot in parameters for _ in range(slot.size)]
+
+
 def is_same(program: Program, server: int, one: Sequence[Cell], other: Sequence[Cell]) -> bool:
     """Whether two messages are equal, up to the last bits of floating numbers."""
     if tuple(one) == tuple(other):
         return True
-    parameters = program.bodies[program.servers[server].body].parameters
-    kinds = [slot.kind for slot in parameters for _ in range(slot.size)]
-    return all(map(is_close, one, other, kinds))
+    return all(map(is_close, one, other, kinds(program, server)))
 
 
 def shown(program: Program, server: int, cells: Sequence[Cell]) -> str:
     """The values of a message, for people."""
-    parameters = program.bodies[program.servers[server].body].parameters
-    kinds = [slot.kind for slot in parameters for _ in range(slot.size)]
-    return f"({', '.join(map(_shown, cells, kinds))})"
+    return f"({', '.join(map(_shown, cells, kinds(program, server)))})"
 
 
 def _shown(cell: Cell, kind: Kind) -> str:

@@ -8,11 +8,11 @@ from itertools import product
 from math import inf
 
 from rebsync.checker.endless import EndlessBody
-from rebsync.checker.program import Program
 from rebsync.records import dataclass
 from rebsync.roundtrip.conform.components.bodies import BodyRun
 from rebsync.roundtrip.conform.components.component import Cells, Component, Timing
 from rebsync.roundtrip.conform.components.hypotheses import Hypothesis, Posted
+from rebsync.roundtrip.conform.components.interface import kinds
 
 _MOST_INPUTS = 1_000  # different messages that may have come before
 _MOST_WAITING = 8  # messages that a rebec has posted to itself
@@ -90,17 +90,12 @@ def _alphabet(component: Component) -> tuple[list[tuple[int, Cells]], bool]:
         if len(found) > _MOST_INPUTS:
             return list(found), False
     for server in {server for server, _ in found}:
-        kinds = _kinds(component.program, server)
-        if all(kind == "boolean" for kind in kinds) and len(kinds) <= 4:
-            found |= dict.fromkeys((server, cells) for cells in product((0, 1), repeat=len(kinds)))
+        cells = kinds(component.program, server)
+        if all(kind == "boolean" for kind in cells) and len(cells) <= 4:
+            found |= dict.fromkeys((server, each) for each in product((0, 1), repeat=len(cells)))
         else:
             is_whole = False
     return list(found), is_whole
-
-
-def _kinds(program: Program, server: int) -> list[str]:
-    parameters = program.bodies[program.servers[server].body].parameters
-    return [slot.kind for slot in parameters for _ in range(slot.size)]
 
 
 def _successors(

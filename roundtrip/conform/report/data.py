@@ -93,8 +93,8 @@ def _served(served: Served, subject: Subject) -> Json:
         "now": served.now,
         "stamp": served.stamp,
         "state": {
-            name: value_of(observable.value(served.cells[cell], kind))
-            for name, kind, cell in observable.variables(served.rebec)
+            name: value_of(text)
+            for name, text in observable.shown(served.rebec, served.cells).items()
         },
     }
 

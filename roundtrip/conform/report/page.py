@@ -143,11 +143,9 @@ def _recorded(found: Conformance, subject: Subject) -> Trace:
 def _step(number: int, served: Served, before: Served | None, subject: Subject) -> TraceStep:
     observable = subject.observable
     name = observable.program.rebecs[served.rebec].name
-    values = [
-        (variable, *(observable.value(cells[cell], kind) for cells in _states(before, served)))
-        for variable, kind, cell in observable.variables(served.rebec)
-    ]
-    changes = tuple(Change(name, v, old, new) for v, old, new in values if old != new)
+    old = observable.shown(served.rebec, (before or served).cells)
+    new = observable.shown(served.rebec, served.cells)
+    changes = tuple(Change(name, v, old[v], text) for v, text in new.items() if old[v] != text)
     message = ShownMessage(
         served.server, (("", served.arguments),) if served.arguments else (), "", served.arrival,
         None, name,
@@ -157,10 +155,6 @@ def _step(number: int, served: Served, before: Served | None, subject: Subject) 
         number, "take", served.start, served.now, name, message, (), (), changes, 0, rebecs,
         Action(served.rebec),
     )  # fmt: skip
-
-
-def _states(before: Served | None, served: Served) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    return (before.cells if before is not None else served.cells), served.cells
 
 
 # --- the error of time
