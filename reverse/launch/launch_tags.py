@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 import yaml
 
 from rebsync.records import dataclass
+from rebsync.reverse.launch.parameters import yaml_span
 from rebsync.reverse.launch.ros2_actions import (
     Action,
     Condition,
@@ -124,16 +125,12 @@ def _of_yaml(name: str, node: yaml.Node) -> Tag:
     inner: list[Tag] = list(_entities(node))
     for key, value in _pairs(node):
         if isinstance(value, yaml.ScalarNode):
-            given[key] = tag_words(value.value, _span(value))
+            given[key] = tag_words(value.value, yaml_span(value))
         elif isinstance(value, yaml.SequenceNode):
             inner += [_of_yaml(key, item) for item in value.value]
         else:
             inner.append(_of_yaml(key, value))
-    return Tag(_name(name), given, tuple(inner), (), _span(node))
-
-
-def _span(node: yaml.Node) -> Span:
-    return Span(node.start_mark.index, node.end_mark.index)
+    return Tag(_name(name), given, tuple(inner), (), yaml_span(node))
 
 
 # --- actions ------------------------------------------------------------------------------------

@@ -124,16 +124,18 @@ class _Reader:
         for key, value in self._pairs(node):
             word = self._key(key)
             if isinstance(word, Open):
-                self.unknown("a parameter", word.why, _span(key))
+                self.unknown("a parameter", word.why, yaml_span(key))
             else:
                 self.flatten(word if not name or word.startswith("/") else f"{name}/{word}", value)
         self._inside.discard(with_node)
 
     def _set(self, name: str, node: yaml.Node, value: ParameterValue | Open) -> None:
         if isinstance(value, Open):
-            self.unknown(f"the parameter `{name}`" if name else "the value", value.why, _span(node))
+            self.unknown(
+                f"the parameter `{name}`" if name else "the value", value.why, yaml_span(node)
+            )
         self.entries.pop(name, None)
-        self.entries[name] = Parameter(name, value, self._source, self._place(_span(node)))
+        self.entries[name] = Parameter(name, value, self._source, self._place(yaml_span(node)))
 
     def _enter(self, node: yaml.Node) -> int:
         self._left -= 1
@@ -149,7 +151,7 @@ class _Reader:
                 several = isinstance(value, yaml.SequenceNode)
                 for merged in reversed(value.value) if several else (value,):
                     if not isinstance(merged, yaml.MappingNode):
-                        self.unknown("what `<<` merges", "it is no mapping", _span(merged))
+                        self.unknown("what `<<` merges", "it is no mapping", yaml_span(merged))
                         continue
                     entered = self._enter(merged)
                     yield from self._pairs(merged)
@@ -213,7 +215,8 @@ def _first_open(values: list[ParameterValue | Open]) -> Open | None:
     return next((v for v in values if isinstance(v, Open)), None)
 
 
-def _span(node: yaml.Node) -> Span:
+def yaml_span(node: yaml.Node) -> Span:
+    """The place of a node in its text."""
     return Span(node.start_mark.index, node.end_mark.index)
 
 

@@ -16,7 +16,7 @@ from rebsync.checker.machine import Coverage
 from rebsync.checker.outcomes import Actor, Outcome
 from rebsync.checker.program import NO_DEADLINE, NULL, Cell, Kind, Program
 from rebsync.checker.state import Local, Message
-from rebsync.roundtrip.conform.observable import Observable
+from rebsync.roundtrip.conform.observable import Observable, kinds
 from rebsync.roundtrip.conform.recording import Served
 
 _REMEMBERED = 50_000  # bodies
@@ -104,12 +104,11 @@ class BodyRuns:
 
     def _arguments(self, server: int, text: str) -> tuple[Cell, ...]:
         """The cells of arguments that a node has written. ValueError: they are of other types."""
-        parameters = self._program.bodies[self._program.servers[server].body].parameters
         words = [word.strip(" []") for word in text.split(",")] if text else []
-        kinds = [slot.kind for slot in parameters for _ in range(slot.size)]
-        if len(words) != len(kinds):
+        wanted = kinds(self._program, server)
+        if len(words) != len(wanted):
             raise ValueError(text)
-        return tuple(self._cell(w, kind) for w, kind in zip(words, kinds, strict=True))
+        return tuple(self._cell(w, kind) for w, kind in zip(words, wanted, strict=True))
 
     def _cell(self, word: str, kind: Kind) -> Cell:
         if kind == "boolean":

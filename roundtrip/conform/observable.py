@@ -118,6 +118,12 @@ class Observable:
         return recorded == expected or not self.differing(rebec, recorded, expected)
 
 
+def kinds(program: Program, server: int) -> list[Kind]:
+    """The kinds of the cells of a message."""
+    parameters = program.bodies[program.servers[server].body].parameters
+    return [slot.kind for slot in parameters for _ in range(slot.size)]
+
+
 def is_close(one: Cell, other: Cell, kind: Kind) -> bool:
     """Equal; of floating numbers up to what libraries of mathematics leave open."""
     if one == other or kind not in _CLOSE:

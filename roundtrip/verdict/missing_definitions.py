@@ -35,9 +35,9 @@ def missing_definitions(now: PackageState, codes: _Codes) -> Iterator[Findings]:
         yield from _seen(codes)
 
 
-def finding(source: Source, span: Span, message: str) -> Findings:
-    """That something is needed and missing."""
-    return Findings(source, (Diagnostic("RS956", span, message, _HINT),))
+def finding(source: Source, span: Span, message: str, hint: str = _HINT) -> Findings:
+    """That something in the code is not as it was generated, or is missing; what to do."""
+    return Findings(source, (Diagnostic("RS956", span, message, hint),))
 
 
 def _users(name: str, codes: _Codes) -> Iterator[Source]:

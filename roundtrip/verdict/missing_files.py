@@ -7,7 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 from warnings import catch_warnings, simplefilter
 
-from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
+from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.reverse.files.packages import MANIFEST
 from rebsync.reverse.files.python_files import SETUP
@@ -71,8 +71,7 @@ def _not_executable(now: PackageState) -> Iterator[Findings]:
         if now.digests[name].startswith(NOT_EXECUTABLE):
             source = Source(now.listing.files[name], "")
             message = "this program is not executable, so that nothing can start it"
-            hint = "make it executable again: `chmod +x`"
-            yield Findings(source, (Diagnostic("RS956", NOWHERE, message, hint),))
+            yield finding(source, NOWHERE, message, "make it executable again: `chmod +x`")
 
 
 def _code(path: str) -> Source | None:

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 
-from rebsync.diagnostics import Diagnostic, Findings, RebsyncError
+from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.reverse.files.compiled_text import compiled_text
 from rebsync.reverse.scaffold.facts import package_name
@@ -24,6 +24,7 @@ from rebsync.roundtrip.package.record import Record
 from rebsync.roundtrip.package.shared_runtime import inside, is_shared, path_beside
 from rebsync.roundtrip.package.state import PackageState
 from rebsync.roundtrip.package.units import manifest_of
+from rebsync.roundtrip.verdict.missing_definitions import finding
 from rebsync.source import NOWHERE, Source, Span
 
 _HINT = "take the edit back, or tell of it in the model; `rebsync generate --diff` shows it"
@@ -73,7 +74,7 @@ def _edited(
             yield _gone(package, name)
         elif HEADER.match(name) or MODULE.match(name) or _is_python_program(package, name):
             message = "generated code that the rest needs is gone"
-            yield _finding(Source(f"{package.root}/{name}", ""), NOWHERE, message)
+            yield finding(Source(f"{package.root}/{name}", ""), NOWHERE, message, _HINT)
         return
     try:
         source = Source(path, compiled_text(name, read_source(path).text))
@@ -82,19 +83,20 @@ def _edited(
         found = error.findings[0]
         message = f"generated code that no model describes cannot be compared with {BASE}{name}"
         message += f": {found.diagnostics[0].message}"
-        yield _finding(Source(path, ""), NOWHERE, message)
+        yield finding(Source(path, ""), NOWHERE, message, _HINT)
         return
     span = _difference(name, base, source, own)
     if span is not None and _difference(name, base, _named_as(source, renamed), own) is not None:
-        yield _finding(source, span, "this is not as it was generated, and no model describes it")
+        yield finding(
+            source, span, "this is not as it was generated, and no model describes it", _HINT
+        )
 
 
 def _gone(package: ManagedPackage, name: str) -> Findings:
     """What is to be done where the run-time part that packages share is not beside one."""
     message = "the run-time part that this package shares with others is not here"
     hint = "`rebsync generate --runtime package` writes it beside the package"
-    source = Source(path_beside(package.root, name), "")
-    return Findings(source, (Diagnostic("RS956", NOWHERE, message, hint),))
+    return finding(Source(path_beside(package.root, name), ""), NOWHERE, message, hint)
 
 
 def _named_as(source: Source, renamed: Mapping[str, str]) -> Source:
@@ -132,10 +134,6 @@ def _difference(name: str, base: Source, source: Source, own: frozenset[str]) ->
 def _fields(message: Source) -> list[str]:
     lines = (line.partition("#")[0].split() for line in message.text.splitlines())
     return [" ".join(line) for line in lines if line]
-
-
-def _finding(source: Source, span: Span, message: str) -> Findings:
-    return Findings(source, (Diagnostic("RS956", span, message, _HINT),))
 
 
 def _moved(now: PackageState, name: str) -> str | None:

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from rebsync.checker.endless import EndlessBody
 from rebsync.checker.program import Cell
-from rebsync.roundtrip.conform.components.bodies import Publication
+from rebsync.roundtrip.conform.components.bodies import SentMessage
 from rebsync.roundtrip.conform.components.component import Component, Output
 from rebsync.roundtrip.conform.components.hypotheses import Candidate, Hypothesis
 from rebsync.roundtrip.conform.components.inclusion import InclusionSearch
@@ -43,7 +43,7 @@ class Expected(NamedTuple):
     due: float
     high: float
     topic: int
-    sent: Publication
+    sent: SentMessage
     server: int
 
 

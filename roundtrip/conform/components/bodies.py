@@ -15,17 +15,9 @@ Cells = tuple[Cell, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Publication:
-    """A message that a body publishes so many units after it began: the environment's server."""
-
-    server: int
-    cells: Cells
-    after: int
-
-
-@dataclass(frozen=True, slots=True)
-class SelfSend:
-    """A message that a body sends its own rebec, to arrive so many units after it began."""
+class SentMessage:
+    """A message that a body sends so many units after it began: to the server of its own rebec, or
+    of the environment, which publishes it."""
 
     server: int
     cells: Cells
@@ -37,8 +29,8 @@ class BodyRun:
     """A way that a body can go; it takes `busy` units. `failure`: the model breaks a rule."""
 
     variables: Cells
-    published: tuple[Publication, ...]
-    posted: tuple[SelfSend, ...]
+    published: tuple[SentMessage, ...]
+    posted: tuple[SentMessage, ...]
     busy: int
     failure: Failure | None = None
 
@@ -68,16 +60,14 @@ class ComponentBodies:
         return found
 
     def _run(self, outcome: Outcome) -> BodyRun:
-        sent = [(each.receiver, each.message) for each in outcome.sends]
-        published = tuple(
-            Publication(m.server, m.arguments, m.arrival)
-            for to, m in sent
-            if to == self._environment
-        )
-        posted = tuple(
-            SelfSend(m.server, m.arguments, m.arrival) for to, m in sent if to == self._rebec
-        )
+        published = self._sent(outcome, self._environment)
+        posted = self._sent(outcome, self._rebec)
         if isinstance(outcome.result, Failure):
             return BodyRun((), published, posted, 0, outcome.result)
         local = outcome.result
         return BodyRun(local.variables, published, posted, local.busy)
+
+    def _sent(self, outcome: Outcome, receiver: int) -> tuple[SentMessage, ...]:
+        """The messages of an outcome to one of the rebecs."""
+        messages = (each.message for each in outcome.sends if each.receiver == receiver)
+        return tuple(SentMessage(m.server, m.arguments, m.arrival) for m in messages)

@@ -20,7 +20,7 @@ from typing import Literal
 from rebsync.checker.endless import EndlessBody
 from rebsync.checker.steps import Failure
 from rebsync.records import dataclass
-from rebsync.roundtrip.conform.components.bodies import BodyRun, Publication
+from rebsync.roundtrip.conform.components.bodies import BodyRun, SentMessage
 from rebsync.roundtrip.conform.components.component import (
     CONNECTS,
     UNORDERED,
@@ -275,7 +275,7 @@ class InclusionSearch:
         return [self._after(before, candidate, run, *way) for way in ways]
 
     def published(
-        self, before: Hypothesis, candidate: Candidate, sent: tuple[Publication, ...]
+        self, before: Hypothesis, candidate: Candidate, sent: tuple[SentMessage, ...]
     ) -> list[Fit]:
         """When a body may have run by what it publishes, and the outputs that fit then."""
         ways = [(candidate.low, candidate.high, before.matched)]
@@ -285,7 +285,7 @@ class InclusionSearch:
                 ways = [after for way in ways for after in self._fitting(way, topic, each)]
         return ways
 
-    def _fitting(self, way: Fit, topic: int, sent: Publication) -> list[Fit]:
+    def _fitting(self, way: Fit, topic: int, sent: SentMessage) -> list[Fit]:
         found: list[Fit] = []
         low, high, matched = way
         number, timing = matched[topic], self._timing
@@ -306,7 +306,7 @@ class InclusionSearch:
             found.append((low, high, matched))
         return found
 
-    def is_output(self, output: Output, sent: Publication) -> bool:
+    def is_output(self, output: Output, sent: SentMessage) -> bool:
         """Whether a recorded message has the values that a body publishes."""
         return is_same(self.component.program, sent.server, output.cells, sent.cells)
 

@@ -12,7 +12,7 @@ from rebsync.checker.values import cell_of, real
 from rebsync.records import dataclass
 from rebsync.reverse.models.texts import OTHER
 from rebsync.roundtrip.conform.components.environment import CLASS, Link
-from rebsync.roundtrip.conform.observable import is_close, is_list
+from rebsync.roundtrip.conform.observable import is_close, is_list, kinds
 
 _RANGES = {"byte": 2**7, "short": 2**15, "int": 2**31}
 
@@ -183,12 +183,6 @@ def cell_of_field(name: str, kind: Kind, value: object) -> Cell:
             if whole != number or not -most <= whole < most:
                 raise Unmodelled(f"{name} is {value}, which no {kind} holds")
             return int(whole)
-
-
-def kinds(program: Program, server: int) -> list[Kind]:
-    """The kinds of the cells of a message."""
-    parameters = program.bodies[program.servers[server].body].parameters
-    return [slot.kind for slot in parameters for _ in range(slot.size)]
 
 
 def is_same(program: Program, server: int, one: Sequence[Cell], other: Sequence[Cell]) -> bool:

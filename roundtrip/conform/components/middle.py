@@ -12,7 +12,7 @@ from rebsync.records import dataclass
 from rebsync.roundtrip.conform.components.bodies import BodyRun
 from rebsync.roundtrip.conform.components.component import Cells, Component, Timing
 from rebsync.roundtrip.conform.components.hypotheses import Hypothesis, Posted
-from rebsync.roundtrip.conform.components.interface import kinds
+from rebsync.roundtrip.conform.observable import kinds
 
 _MOST_INPUTS = 1_000  # different messages that may have come before
 _MOST_WAITING = 8  # messages that a rebec has posted to itself
