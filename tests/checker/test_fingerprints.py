@@ -69,6 +69,34 @@ def test_a_full_disk_ends_the_search() -> None:
     subprocess.run(command, cwd=_ROOT, env=environment, check=True, timeout=120)
 
 
+_LITTLE_MEMORY = """\
+import resource
+from pathlib import Path
+from rebsync.checker.compiled import CompiledSearch
+from rebsync.checker.exploration import Limits
+from tests.checker.test_compiled import _walkers
+program = _walkers(4, 400).program
+exact = CompiledSearch(program, "ftts", (0,))
+exact.run(Limits(states=1000))
+held = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (held + 20 * 2**20,) * 2)
+search = CompiledSearch(program, "ftts", (0,), hash_compaction=True)
+for _ in range(2):
+    found = search.run(Limits())
+    assert found.reason == "there was no more memory", found
+assert found.states > 100_000, found
+assert found.events
+assert [search.path(state) for state in range(1000)] == [exact.path(state) for state in range(1000)]
+assert len(search.path(found.states - 1)) > found.depth
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is bounded as Linux does")
+def test_without_memory_it_tells_what_it_has_found() -> None:
+    command = [sys.executable, "-c", _LITTLE_MEMORY]
+    subprocess.run(command, cwd=_ROOT, check=True, timeout=120)
+
+
 def _growth(engine: str) -> int:
     """Bytes that a search of 348,000 states with floats adds to its process."""
     script, model = _ROOT / "bench" / "searching.py", _ROOT / "bench" / "models" / "ttc.rebeca"

@@ -5,19 +5,23 @@
  *
  * The set is one array of slots in as many parts as a byte has values, all with equal room. The first
  * byte of a fingerprint says its part, so that the seven others are all that a slot holds (quotients:
- * Knuth, volume 3, exercise 6.4-13). Linear probing goes round in the part.
+ * Knuth, volume 3, exercise 6.4-13). Linear probing goes round in the part, in the order
+ * of homes (Robin Hood hashing: Celis 1985), which ends a search after few slots in a full table.
  */
 #ifndef REBSYNC_FINGERPRINTS_H
 #define REBSYNC_FINGERPRINTS_H
 
 #include "common.h"
 
-enum { PARTS = 256, SLOT = 7 };
+enum { PARTS = 256, SLOT = 7, LARGE_FROM = 1 << 25 };
+
+#define MOST_SLOTS ((size_t)5 << 30) /* for 2^32 states */
 
 struct fingerprints {
     unsigned char *slots; /* seven bytes each, all 0 when free */
     uint64_t room;        /* slots in each part */
     uint64_t counts[PARTS];
+    size_t reserved;      /* bytes of addresses */
 };
 
 static inline unsigned char *slot_at(const struct fingerprints *f, uint64_t part, uint64_t at)
@@ -56,31 +60,65 @@ static inline uint64_t home_of(const struct fingerprints *f, uint64_t rest)
     return (uint64_t)(((unsigned __int128)(rest << 8) * f->room) >> 64);
 }
 
-/* The slot that holds it, or the free one where it would be. */
-static inline unsigned char *probe(const struct fingerprints *f, uint64_t part, uint64_t rest)
+static inline uint64_t slot_behind(const struct fingerprints *f, uint64_t at)
 {
-    uint64_t at = home_of(f, rest), held;
-    unsigned char *slot = slot_at(f, part, at);
-    while ((held = read_slot(slot)) && held != rest) {
-        at = at + 1 == f->room ? 0 : at + 1;
-        slot = slot_at(f, part, at);
-    }
-    return slot;
+    return at + 1 == f->room ? 0 : at + 1;
 }
 
-/* Memory that grows without a copy, which would double what is needed; NULL if it cannot. */
-static void *grown(void *data, size_t before, size_t size)
+/* Frees a slot: those from there up to the next free one move on by one. */
+static void make_place(struct fingerprints *f, uint64_t part, uint64_t at)
+{
+    unsigned char *slots = slot_at(f, part, 0);
+    uint64_t end = at;
+    while (read_slot(slots + end * SLOT))
+        end = slot_behind(f, end);
+    if (end < at) {
+        memmove(slots + SLOT, slots, end * SLOT);
+        end = f->room - 1;
+        memcpy(slots, slots + end * SLOT, SLOT);
+    }
+    memmove(slots + (at + 1) * SLOT, slots + at * SLOT, (end - at) * SLOT);
+}
+
+/* Puts it into a part that has a free slot; 0 when it is there. It is not where one begins that lies
+ * less far from its home. */
+static int insert_rest(struct fingerprints *f, uint64_t part, uint64_t rest)
+{
+    uint64_t at = home_of(f, rest), held;
+    for (uint64_t far = 0; (held = read_slot(slot_at(f, part, at))); far++) {
+        if (held == rest)
+            return 0;
+        uint64_t home = home_of(f, held);
+        if (at - home + (at < home ? f->room : 0) < far)
+            break;
+        at = slot_behind(f, at);
+    }
+    if (held)
+        make_place(f, part, at);
+    write_slot(slot_at(f, part, at), rest);
+    return 1;
+}
+
+/* Memory for slots that stays where it is when it grows: a copy would double what is needed, and
+ * moving it would break up large pages. Linux gives addresses for the most that may come, or as many
+ * as it allows, and memory when it is written. NULL if there is no more. */
+static unsigned char *room_for_slots(struct fingerprints *f, size_t size)
 {
 #ifdef __linux__
-    void *moved = data ? mremap(data, before, size, MREMAP_MAYMOVE)
-                       : mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (moved == MAP_FAILED)
+    enum { KINDS = PROT_READ | PROT_WRITE, FLAGS = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE };
+    for (size_t most = MOST_SLOTS * SLOT; !f->slots && most >= size; most /= 2) {
+        void *reserved = mmap(NULL, most, KINDS, FLAGS, -1, 0);
+        if (reserved != MAP_FAILED)
+            f->slots = reserved;
+        f->reserved = most;
+    }
+    if (!f->slots || size > f->reserved)
         return NULL;
-    madvise(moved, size, MADV_HUGEPAGE); /* all of it, so that it can grow again */
-    return moved;
+    if (size >= LARGE_FROM) /* the last large page may be nearly empty */
+        in_large_pages(f->slots, f->reserved);
+    return f->slots;
 #else
-    (void)before;
-    return realloc(data, size);
+    return realloc(f->slots, size);
 #endif
 }
 
@@ -90,7 +128,7 @@ static void enlarge_prints(struct escape *out, struct fingerprints *f)
 {
     uint64_t before = f->room, size = before * SLOT, room = before + before / 8 + STEP;
     unsigned char *part = malloc(size + 1);
-    unsigned char *slots = part ? grown(f->slots, PARTS * size, PARTS * room * SLOT) : NULL;
+    unsigned char *slots = part ? room_for_slots(f, PARTS * room * SLOT) : NULL;
     if (!slots) {
         free(part);
         give_up(out);
@@ -103,7 +141,7 @@ static void enlarge_prints(struct escape *out, struct fingerprints *f)
         for (uint64_t at = 0; at < before; at++) {
             uint64_t rest = read_slot(part + at * SLOT);
             if (rest)
-                write_slot(probe(f, p, rest), rest);
+                insert_rest(f, p, rest);
         }
     }
     free(part);
@@ -115,18 +153,16 @@ static int insert_print(struct escape *out, struct fingerprints *f, uint64_t pri
     uint64_t part = print >> 56, rest = rest_of(print);
     if (8 * (f->counts[part] + 1) > 7 * f->room)
         enlarge_prints(out, f);
-    unsigned char *slot = probe(f, part, rest);
-    if (read_slot(slot))
-        return 0;
-    write_slot(slot, rest);
-    f->counts[part]++;
-    return 1;
+    int is_new = insert_rest(f, part, rest);
+    f->counts[part] += (uint64_t)is_new;
+    return is_new;
 }
 
-static inline void prefetch_print(const struct fingerprints *f, uint64_t print)
+/* Where it is sought first: to be fetched by the caller, as compilers leave out calls that do no
+ * more than that. */
+static inline const unsigned char *place_of_print(const struct fingerprints *f, uint64_t print)
 {
-    if (f->room)
-        __builtin_prefetch(slot_at(f, print >> 56, home_of(f, rest_of(print))), 1);
+    return slot_at(f, print >> 56, home_of(f, rest_of(print)));
 }
 
 static size_t size_of_prints(const struct fingerprints *f)
@@ -138,7 +174,7 @@ static void free_prints(struct fingerprints *f)
 {
 #ifdef __linux__
     if (f->slots)
-        munmap(f->slots, size_of_prints(f));
+        munmap(f->slots, f->reserved);
 #else
     free(f->slots);
 #endif

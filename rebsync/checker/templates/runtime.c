@@ -1,5 +1,4 @@
 /* The breadth-first search. */
-#define _GNU_SOURCE /* for mremap */
 #include "standstill.h"
 #include "storing.h"
 

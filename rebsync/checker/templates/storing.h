@@ -189,7 +189,7 @@ static void store_state(struct search *s, const struct transition *step, int64_t
     p->deadlock = step->deadlock;
     if (s->compact) {
         p->hash = kernel_fingerprint(s->kernel, step->state);
-        prefetch_print(&s->prints, p->hash);
+        __builtin_prefetch(place_of_print(&s->prints, p->hash), 1);
     } else {
         p->hash = hash_words(s, words);
         if (s->slots)
