@@ -2,8 +2,9 @@
 
     python bench/searching.py ENGINE LANGUAGE MODEL [CONSTANT=VALUE ...]
 
-Searches several times if that is quick; `cpu` is the least time of this process for a search,
-and `growth` what it added to the memory of the process, in bytes.
+ENGINE is interpreted, compiled or compacted (with fingerprints). Searches several times if that is
+quick; `cpu` is the least time of this process for a search, and `growth` what it added to the
+memory of the process, in bytes.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ def program_of(path: Path, constants: dict[str, str]) -> Program:
 def search_of(engine: str, program: Program, semantics: Semantics) -> Search:
     if engine == "interpreted":
         return Interpreted(program, semantics)
-    return CompiledSearch(program, semantics)
+    return CompiledSearch(program, semantics, hash_compaction=engine == "compacted")
 
 
 def timed(search: Search) -> tuple[float, Exploration]:

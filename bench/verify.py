@@ -1,12 +1,13 @@
 """What verification costs: time and memory for each state, against SPIN, and whole commands.
 
-    python bench/verify.py [family] [engines] [spin] [first] [actors] [--plot FILE]
+    python bench/verify.py [family] [engines] [prints] [spin] [first] [actors] [--plot FILE]
 
 Without a name, all of them. `--plot` draws the family: docs/cost-per-state.svg. A machine that has
 other work to do makes all figures worse, so its load is printed as well.
 
 family   cost of a state from 10^4 to 10^7 states of models that grow with one parameter
 engines  the compiled engine and the interpreter on the same searches
+prints   whole states and fingerprints on the same searches
 spin     an untimed model against SPIN on its twin (needs spin and gcc)
 first    whole commands on the models of the thesis: nothing is compiled
 actors   whole commands on large models: built before, and with an empty cache
@@ -90,6 +91,30 @@ def engines() -> None:
     print()
 
 
+FINGERPRINTED = (
+    ("laps", "laps=4"),
+    ("crowd", "longest=20"),
+    ("crowd", "longest=38"),
+    ("ttc", "rounds=11"),
+)
+
+
+def prints() -> None:
+    """What states take of which fingerprints are kept, and nothing else."""
+    print("model                     states   exact: bytes    us  prints: bytes    us   (a state)")
+    for name, constant in FINGERPRINTED:
+        model = MODELS / f"{name}.rebeca"
+        exact, compacted = (
+            searched(e, "timed", model, constant) for e in ("compiled", "compacted")
+        )
+        assert exact.states == compacted.states
+        print(
+            f"{name + ', ' + constant:20}{exact.states:12,}{exact.growth / exact.states:15.1f}"
+            f"{exact.cost:6.2f}{compacted.growth / compacted.states:15.1f}{compacted.cost:6.2f}"
+        )
+    print()
+
+
 KINDS = (("", 0), ("_unsafe", 3))  # with the exit status of the verdict
 THESIS = tuple((f"experiment{n}{kind}", s) for n in (1, 2, 3) for kind, s in KINDS)
 
@@ -124,6 +149,7 @@ def actors() -> None:
 
 PARTS: dict[str, Callable[[], object]] = {
     "engines": engines,
+    "prints": prints,
     "spin": spin,
     "first": first,
     "actors": actors,

@@ -284,6 +284,7 @@ class CompiledSearch:
         )
 
     def _notes(self, states: int) -> tuple[str, ...]:
+        """The risk: pairs of states, times 2^-64 for each hash (Wolper & Leroy 1993)."""
         if not self.hash_compaction:
             return ()
         hashes = len(self.program.rebecs) + 2  # of local states, and to put these together

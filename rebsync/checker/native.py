@@ -24,7 +24,16 @@ KERNEL = (
     "collecting.h",
     "kernel.c",
 )
-PARTS = (*KERNEL, "search.h", "visited.h", "compaction.h", "storing.h", "standstill.h")
+PARTS = (
+    *KERNEL,
+    "fingerprints.h",
+    "trail.h",
+    "search.h",
+    "visited.h",
+    "frontier.h",
+    "storing.h",
+    "standstill.h",
+)
 SEMANTICS: tuple[Semantics, ...] = ("tts", "ftts", "core")
 END = ("finished", "slice", "states", "endless", "memory", "stopped", "violated")
 NOT_FOUND = -2  # instead of a state: there is no memory, or it was ended

@@ -9,6 +9,7 @@ from dataclasses import field, replace
 from itertools import islice
 
 from rebsync.checker.choosing import semantics_for
+from rebsync.checker.confirming import confirmed
 from rebsync.checker.endless import endless_reason
 from rebsync.checker.engines import explore
 from rebsync.checker.exploration import Event, Exploration, Faults, Progress, Report, Search
@@ -208,13 +209,13 @@ class _Answer:
     def _add(self, kind: ViolationKind, name: str, message: str, line: int, trace: Trace) -> None:
         if any((v.kind, v.name) == (kind, name) for v in self.violations):
             return
-        path = self.problem.source.path
-        self.violations.append(Violation(kind, name, message, path, line, trace))
+        file = self.problem.source.path
+        self.violations.append(Violation(kind, name, message, file, line, trace))
 
     def _trace(self, event: Event) -> Trace:
         key = event.state, event.ordinal
         if key not in self._traces:  # many assertions can be false in one state
-            path = self.search.path(event.state)
+            path = confirmed(self.teller, self.search.path(event.state), event)
             self._traces[key] = self.teller.trace(path, event.ordinal)
         return self._traces[key]
 

@@ -16,12 +16,13 @@
 /* How much tables and memories hold, at first or at most, and how often the search looks up. With
  * little of all that, small systems show whether what is full is handled rightly. */
 #ifdef LITTLE_ROOM
-enum { BATCH = 3, OBSERVED = 2, MEMO = 2, MEMO_AT_MOST = 8, TABLE = 8, SLOTS = 8, TURNS = 2, GONE = 3 };
-enum { SHARDS = 2, SHARD = 1, COLLECT = 500 };
+enum { BATCH = 3, OBSERVED = 2, MEMO = 2, MEMO_AT_MOST = 8, MEMO_BESIDE = 4, TABLE = 8, SLOTS = 8, TURNS = 2 };
+enum { STEP = 1, STRETCH = 3, LEAST = 500, BESIDE = 8 };
 #else
-enum { BATCH = 64, OBSERVED = 1024, MEMO = 1024, MEMO_AT_MOST = 1 << 18, TABLE = 256 };
-enum { SLOTS = 1 << 14, TURNS = 256, GONE = 4096 };
-enum { SHARDS = 256, SHARD = 64, COLLECT = 1 << 22 };
+enum { BATCH = 64, OBSERVED = 1024, TABLE = 256 };
+enum { MEMO = 1024, MEMO_AT_MOST = 1 << 18, MEMO_BESIDE = 1 << 16 };
+enum { SLOTS = 1 << 14, TURNS = 256 };
+enum { STEP = 64, STRETCH = 4096, LEAST = 1 << 21, BESIDE = 8 };
 #endif
 
 #define NEVER INT64_MAX

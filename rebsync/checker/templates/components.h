@@ -256,11 +256,11 @@ static uint32_t number_of(struct kernel *k, uint32_t rebec, const struct local *
 
 static void enlarge_memo(struct kernel *k, struct memo *m, uint64_t components)
 {
-    uint64_t size = m->entries ? m->mask + 1 : 0;
-    if (size >= MEMO_AT_MOST || 4 * components <= size)
+    uint64_t size = m->entries ? m->mask + 1 : 0, most = k->hashes ? MEMO_BESIDE : MEMO_AT_MOST;
+    if (size >= most || 4 * components <= size)
         return;
     size = MEMO;
-    while (size < 8 * components && size < MEMO_AT_MOST)
+    while (size < 8 * components && size < most)
         size *= 2;
     struct remembered *entries = malloc(size * sizeof *entries);
     if (!entries && m->entries)

@@ -50,7 +50,7 @@ typedef void visit(void *visitor, const struct transition *step);
 /* --- its life */
 
 /* A kernel of a model; `hashes`: fingerprints are wanted often, so hashes of contents are kept, at 8
- * bytes a local state. NULL without memory. */
+ * bytes a local state, and fewer results are remembered. NULL without memory. */
 struct kernel *kernel_new(const struct model *model, enum semantics semantics, int hashes);
 void kernel_free(struct kernel *k);
 

@@ -34,9 +34,9 @@ void rebsync_free(struct search *s)
         s->parents.data, s->times.data, s->table, s->invariants, s->faults, s->measured};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
-    free_prints(s);
-    if (s->arrivals)
-        fclose(s->arrivals);
+    free_prints(&s->prints);
+    free_trail(&s->trail);
+    free_frontier(&s->frontier);
     kernel_free(s->kernel);
     free(s);
 }
@@ -52,7 +52,6 @@ struct search *rebsync_new(const struct model *model, int semantics, int compact
     s->rebecs = (uint32_t)model->rebecs;
     s->compact = compact;
     s->until = NEVER;
-    s->collect_at = COLLECT;
     if (setjmp(s->escape->to)) {
         rebsync_free(s);
         return NULL;
@@ -60,7 +59,7 @@ struct search *rebsync_new(const struct model *model, int semantics, int compact
     s->kernel = kernel_new(model, semantics, compact);
     if (!s->kernel || !kernel_persistent(s->kernel, persistent, persistent_count))
         give_up(s->escape);
-    if (compact && !(s->arrivals = tmpfile()))
+    if (compact && !((s->trail.file = tmpfile()) && make_frontier(&s->frontier, s->rebecs)))
         give_up(s->escape);
     make_packed(s);
     kernel_meet(s->kernel, meet, s);
@@ -107,9 +106,10 @@ static void undo(struct search *s)
 {
     s->count = s->pending = s->dropped = 0;
     s->parents.count = s->times.count = s->events.count = 0;
-    free_prints(s);
+    free_prints(&s->prints);
+    s->frontier.tail.count = 0;
     if (s->compact)
-        rewind(s->arrivals);
+        clear_trail(&s->trail);
     s->slots = 0;
     measure_nothing(s);
 }
@@ -138,7 +138,7 @@ static int search_on(struct search *s, uint64_t states, int64_t due)
         }
         if (turn % TURNS == 0 && clock_now() >= due)
             return SLICE;
-        unpack(s, words_of(s, s->expanded), s->ids);
+        unpack(s, front(s), s->ids);
         enum answer answer = kernel_successors(s->kernel, s->ids, 1, &made, store, s);
         if (answer == UNENDING) {
             flush(s);
@@ -146,9 +146,12 @@ static int search_on(struct search *s, uint64_t states, int64_t due)
         }
         expect(s, answer);
         s->expanded++;
-        if (s->compact && turn % TURNS == 0) {
-            flush(s);
-            tidy(s);
+        if (s->compact) {
+            s->frontier.head.expanded++;
+            if (turn % TURNS == 0) {
+                flush(s);
+                tidy(s);
+            }
         }
     }
 }
@@ -158,7 +161,7 @@ static void exhaust(struct search *s)
 {
     free(s->table);
     s->table = NULL;
-    free_prints(s);
+    free_prints(&s->prints);
     s->pending = 0;
     s->exhausted = 1;
     if (s->beginning)
@@ -279,11 +282,11 @@ static void find_way(void *visitor, const struct transition *step)
 int64_t rebsync_before(struct search *s, uint64_t state, int64_t *code)
 {
     if (s->compact) {
-        struct arrival arrival;
-        if (!read_arrival(s, state, &arrival))
+        struct arrival arrival = {0};
+        if (!read_arrival(&s->trail, state, &arrival))
             return -2;
-        *code = arrival.code;
-        return arrival.parent == NONE ? -1 : (int64_t)arrival.parent;
+        *code = (int64_t)arrival.code;
+        return state < s->initials ? -1 : (int64_t)arrival.parent;
     }
     uint32_t parent = ((uint32_t *)s->parents.data)[state];
     if (state < s->initials) {

@@ -2,9 +2,8 @@
 #ifndef REBSYNC_SEARCH_H
 #define REBSYNC_SEARCH_H
 
-#include <stdio.h>
-
-#include "common.h"
+#include "fingerprints.h"
+#include "trail.h"
 
 /* Where the number of a component lies in a packed state. */
 struct field {
@@ -32,14 +31,26 @@ struct pending {
     int32_t event, deadlock;
 };
 
-/* A part of the table of fingerprints; 0 is a free slot. */
-struct shard {
-    uint64_t *prints, count, slots;
+/* States of the frontier, packed; those in front are expanded. Times are those of arrival. */
+struct states {
+    struct vector packed, times;
+    uint64_t expanded, count;
 };
 
-/* What has led to a state: a step from its parent, by its code; to an initial one a code alone. */
-struct arrival {
-    uint32_t parent, code;
+/* States on the disk. */
+struct chunks {
+    FILE *file;
+    uint64_t chunks;
+};
+
+/* The queue of states that wait, see frontier.h. */
+struct frontier {
+    struct states head, tail;
+    struct chunks in, out;
+    size_t collect_at; /* bytes of local states */
+    size_t *first;     /* where the numbers of each rebec begin in `numbers` */
+    struct vector numbers, content;
+    struct field *fields; /* of the chunk that is read */
 };
 
 /* Why a search is left in the middle of a step, besides what the kernel answers. */
@@ -55,14 +66,14 @@ struct search {
     uint32_t words;
     int wide; /* a number does not fit its field any more */
     struct vector states, parents, times;
-    uint64_t count, forgotten, expanded, transitions, dropped, level_end, initials;
+    uint64_t count, expanded, transitions, dropped, level_end, initials;
     uint64_t depth;
     uint32_t *table;
     uint64_t slots;
     uint32_t number_bits;
-    struct shard shards[SHARDS];
-    FILE *arrivals;
-    size_t collect_at; /* bytes of local states */
+    struct fingerprints prints; /* with `compact`, instead of states, parents and table */
+    struct trail trail;
+    struct frontier frontier;
     int exhausted; /* there was no more memory: the search does not go on */
     int stopped; /* a search that was ended in the middle of a step does not go on */
 

@@ -2,7 +2,7 @@
 #ifndef REBSYNC_STORING_H
 #define REBSYNC_STORING_H
 
-#include "compaction.h"
+#include "frontier.h"
 
 /* --- what is wrong */
 
@@ -82,19 +82,34 @@ static void judge(struct search *s, uint64_t state, const uint64_t *words, int d
 
 /* --- batches */
 
-static void add_state(struct search *s, const struct pending *p, const uint64_t *words)
+/* Keeps a state, its step and its time. */
+static void keep(struct search *s, const struct pending *p, const uint64_t *words)
 {
-    uint64_t state = s->count, place = state - s->forgotten;
     size_t size = s->words * sizeof *words;
-    memcpy((char *)room_for(s->escape, &s->states, (place + 1) * size, 1) + place * size, words, size);
-    if (s->compact)
-        write_arrival(s, (struct arrival){s->beginning ? NONE : p->parent, p->code});
-    else
-        *(uint32_t *)added(s->escape, &s->parents, sizeof(uint32_t)) = p->parent;
+    memcpy((char *)room_for(s->escape, &s->states, (s->count + 1) * size, 1) + s->count * size, words, size);
+    *(uint32_t *)added(s->escape, &s->parents, sizeof(uint32_t)) = p->parent;
     if (s->until != NEVER)
         *(int64_t *)added(s->escape, &s->times, sizeof(int64_t)) = p->time;
-    s->count++;
-    judge(s, state, words, p->deadlock);
+}
+
+/* The same with fingerprints: the state is kept as long as it waits. */
+static void keep_waiting(struct search *s, const struct pending *p, const uint64_t *words)
+{
+    struct arrival arrival = {s->beginning ? 0 : p->parent, p->code};
+    write_arrival(s->escape, &s->trail, arrival);
+    push_state(s, words, p->time);
+}
+
+/* Puts a state into the set of those seen; 0 when it is there already. */
+static int insert(struct search *s, const struct pending *p, const uint64_t *words)
+{
+    if (s->compact)
+        return insert_print(s->escape, &s->prints, p->hash);
+    uint64_t at = find(s, words, p->hash);
+    if (s->table[at])
+        return 0;
+    s->table[at] = tag_of(s, p->hash) | (uint32_t)(s->count + 1);
+    return 1;
 }
 
 static void settle(struct search *s, const struct pending *p, const uint64_t *words)
@@ -104,16 +119,13 @@ static void settle(struct search *s, const struct pending *p, const uint64_t *wo
         return;
     }
     room_for_state(s);
-    if (s->compact) {
-        if (!is_new_print(s, p->hash))
-            return;
-    } else {
-        uint64_t at = find(s, words, p->hash);
-        if (s->table[at])
-            return;
-        s->table[at] = tag_of(s, p->hash) | (uint32_t)(s->count + 1);
-    }
-    add_state(s, p, words);
+    if (!insert(s, p, words))
+        return;
+    if (s->compact)
+        keep_waiting(s, p, words);
+    else
+        keep(s, p, words);
+    judge(s, s->count++, words, p->deadlock);
 }
 
 /* Looks up and stores what has gathered, in its order. */
@@ -128,6 +140,19 @@ static void flush(struct search *s)
         s->transitions -= s->beginning ? 0 : count - i - 1;
         longjmp(s->escape->to, VIOLATED);
     }
+}
+
+/* The next state to be expanded, packed; there is one. */
+static const uint64_t *front(struct search *s)
+{
+    struct states *head = &s->frontier.head;
+    if (!s->compact)
+        return words_of(s, s->expanded);
+    if (head->expanded == head->count) {
+        flush(s);
+        refill(s);
+    }
+    return packed_in(s, head, head->expanded);
 }
 
 /* Makes room in the batch for a step, and in words for its state. */
@@ -164,7 +189,7 @@ static void store_state(struct search *s, const struct transition *step, int64_t
     p->deadlock = step->deadlock;
     if (s->compact) {
         p->hash = kernel_fingerprint(s->kernel, step->state);
-        prefetch_print(s, p->hash);
+        __builtin_prefetch(place_of_print(&s->prints, p->hash), 1);
     } else {
         p->hash = hash_words(s, words);
         if (s->slots)
@@ -181,6 +206,16 @@ static void store_failure(struct search *s, const struct transition *step)
     s->failed[p->event] = (struct event){step->kind, step->pc, step->rebec, state, code};
 }
 
+/* When the state that is expanded was reached. */
+static int64_t time_before(struct search *s)
+{
+    const struct states *head = &s->frontier.head;
+    if (s->beginning)
+        return 0;
+    return s->compact ? ((int64_t *)head->times.data)[head->expanded]
+                      : ((int64_t *)s->times.data)[s->expanded];
+}
+
 /* Takes in a step that the kernel has made. */
 static void store(void *search, const struct transition *step)
 {
@@ -191,7 +226,7 @@ static void store(void *search, const struct transition *step)
         return;
     }
     if (s->until != NEVER) {
-        time += s->beginning ? 0 : ((int64_t *)s->times.data)[s->expanded - s->forgotten];
+        time += time_before(s);
         if (time > s->until) {
             s->dropped++;
             return;

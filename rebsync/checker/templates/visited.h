@@ -6,7 +6,7 @@
 
 static inline uint64_t *words_of(struct search *s, uint64_t state)
 {
-    return (uint64_t *)s->states.data + (state - s->forgotten) * s->words;
+    return (uint64_t *)s->states.data + state * s->words;
 }
 
 /* Whether the numbers of a state fit their fields. */
@@ -176,21 +176,15 @@ static void meet(void *search, uint32_t rebec, uint32_t number)
         s->wide = 1;
 }
 
-/* Packs all states anew: from the last one when they grow, else from the first. */
-static void repack(struct search *s)
+/* Packs states anew in new fields: from the last one when they grow, else from the first. */
+static void repack_all(struct search *s, struct vector *packed, uint64_t count, struct field *fields,
+                       uint32_t words)
 {
-    struct field *fields = zeroed(s->escape, s->rebecs, sizeof *fields), *before = s->fields;
-    uint32_t words, old = s->words;
-    uint64_t kept = s->count - s->forgotten;
-    lay_out(s, fields, &words);
-    room_for(s->escape, &s->states, (kept + 1) * words * sizeof(uint64_t), 1);
-    uint64_t *batch = realloc(s->batch_words, BATCH * words * sizeof *batch);
-    if (!batch)
-        give_up(s->escape);
-    s->batch_words = batch;
-    uint64_t *data = (uint64_t *)s->states.data;
-    for (uint64_t i = 0; i < kept; i++) {
-        uint64_t state = words > old ? kept - 1 - i : i;
+    struct field *before = s->fields;
+    uint32_t old = s->words;
+    uint64_t *data = room_for(s->escape, packed, (count + 1) * words * sizeof *data, 1);
+    for (uint64_t i = 0; i < count; i++) {
+        uint64_t state = words > old ? count - 1 - i : i;
         s->fields = before;
         s->words = old;
         unpack(s, data + state * old, s->unpacked);
@@ -198,9 +192,27 @@ static void repack(struct search *s)
         s->words = words;
         pack(s, s->unpacked, data + state * words);
     }
+    s->fields = before;
+    s->words = old;
+}
+
+/* Gives all states wider fields. */
+static void repack(struct search *s)
+{
+    struct field *fields = zeroed(s->escape, s->rebecs, sizeof *fields);
+    struct states *head = &s->frontier.head, *tail = &s->frontier.tail;
+    uint32_t words;
+    lay_out(s, fields, &words);
+    uint64_t *batch = realloc(s->batch_words, BATCH * words * sizeof *batch);
+    if (!batch)
+        give_up(s->escape);
+    s->batch_words = batch;
+    repack_all(s, &s->states, s->compact ? 0 : s->count, fields, words);
+    repack_all(s, &head->packed, head->count, fields, words);
+    repack_all(s, &tail->packed, tail->count, fields, words);
+    free(s->fields);
     s->fields = fields;
     s->words = words;
-    free(before);
     s->wide = 0;
     if (!s->compact)
         fill_table(s, s->slots ? s->slots : SLOTS);
