@@ -14,7 +14,11 @@ EDITS = {
     "ros1-cpp": ("hello/include/hello/mailbox.h", QUEUE, "// mine\n"),
     "ros2-cpp": ("hello/include/hello/mailbox.hpp", QUEUE, "// mine\n"),
     "ros1-py": ("hello/src/hello/mailbox.py", ("QUEUE_SIZE = 1000", "QUEUE_SIZE = 9"), "# mine\n"),
-    "ros2-py": ("hello/hello/hello/mailbox.py", ("QUEUE_SIZE = 1000", "QUEUE_SIZE = 9"), "# mine\n"),
+    "ros2-py": (
+        "hello/hello/hello/mailbox.py",
+        ("QUEUE_SIZE = 1000", "QUEUE_SIZE = 9"),
+        "# mine\n",
+    ),
 }
 ASKED = (
     ["extract", "hello"],
