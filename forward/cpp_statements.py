@@ -252,8 +252,19 @@ def _returns(statement: m.Statement) -> bool:
             return bool(statements) and _returns(statements[-1])
         case m.If(then=then, otherwise=otherwise):
             return otherwise is not None and _returns(then) and _returns(otherwise)
+        case m.Switch(cases=cases) if any(c.value is None for c in cases):
+            parts = [c.statements for c in cases]
+            ends = all(_returns(part[-1]) for part in parts if part) and bool(parts[-1])
+            return ends and not any(_breaks(s) for part in parts for s in part)
         case _:
             return False
+
+
+def _breaks(statement: m.Node) -> bool:
+    """Whether a `break` within a statement is one of the switch that the statement is in."""
+    if isinstance(statement, m.For | m.While | m.Switch):
+        return False
+    return isinstance(statement, m.Break) or any(map(_breaks, m.children(statement)))
 
 
 def _has_effect(expression: m.Expression) -> bool:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Set
+from collections.abc import Collection, Iterator
 from dataclasses import field
-from itertools import chain, count
 
 from rebsync import model as m
 from rebsync.forward.hoisting import crossing_locals
 from rebsync.forward.py_expressions import PyExpressions
 from rebsync.forward.py_layout import INDENT
-from rebsync.forward.py_loops import counters, counting, steps
+from rebsync.forward.py_locals import local_names
+from rebsync.forward.py_loops import counting, steps
 from rebsync.forward.py_operators import ATOM, UNARY
 from rebsync.forward.py_places import bare, compound, is_in_order, step
 from rebsync.forward.py_switches import Branch, branches, is_place
@@ -27,13 +27,15 @@ from rebsync.unions import assert_never
 class PyStatements:
     """Prints the bodies of one class; `remarks` are the model's comments.
 
-    `cases` are the names of the switches around a statement, `loop` the number of those that are
-    inside of its innermost loop, `again` what tells the first round of a loop.
+    `hoisted` are the locals that stand before a `switch`, `repeated` those whose name has its type
+    from another block. `cases` are the names of the switches around a statement, `loop` the number
+    of those that are inside of its innermost loop, `again` what tells the first round of a loop.
     """
 
     expressions: PyExpressions
     remarks: Remarks
     hoisted: Collection[int]
+    repeated: Collection[int] = ()
     cases: list[str] = field(default_factory=list)
     loop: int = 0
     again: str = "again"
@@ -63,31 +65,13 @@ class PyStatements:
                 return False
 
     def _name_locals(self, block: m.Block, parameters: tuple[m.Parameter, ...]) -> None:
-        """Python has one scope a function: what is declared again gets a name of its own.
-
-        Loops that count, one after the other, may count by one name.
-        """
         names, e = self.expressions.names, self.expressions
-        taken = {names.local(p.name) for p in parameters}
-        counted = counters(block, e.analysis)
-        for node in m.walk(block):
-            if isinstance(node, m.Declarator) and id(node) not in counted:
-                e.locals[id(node)] = name = _free(names.local(node.name), taken)
-                taken.add(name)
-        self._name_counters(block, taken)
-        declared = (id(n) for n in m.walk(block) if isinstance(n, m.Declarator))
-        e.used = {*names.hidden(), *taken, *(e.locals[d] for d in declared)}
+        given = [names.local(p.name) for p in parameters]
+        found = local_names(block, given, self.hoisted, e.analysis, names.local)
+        e.locals |= found.names
+        self.repeated = found.repeated
+        e.used = {*names.hidden(), *given, *found.names.values()}
         self.cases, self.again = [], _numbered("again", e.used)
-
-    def _name_counters(self, node: m.Node, taken: Set[str]) -> None:
-        """Names what the loops in a statement count by; `taken` has the names around it."""
-        counter = counting(node, self.expressions.analysis) if isinstance(node, m.For) else None
-        if counter is not None:
-            name = _free(self.expressions.names.local(counter.name), taken)
-            self.expressions.locals[id(counter)] = name
-            taken = taken | {name}
-        for inner in m.children(node):
-            self._name_counters(inner, taken)
 
     # --- sequences ------------------------------------------------------------------------------
 
@@ -190,7 +174,8 @@ class PyStatements:
     def _local(self, declaration: m.Declaration) -> Iterator[str]:
         for declarator in declaration.declarators:
             name, type_ = self._name(declarator), declaration.type
-            typed = name if id(declarator) in self.hoisted else f"{name}: {py_type(type_)}"
+            is_typed = id(declarator) in self.hoisted or id(declarator) in self.repeated
+            typed = name if is_typed else f"{name}: {py_type(type_)}"
             yield f"{typed} = {self._initial(declarator, type_)}"
 
     def _name(self, declarator: m.Declarator) -> str:
@@ -365,9 +350,3 @@ class PyStatements:
 def _numbered(name: str, used: Collection[str]) -> str:
     """The name, with a number behind it where that is used."""
     return unique(name, set(used), "")
-
-
-def _free(plain: str, taken: Collection[str]) -> str:
-    """A name that nothing else has: a number behind it tells it from others."""
-    names = chain([plain], (f"{plain}__{number}" for number in count(2)))
-    return next(n for n in names if n not in taken)

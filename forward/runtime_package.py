@@ -204,7 +204,8 @@ def _cpp(text: str, name: str, *, is_header: bool) -> str:
     if not is_header or f'"{NAME}/' not in text:
         return text
     opened = f"namespace {name} {{\n"
-    return text.replace(opened, f"{opened}\nusing namespace {NAME};\n", 1)
+    using = f"using namespace {NAME};  // NOLINT(build/namespaces)"
+    return text.replace(opened, f"{opened}\n{using}\n", 1)
 
 
 def _in_order(found: re.Match[str]) -> str:

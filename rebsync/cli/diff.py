@@ -63,17 +63,18 @@ def command(
     """Compare two models: element by element, statement by statement.
 
     A and B are models, packages of code, or REVISION:PATH of either in git, such as HEAD~3:robots.
-    Exit status: 0 no difference, 1 differences, 4 where something of the code cannot be read, 2
-    nothing read. With --behaviour it is that of what the two do.
+    Exit status: 0 no difference, 1 differences, 4 where something of the code cannot be read or a
+    generated run-time part is edited, 2 nothing read. With --behaviour it is that of what they do.
     """
     from rebsync.report import print_report
     from rebsync.roundtrip.diff.compare import compare
     from rebsync.roundtrip.diff.difference import Depth
     from rebsync.roundtrip.package.revisions import read_side
+    from rebsync.roundtrip.verdict.unmodelled import with_edits
 
     if left == right == "-":
         raise click.UsageError("standard input can be one of the two only")
-    sides = read_side(left), read_side(right)
+    sides = with_edits(left, read_side(left)), with_edits(right, read_side(right))
     comparison = compare(sides[0].given, sides[1].given, Depth(depth))
     done = _behaviour(comparison, sides, max_states) if behaviour else None
     write_output(output, _text(comparison, sides, (left, right), depth, style, done))

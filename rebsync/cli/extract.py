@@ -57,7 +57,7 @@ def command(paths: tuple[str, ...], form: str, style: str | None, output: str) -
 
     PATH is a package, a directory with several, or a file: then the classes of that file. What has
     no meaning in the model is listed. Exit status: 0 all exact, 1 over-approximated or assumed,
-    4 something unreadable, 2 nothing read.
+    4 something unreadable or a generated run-time part edited, 2 nothing read.
     """
     from rebsync.reverse.answer import answer
     from rebsync.reverse.build.workspace import in_workspace
@@ -110,6 +110,16 @@ class _Told:
 
     def tell(self, given: Answer) -> Status | None:
         """Prints what is known of a package; None where that is nothing."""
+        told = self._tell_code(given)
+        if told is None:
+            return None
+        from rebsync.roundtrip.verdict.unmodelled import unmodelled_edits
+
+        edits = unmodelled_edits(given.root)
+        print_report(edits, sys.stderr)
+        return Status.UNDETERMINED if edits else told
+
+    def _tell_code(self, given: Answer) -> Status | None:
         if given.whole:
             if given.is_read or given.grade != "exact":
                 write_output(self._target(given, ".json"), given.whole + "\n")

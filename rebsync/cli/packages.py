@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rebsync.cli.problem import refuse
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import MODEL, PROPERTY, read_source
-from rebsync.source import Source
+from rebsync.source import NOWHERE, Source
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -97,7 +99,18 @@ def _closed(
         hint = "--format json of `rebsync extract` tells what the code asks of ROS"
         raise RebsyncError.of(path, "RS943", "no node of a model was found here", hint)
     apart = _unmatched(path) if _names_qualities(read.files) else ()
+    closed = replace(closed, gaps=(*closed.gaps, *_edited(path)))
     return _problem(path, closed, properties, written, apart)
+
+
+def _edited(path: str) -> Iterator[str]:
+    """What is wrong with a proof about the code of a generated package: the rest is edited."""
+    from rebsync.roundtrip.verdict.unmodelled import unmodelled_edits
+
+    for found in unmodelled_edits(path):
+        for each in found.diagnostics:
+            line = found.source.position(each.span.start).line if each.span != NOWHERE else 1
+            yield f"{_shown(found.source.path)}:{line}: {each.message}"
 
 
 def _choice(environment: str) -> EnvironmentChoice:

@@ -53,9 +53,9 @@ def _commands(
         if is_new and is_there:
             yield from _of_model(model, options)
         for package in model.packages:
-            root = os.path.realpath(package.root)
+            roots = (os.path.realpath(package.root), *package.shared)
             is_touched = changed is not None and any(
-                is_within(path, root) or is_within(root, path) for path in changed
+                is_within(path, root) or is_within(root, path) for path in changed for root in roots
             )
             if (is_new or is_touched) and Path(package.root).is_dir():
                 yield from _of_package(model, package, is_touched, options)

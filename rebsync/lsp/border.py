@@ -21,7 +21,10 @@ CODE = (".cpp", ".h", ".hpp", ".py", ".launch")
 
 
 def packages_of(path: str) -> list[ManagedPackage]:
-    """The packages that are made from a model, or the one around a file; none where none is."""
+    """The packages that are made from a model, or the one around a file; none where none is.
+
+    Of a file of a run-time part that packages share they are all of these.
+    """
     try:
         return list(find([path]))
     except RebsyncError:

@@ -160,6 +160,12 @@ def _element(target: m.Expression, known: Known) -> m.Type | None:
     return _widest(m.Type(type_.name))
 
 
+def is_kind(type_: m.Type, kind: m.Type | None) -> bool:
+    """Whether a variable of a type may hold values of a kind, as `kind_of` tells it."""
+    widest = _widest(type_)
+    return widest is not None and kind in (None, widest)
+
+
 def _widest(type_: m.Type | None) -> m.Type | None:
     if type_ is None or type_.dimensions or type_.name == "void":
         return None

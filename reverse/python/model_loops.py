@@ -32,6 +32,7 @@ def counted(reader: ModelStatementReader, node: Node, name: str) -> m.For:
         index = _free(reader, node, name)
         body = _round(reader, node, [], index, [(name, m.Type("int"), m.Name(index))])
         return _for(reader, node, index, start, end, step, body)
+    reader.annotated[name] = m.Type("int")
     index = _counter(reader, node, name)
     body = _round(reader, node, [(name, m.Type("int"))], index, [])
     return _for(reader, node, index, start, end, step, body)

@@ -25,9 +25,10 @@ class ModelStatementReader(ABC):
     """Reads the bodies of one function; `within` names it where something is listed.
 
     `hoisted` are the locals that a switch declares before it, `cases` the names of the switches
-    around a statement, innermost last. `implied` are the locals of a block without a type, `inner`
-    are functions within. `broken` is the variable that tells that the innermost loop was left by a
-    `break`, if its `else` asks; `lasting` the variable of a loop that is read behind it.
+    around a statement, innermost last. `implied` are the locals of a block, `annotated` the types
+    that names of the function have been given, `inner` are functions within. `broken` is the
+    variable that tells that the innermost loop was left by a `break`, if its `else` asks; `lasting`
+    the variable of a loop that is read behind it.
     """
 
     expressions: Expressions
@@ -37,6 +38,7 @@ class ModelStatementReader(ABC):
     hoisted: dict[str, m.Type] = with_default(default_factory=dict)
     cases: list[str] = with_default(default_factory=list)
     implied: set[str] = with_default(default_factory=set)
+    annotated: dict[str, m.Type] = with_default(default_factory=dict)
     inner: dict[str, Closure] = with_default(default_factory=dict)
     broken: str = ""
     lasting: str = ""

@@ -25,6 +25,7 @@ from rebsync.reverse.python import model_switches as switches
 from rebsync.reverse.python import model_users as users
 from rebsync.reverse.python.model_failing import failing, may_fail, methods_of
 from rebsync.reverse.python.model_filled import filled
+from rebsync.reverse.python.model_kinds import is_kind
 from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import (
@@ -185,6 +186,8 @@ class Statements(ModelStatementReader):
             if any(x.startswith(_HOISTED) for x in markers_above(self.expressions.py, node)):
                 self.hoisted[name] = type_
                 return []
+            self.implied.add(name)
+            self.annotated[name] = type_
             return [self._declared(name, type_, value, node)]
         if name in self.hoisted:
             return [self._declared(name, self.hoisted.pop(name), value, node)]
@@ -219,10 +222,13 @@ class Statements(ModelStatementReader):
         return m.Local(m.Declaration(type_, (declarator,), span=span), span=span)
 
     def implied_local(self, name: str, value: Node, node: Node) -> m.Local:
-        """A local without a type, which is that of its value."""
+        """A local without a type, which is that of its value, or of the name in another block."""
         if name in self.expressions.names.constants:
             raise self.expressions.unread(node, f'"{name}" is a constant elsewhere')
         type_ = idioms.kind_at(self.expressions, value)
+        elsewhere = self.annotated.get(name)
+        if elsewhere is not None and is_kind(elsewhere, type_):
+            type_ = elsewhere
         if type_ is None:
             raise self.expressions.unread(node, f'say the type of "{name}" where it is first set')
         self.implied.add(name)
@@ -301,7 +307,7 @@ class Statements(ModelStatementReader):
         updates = tuple(s.expression for s in steps if isinstance(s, m.ExpressionStatement))
         if len(updates) != len(steps):
             raise self.expressions.unread(last[0], "a step of a loop changes variables")
-        initial = _taken(before, condition, updates)
+        initial = self._initially(before, condition, updates)
         return [m.For(initial, condition, updates, block, span=span)]
 
     def _rounds(self, node: Node, name: str, before: list[m.Statement]) -> m.For:
@@ -317,11 +323,24 @@ class Statements(ModelStatementReader):
             inner = field(without_parentheses(asked), "argument")
             read = self.expressions.read(inner)
             condition = read.inner if isinstance(read, m.Paren) else read
-        outer, self.cases = self.cases, []
-        body = self.block(nodes, field(node, "body"))
-        self.cases = outer
-        initial = _taken(before, condition, updates)
+        body = self.suite(field(node, "body"), nodes)
+        initial = self._initially(before, condition, updates)
         return m.For(initial, condition, updates, body, span=self.expressions.py.span(node))
+
+    def _initially(
+        self,
+        before: list[m.Statement],
+        condition: m.Expression | None,
+        updates: tuple[m.Expression, ...],
+    ) -> m.Declaration | tuple[m.Expression, ...]:
+        """What a loop begins with: nobody knows behind the loop what is declared there."""
+        initial = _taken(before, condition, updates)
+        if isinstance(initial, m.Declaration):
+            declared = {d.name for d in initial.declarators}
+            known = self.expressions.locals
+            for name in [n for n, local in known.items() if local in declared]:
+                del known[name]
+        return initial
 
     def _switch(self, node: Node, name: str, subject: Node) -> m.Switch:
         read = self.expressions.read(subject)

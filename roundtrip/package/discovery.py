@@ -23,6 +23,8 @@ SETTINGS = "rebsync.toml"
 def find(paths: Iterable[str], model: str | None = None) -> Iterator[ManagedPackage]:
     """The packages that paths stand for, each once: those in a directory, or around a file.
 
+    A run-time part that packages share stands for all of these.
+
     RebsyncError: there is no such path, or no package is there.
     """
     seen: set[tuple[int, int]] = set()
@@ -65,9 +67,31 @@ def _packages(path: str, model: str | None) -> Iterator[ManagedPackage]:
     around = _around(path)
     if around is not None:
         yield ManagedPackage(around, tree_of(around), model)
+    elif sharing := list(_sharing(path)):
+        yield from (ManagedPackage(root, tree_of(root), model) for root in sharing)
     elif is_folder:
         found = list(_below(path)) or list(_unrecorded_at(path, model))
         yield from (ManagedPackage(k.root, k.tree, model or k.model) for k in found)
+
+
+def _sharing(path: str) -> Iterator[str]:
+    """The packages that share a run-time part, of which a path is the folder or something in it."""
+    from rebsync.roundtrip.package.record import read_record
+    from rebsync.roundtrip.package.shared_runtime import folders_beside
+
+    absolute = Path(os.path.realpath(path))
+    folder = next((f for f in (absolute, *absolute.parents) if (f / "package.xml").is_file()), None)
+    if folder is None or not os.access(folder.parent, os.R_OK):
+        return
+    for beside in sorted(folder.parent.iterdir()):
+        if (beside / FOLDER).is_dir():
+            with suppress(RebsyncError):
+                if str(folder) in folders_beside(str(beside), read_record(str(beside)).files):
+                    yield _as_named(str(beside), path)
+
+
+def _as_named(root: str, path: str) -> str:
+    return root if Path(path).is_absolute() else os.path.relpath(root)
 
 
 def _unrecorded_at(path: str, model: str | None) -> Iterator[ManagedPackage]:

@@ -18,17 +18,22 @@ from rebsync.roundtrip.package.discovery import find
 from rebsync.roundtrip.package.managed import SKIPPED
 from rebsync.roundtrip.package.model_file import model_of, properties_beside
 from rebsync.roundtrip.package.record import read_record
+from rebsync.roundtrip.package.shared_runtime import folders_beside
 from rebsync.trees import is_within
 
 
 @dataclass(frozen=True, slots=True)
 class GeneratedPackage:
-    """A package with records: where it is, its name, its dialect, the real path of its model."""
+    """A package with records: where it is, its name, its dialect, the real path of its model.
+
+    `shared` are the real paths of run-time packages that it shares with others.
+    """
 
     root: str
     name: str
     target: str
     model: str
+    shared: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +73,7 @@ def inventory(root: str) -> Inventory:
         if path.endswith(MODEL)
     )
     known = [os.path.realpath(package.root) for each in models for package in each.packages]
+    known += [path for package in generated for path in package.shared]
     roots = (str(Path(path).parent) for path in paths if Path(path).name == MANIFEST)
     return Inventory(
         models,
@@ -93,7 +99,8 @@ def _generated(root: str) -> Iterator[GeneratedPackage]:
                 config = config_of_record(record.options) or Config()
                 name = package_name(Path(record.model).stem, config)
                 model = os.path.realpath(model_of(package, record))
-                yield GeneratedPackage(package.root, name, config.target, model)
+                shared = folders_beside(package.root, record.files)
+                yield GeneratedPackage(package.root, name, config.target, model, shared)
 
 
 def _made_from(model: str, packages: tuple[GeneratedPackage, ...]) -> tuple[GeneratedPackage, ...]:

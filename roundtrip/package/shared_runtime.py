@@ -7,6 +7,7 @@ beside one, and `.rebsync/base/` keeps their texts.
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 
 from rebsync.config import Config
 from rebsync.reverse.files.packages import BESIDE
@@ -36,6 +37,12 @@ def is_shared(name: str) -> bool:
 def inside(name: str) -> str:
     """The path of a file in its own package."""
     return name.split("/", 2)[2] if is_shared(name) else name
+
+
+def folders_beside(root: str, names: Iterable[str]) -> frozenset[str]:
+    """The real paths of the packages of which the records of the one at `root` have files."""
+    shared = {name.removeprefix(BESIDE).partition("/")[0] for name in names if is_shared(name)}
+    return frozenset(os.path.realpath(f"{root}/../{folder}") for folder in shared)
 
 
 def path_beside(root: str, name: str) -> str:

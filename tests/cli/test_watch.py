@@ -53,6 +53,16 @@ def test_what_a_change_asks_for(folder: Path) -> None:
     assert planned(known, folder / "hello", options=lazy) == [LINT, CHECK]
 
 
+def test_a_shared_run_time_part_is_of_each_package(folder: Path) -> None:
+    generated = ["generate", "--runtime", "package", "hello/hello.rebeca", "-o", "hello"]
+    assert main(generated) == 0
+    known = inventory(".")
+    assert known.packages == ()
+    runtime = folder / "hello/rebsync_runtime/include/rebsync_runtime"
+    assert planned(known, runtime / "mailbox.h") == [PROVE]
+    assert planned(known, folder / "hello/other/mailbox.h") == []
+
+
 def test_what_the_page_asks_for(folder: Path) -> None:
     options = WatchOptions(is_verifying=True, max_time="9s", page="p")
     assert planned(inventory("."), options=options) == [

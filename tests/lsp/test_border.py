@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from lsprotocol import types as lsp
 
+from rebsync.cli import main
 from tests.lsp.client import Editor, at
 from tests.lsp.conftest import InEditor
 
@@ -139,6 +140,25 @@ def test_a_change_of_the_code_is_taken_into_the_model(folder: Path, in_editor: I
 
     in_editor(play)
     assert model.read_text(encoding="utf-8") == before.replace("after(1)", "after(2)") != before
+
+
+def test_an_edit_of_a_shared_run_time_part_is_told(folder: Path, in_editor: InEditor) -> None:
+    generated = ["generate", "--runtime", "package", str(folder / "hello.rebeca")]
+    assert main([*generated, "-o", str(folder)]) == 0
+    path = folder / "rebsync_runtime" / "include" / "rebsync_runtime" / "mailbox.h"
+    text = path.read_text()
+
+    async def play(client: Editor) -> None:
+        uri = client.open(path)
+        path.write_text(text.replace("kQueueSize = 1000", "kQueueSize = 9", 1))
+        client.text_document_did_save(lsp.DidSaveTextDocumentParams(_of(uri)))
+        (found,) = await client.diagnostics(uri)
+        assert found.code == "RS956"
+        path.write_text(text)
+        client.text_document_did_save(lsp.DidSaveTextDocumentParams(_of(uri)))
+        assert not await client.diagnostics(uri)
+
+    in_editor(play)
 
 
 def test_a_mistake_that_the_check_meets_too_is_shown_once(

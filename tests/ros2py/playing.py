@@ -12,6 +12,7 @@ from types import ModuleType, SimpleNamespace
 from typing import cast
 from unittest.mock import patch
 
+from rebsync.forward.runtime_package import NAME
 from tests.ros1.recording import Heard, Logged, Recording, Served
 from tests.ros2.asking import Answer, Ask
 from tests.ros2.launching import Launched as Described
@@ -63,7 +64,7 @@ def play_asked(
     answers: list[Answer] = []
     for ask in asks:
         world.act_at(ask.at, client(world, ask, answers))
-    with installed(world, folder / name, folder / f"{name}_interfaces"):
+    with installed(world, folder / name, folder / f"{name}_interfaces", folder.parent):
         found = [n for other in beside for n in described(folder / name, other)]
         found += described(folder / name, **(arguments or {}))
         mains = [_main(name, node, (changes or {}).get(node.name, ())) for node in found]
@@ -88,10 +89,10 @@ def _interrupting(world: World, package: str, ends: Mapping[str, float]) -> Iter
         thread = threading.Thread(target=run, daemon=True)
         world.act_at(ends[launched.name], thread.start)
 
-    names = [n for n in ("mailbox", "lifecycle") if f"{package}.{n}" in sys.modules]
+    names = [f"{p}.{n}" for p in (package, NAME) for n in ("mailbox", "lifecycle")]
     with ExitStack() as stack:
-        for module in names:
-            stack.enter_context(patch(f"{package}.{module}.Interrupts", interrupts))
+        for module in filter(sys.modules.__contains__, names):
+            stack.enter_context(patch(f"{module}.Interrupts", interrupts))
         yield
 
 
@@ -122,18 +123,27 @@ def _main(
 
 
 @contextmanager
-def installed(world: World, source: Path, interfaces: Path) -> Iterator[None]:
-    """The client library and all messages as modules, while the block runs."""
+def installed(
+    world: World, source: Path, interfaces: Path, workspace: Path | None = None
+) -> Iterator[None]:
+    """The client library and all messages as modules, while the block runs.
+
+    In a `workspace` the run-time part may be a package of its own.
+    """
     before = set(sys.modules)
-    made = {**modules([interfaces]), **_rclpy(world)}
+    shared = [] if workspace is None else [workspace / NAME, workspace / f"{NAME}_interfaces"]
+    shared = [folder for folder in shared if folder.exists()]
+    made = {**modules([interfaces, *shared[1:]]), **_rclpy(world)}
     World.stamp = made["builtin_interfaces.msg"].Time
     sys.modules.update(made)
-    sys.path.insert(0, str(source))
+    sources = [str(source), *map(str, shared[:1])]
+    sys.path[:0] = sources
     invalidate_caches()
     try:
         yield
     finally:
-        sys.path.remove(str(source))
+        for path in sources:
+            sys.path.remove(path)
         for added in set(sys.modules) - before:
             del sys.modules[added]
 

@@ -68,11 +68,17 @@ def test_edits_of_it_are_told(target: str, capsys: pytest.CaptureFixture[str]) -
     assert main(["check", "warehouse"]) == 0
     path.write_text(text.replace(old, new, 1))
     assert text != path.read_text()
-    assert main(["check", "warehouse"]) == 4
-    assert f"{path}:" in "".join(capsys.readouterr())
+    capsys.readouterr()
+    for asked in (["check", "warehouse"], ["check", "rebsync_runtime"], ["check", str(path)]):
+        assert main(asked) == 4
+        assert f"{path}:" in "".join(capsys.readouterr())
+    for asked in (["extract", "warehouse"], ["diff", "warehouse.rebeca", "warehouse"]):
+        assert main(asked) == 4
+        assert f"{path}:" in "".join(capsys.readouterr())
     assert main(generated) == 1  # which keeps the edit
     path.write_text(text)
     assert main(["check", "warehouse"]) == 0
+    assert main(["diff", "warehouse.rebeca", "warehouse"]) == 0
     path.unlink()
     assert main(["check", "warehouse"]) == 4
     assert "`rebsync generate --runtime package` writes it" in "".join(capsys.readouterr())

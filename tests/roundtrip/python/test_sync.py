@@ -92,17 +92,17 @@ HAND = [
 # Of loops in `PLAIN`: an edit of the code, and a line of the model then.
 LOOPS = {
     "body": (
-        "self._a + k__2)",
-        "self._a + 2 * k__2)",
+        "self._a + k)",
+        "self._a + 2 * k)",
         "for (int k = 0; k < 3; k++) { a = a + 2 * k; }",
     ),
     "start": ("range(3)", "range(2, 3)", "for (int k = 2; k < 3; k++) { a = a + k; }"),
     "start in a branch": (
-        "k: int = 5",
-        "k: int = 6",
+        "k = 5",
+        "k = 6",
         "if (a > 3) for (int k = 6; k > 3;",
     ),
-    "behind the start": ("k: int = 5", "k: int = 1\n            self._a = 7", "    int k = 1;"),
+    "behind the start": ("k = 5", "k = 1\n            self._a = 7", "    int k = 1;"),
     "bound": ("while i < 3:", "while i < 4:", "for (i = 0; i < 4; i += 1) a--;"),
 }
 

@@ -118,7 +118,6 @@ Rebec<Carrier> Dispatcher::carrierOf(int32_t id) {
       return carrier4_;
     }
   }
-  return {};
 }
 
 void Dispatcher::receiveLeft(const DispatcherLeft::ConstPtr& msg) {
