@@ -213,9 +213,9 @@ class _Answer:
         self.violations.append(Violation(kind, name, message, file, line, trace))
 
     def _trace(self, event: Event) -> Trace:
+        path = confirmed(self.teller, self.search.path(event.state), event)
         key = event.state, event.ordinal
         if key not in self._traces:  # many assertions can be false in one state
-            path = confirmed(self.teller, self.search.path(event.state), event)
             self._traces[key] = self.teller.trace(path, event.ordinal)
         return self._traces[key]
 

@@ -37,6 +37,7 @@ def test_what_is_found_is_confirmed(drawn: Drawn) -> None:
     for event in events:
         path = search.path(event.state)
         assert confirmed(teller, path, event) == path
+        assert confirmed(teller, path, Event("", event.state)) == path
 
 
 def test_what_is_not_there_is_not_confirmed() -> None:
