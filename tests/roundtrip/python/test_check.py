@@ -167,3 +167,15 @@ def test_a_program_that_runs_another_class_makes_another_rebec(tmp_path: Path) -
     assert found.drift is not None
     assert [str(d.element) for d, _ in found.drift.differences] == ["rebec robot1"]
     assert found.drift.verdict is Verdict.CODE_AHEAD
+
+
+def test_a_local_of_a_block_is_not_known_behind_it(tmp_path: Path) -> None:
+    text = (_CASES / "locals.rebeca").read_text(encoding="utf-8")
+    root = made("locals", "ros1-py", tmp_path, text)
+    (path,) = [p for p in python_of(root) if p.name == "r.py"]
+    code = path.read_text(encoding="utf-8")
+    assert "__2" not in code.replace("t__2", "").replace("u__2", ""), "arrays, and another type"
+    path.write_text(code.replace("        if n > 2:", "        self._a = k\n        if n > 2:", 1))
+    found = checked(root)
+    assert found.drift is not None
+    assert found.drift.verdict is Verdict.UNDETERMINED
