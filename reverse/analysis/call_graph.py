@@ -143,7 +143,7 @@ class CallGraph:
             case s.ValueCallee(value):
                 return self.value(value, function)
             case s.MethodCallee(receiver, name, declared):
-                known = declared or self._class_of(receiver, function)
+                known = declared or self.class_of(receiver, function)
                 return self._method(known, name, set())
 
     def _method(self, known: str | None, name: str, seen: set[Key]) -> Targets:
@@ -159,7 +159,7 @@ class CallGraph:
             return Targets(found)
         return stored.join(Targets(found, frozenset({f".{name}"})))
 
-    def _class_of(self, receiver: e.Expression, function: Function) -> str | None:
+    def class_of(self, receiver: e.Expression, function: Function) -> str | None:
         """The class of the object that a method is called on, if nothing else is assigned to it."""
         if isinstance(receiver, e.Captured):
             function = self.program.function(receiver.function)
@@ -215,7 +215,7 @@ class CallGraph:
             case e.Attribute(e.ModuleReference(module), name):
                 return self._stored(GlobalVariable(module, name), seen)
             case e.Attribute(holder, name):
-                return self._method(self._class_of(holder, function), name, seen)
+                return self._method(self.class_of(holder, function), name, seen)
             case e.Local() | e.Temporary() | e.Captured() | e.Global():
                 key = key_of(value, function.name)
                 assert key is not None

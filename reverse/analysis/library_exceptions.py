@@ -100,6 +100,12 @@ class LibraryExceptions:
                 return any(self.expressions.texts(v) not in _WHOLE for v in values)
             case Raises.UNWRITTEN:
                 return not all(map(self.expressions.texts, values[:1]))
+            case Raises.UNDECLARED:
+                return not self._is_there(node, facts) and self.origins.declared.may_lack(
+                    node, self.function
+                )
+            case Raises.REPEATED:
+                return self.origins.declared.may_have(self.function)
             case Raises.UNORDERED:
                 return not self._are_ordered(values, facts)
             case _:
@@ -125,6 +131,8 @@ class LibraryExceptions:
         match node.callee, node.arguments:
             case s.MethodCallee(receiver), (s.CallArgument(value), *_):
                 return any(HasKey(of, value) in facts for of in names_of(facts, receiver))
+            case s.LibraryCallee(), (s.CallArgument(value), *_):  # a parameter, by its name
+                return HasKey(value, value) in facts
             case _:
                 return False
 

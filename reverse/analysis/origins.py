@@ -11,7 +11,9 @@ from functools import cached_property
 from typing import TypeAlias
 
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.call_binding import CallBinding
 from rebsync.reverse.analysis.call_graph import CallGraph
+from rebsync.reverse.analysis.declared_parameters import DeclaredParameters
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
 from rebsync.reverse.analysis.stores import (
     AnyValue,
@@ -30,6 +32,7 @@ from rebsync.reverse.ir.operators import ImplicitCall, Operator
 from rebsync.reverse.ir.program import Program
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
+from rebsync.reverse.libraries.routines import Language
 
 _SETTERS = frozenset({"builtins.setattr", "builtins.vars"})
 
@@ -91,6 +94,16 @@ class Origins:
         # While names are looked for: what was found of them, and which this round has visited.
         self._found: dict[Key, frozenset[Origin]] = {}
         self._visited: set[Key] | None = None
+
+    @cached_property
+    def binding(self) -> CallBinding:
+        """Which calls bind their arguments to the parameters of what they run."""
+        return CallBinding(self.graph, self.table.language is Language.PYTHON)
+
+    @cached_property
+    def declared(self) -> DeclaredParameters:
+        """The parameters that nodes of Python declare before their callbacks run."""
+        return DeclaredParameters(self)
 
     @classmethod
     def of_program(cls, program: Program, table: LibraryOutcomes) -> Origins:

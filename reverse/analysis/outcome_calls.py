@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import re
 
-from rebsync.reverse.analysis.facts import (
-    Facts,
-    IsThere,
-    stored,
-    without_shared,
-)
+from rebsync.reverse.analysis.call_binding import REFUSED
+from rebsync.reverse.analysis.facts import Facts, IsThere, stored, without_shared
 from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.given_arguments import GivenArguments
 from rebsync.reverse.analysis.library_exceptions import LibraryExceptions
@@ -37,22 +33,7 @@ _WAITING_ALONE = frozenset({"get", "join"})
 # What takes numbers, or elements, and so no None.
 _OF_NUMBERS = frozenset(
     f"builtins.{name}"
-    for name in [
-        "len",
-        "int",
-        "float",
-        "abs",
-        "sum",
-        "min",
-        "max",
-        "sorted",
-        "list",
-        "tuple",
-        "set",
-        "enumerate",
-        "zip",
-        "round",
-    ]
+    for name in "len int float abs sum min max sorted list tuple set enumerate zip round".split()
 )
 _UNKNOWN = "what is called is not known"
 
@@ -75,6 +56,7 @@ class OutcomeCalls:
         self.expressions = expressions
         self._sizes = sizes
         self._exceptions = LibraryExceptions(notes, expressions)
+        self._binding = notes.origins.binding
         self.origins = notes.origins
         self.function = notes.function.name
         self._here: Facts = frozenset()  # what is known where the call stands
@@ -140,8 +122,13 @@ class OutcomeCalls:
 
     def called(self, place: e.Expression, origin: Origin) -> None:
         """Notes what calling a value may do, with arguments of which nothing is known."""
-        callee = s.ValueCallee(place)
-        self._value(s.Call(None, callee, (), place.place), place, origin, frozenset())
+        call = s.Call(None, s.ValueCallee(place), (), place.place)
+        match origin:
+            case FunctionOrigin(name):
+                self.notes.elements[name] = 0
+                self._enters(call, name)
+            case _:
+                self._value(call, place, origin, frozenset())
 
     # --- what is called --------------------------------------------------------------------------
 
@@ -214,14 +201,20 @@ class OutcomeCalls:
     def _value(self, node: s.Call, value: e.Expression, origin: Origin, facts: Facts) -> None:
         match origin:
             case FunctionOrigin(name):
+                if self._binding.of_function(node, name):
+                    self.notes.fails(node, REFUSED)
                 self.notes.elements[name] = max(
                     [self.notes.counts.elements(a.value, self.function) for a in node.arguments],
                     default=0,
                 )
                 self._enters(node, name)
             case ClassOrigin(name, False):
+                if self._binding.of_class(node, name):
+                    self.notes.fails(node, REFUSED)
                 self._makes(node, name)
             case ClassOrigin(name):
+                if self._binding.of_method(node, name, "__call__", True):
+                    self.notes.fails(node, REFUSED)
                 for method in self._answers(name, ImplicitCall.CALL):
                     self._enters(node, method)
             case LibraryOrigin(name, False):
@@ -291,6 +284,8 @@ class OutcomeCalls:
         family = graph.family(after) - graph.subclasses.get(after, {after})
         classes = (graph.program.classes.get(name) for name in family)
         own = [f for c in classes if c is not None for n, f in c.methods if n == callee.name]
+        if self._binding.of_base(node, after, callee.name):
+            self.notes.fails(node, REFUSED)
         for name in sorted(own):
             self._enters(node, name)
         for base in sorted(family - graph.program.classes.keys()):
@@ -305,7 +300,9 @@ class OutcomeCalls:
         """A method of one of the objects that a receiver may be."""
         name, receiver = callee.name, callee.receiver
         match origin:
-            case ClassOrigin(of):
+            case ClassOrigin(of, is_object):
+                if self._binding.of_method(node, of, name, is_object):
+                    self.notes.fails(node, REFUSED)
                 found = self.origins.methods(of, name)
                 self._stored_in(node, name, facts)
                 for method in sorted(found):
@@ -329,6 +326,9 @@ class OutcomeCalls:
             case PlainOrigin():
                 self._library(node, name, self.notes.table.method(None, name), receiver, facts)
             case _:
+                own = self.origins.graph.class_of(receiver, self.notes.function)
+                if own is not None and self._binding.of_method(node, own, name, True):
+                    self.notes.fails(node, REFUSED)
                 self._stored_in(node, name, facts)
                 for method in sorted(self.origins.methods_of_any(name)):
                     if not self.notes.is_model(method):

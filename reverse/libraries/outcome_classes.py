@@ -23,6 +23,7 @@ FAILURES: Mapping[str, tuple[str, str]] = {
     "asks None for an attribute": ("", "builtins.AttributeError"),
     "may have no value yet": ("", "builtins.UnboundLocalError"),
     "may have no such attribute yet": ("", "builtins.AttributeError"),
+    "gets other arguments than it takes": ("", "builtins.TypeError"),
     "does not hold": ("", "builtins.AssertionError"),
 }
 # Of transforms between frames that are not there, or not yet.
@@ -73,6 +74,11 @@ EXCEPTIONS: Mapping[str, str] = {
     "numpy.linalg.LinAlgError": "builtins.ValueError",
     "rospy.ServiceException": "rospy.ROSException",
     "rospy.ROSException": "builtins.Exception",
+    **{
+        f"rclpy.exceptions.{name}": "rclpy.exceptions.ParameterException"
+        for name in ("ParameterNotDeclaredException", "ParameterAlreadyDeclaredException")
+    },
+    "rclpy.exceptions.ParameterException": "builtins.Exception",
     # Each under the names that packages give it, the oldest first.
     **{f"tf.{name}": f"tf2_ros.{name}" for name in TRANSFORM_EXCEPTIONS},
     **{f"tf2_ros.{name}": f"tf2_py.{name}" for name in TRANSFORM_EXCEPTIONS},

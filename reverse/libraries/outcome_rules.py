@@ -55,6 +55,8 @@ class Raises(Enum):
     POWER = "a second one that is no positive number in the source"
     CODED = "another encoding than UTF-8, which has all characters"
     UNWRITTEN = "a first one that is no text in the source"
+    UNDECLARED = "the name of a parameter that the node may not have declared"
+    REPEATED = "any, where the call may not be the first one"
     UNORDERED = "two of which the second may be the smaller one"
 
 

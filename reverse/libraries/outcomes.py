@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import (
@@ -101,12 +102,16 @@ class LibraryOutcomes:
         """How a call of a method may end, by its object's class, if that is known."""
         if of is not None and (found := self._of_class(of, name)) is not None:
             return found
-        if of is not None and self.is_standard(of):
+        is_client = self.language is Language.PYTHON and (of is None or python.is_of_client(of))
+        if of is not None and self.is_standard(of) and not is_client:
             return self._unknown(of)
         is_asking = name in python.asking_names() if self.language is Language.PYTHON else False
         acting = python.acting_methods() if self.language is Language.PYTHON else cpp.acting()
         if is_asking or name in acting:
-            return CallOutcome(acts="acts on a node")
+            known = self._named.get(f".{name}", CallOutcome()) if is_client else CallOutcome()
+            return replace(known, acts="acts on a node")
+        if of is not None and self.is_standard(of):
+            return self._unknown(of)
         return self._named.get(f".{name}", CallOutcome())
 
     def _unknown(self, name: str) -> CallOutcome:

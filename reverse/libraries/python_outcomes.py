@@ -5,7 +5,7 @@ Numbers, containers and texts, which both languages have, are in `outcome_rules`
 
 from __future__ import annotations
 
-from rebsync.reverse.libraries.outcome_rules import WAITS, OutcomeRule, Raises, Size
+from rebsync.reverse.libraries.outcome_rules import WAITS, OutcomeRule, Raises, Size, Tells
 
 MODULES = (
     OutcomeRule(python="random.seed random.shuffle random.normalvariate random.triangular"),
@@ -114,6 +114,23 @@ MODULES = (
     OutcomeRule(python="collections.namedtuple._replace"),
     OutcomeRule(python="queue.Queue.get_nowait", raises="queue.Empty"),
     OutcomeRule(python="queue.Queue.put_nowait", raises="queue.Full"),
+    OutcomeRule(
+        python="rospy.get_param rospy.get_param_cached rospy.delete_param",
+        raises="builtins.KeyError",
+        when=Raises.NO_DEFAULT,
+    ),
+    OutcomeRule(python="rospy.has_param .has_parameter", tells=Tells.HAS),
+    OutcomeRule(python="rospy.search_param", may_be_none=True),
+    OutcomeRule(
+        python=".get_parameter .get_parameters .undeclare_parameter",
+        raises="rclpy.exceptions.ParameterNotDeclaredException",
+        when=Raises.UNDECLARED,
+    ),
+    OutcomeRule(
+        python=".declare_parameter .declare_parameters",
+        raises="rclpy.exceptions.ParameterAlreadyDeclaredException",
+        when=Raises.REPEATED,
+    ),
     OutcomeRule(python="rospy.ServiceProxy.__call__", raises="rospy.ServiceException"),
     OutcomeRule(
         python="tf2_ros.Buffer.lookup_transform tf2_ros.Buffer.lookup_transform_full"

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 from tree_sitter import Node
 
+from rebsync.reverse.analysis.call_binding import REFUSED
+from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import Scope
 from rebsync.reverse.syntax.py_tree import named
@@ -39,20 +41,28 @@ def is_raised_in(reader: BodyStatementReader, block: Node) -> bool:
     if form is None:
         return True
     problems = form.raising(reader.frame.py, reader.frame.span(block))
-    exact = reader.reading.exact
-    return any((s.py.source.path, p.place) not in exact for p, s in problems)
+    return any(not _is_exact(reader, p, s) for p, s in problems)
 
 
 def _raised(reader: BodyStatementReader, place: Span) -> Iterator[str]:
-    reading, form = reader.reading, reader.reading.form
+    form = reader.reading.form
     assert form is not None
     here = reader.frame.scope
     for problem, scope in form.raised(reader.frame.py, place):
         is_elsewhere = scope.node.id != here.node.id and not problem.is_of_call
         is_listed = is_elsewhere and _is_read(reader, scope, problem.place)
-        is_exact = (scope.py.source.path, problem.place) in reading.exact
+        is_exact = _is_exact(reader, problem, scope)
         if not is_listed and not is_exact and problem.raises != _ASSERTION:
             yield problem.why
+
+
+def _is_exact(reader: BodyStatementReader, problem: Problem, scope: Scope) -> bool:
+    """Whether the model has the operation that a problem is of, which is shown to raise nothing.
+
+    Of a call it has what the function does, not whether the function takes the arguments.
+    """
+    is_there = (scope.py.source.path, problem.place) in reader.reading.exact
+    return is_there and not problem.why.endswith(REFUSED)
 
 
 def _is_read(reader: BodyStatementReader, function: Scope, place: Span) -> bool:

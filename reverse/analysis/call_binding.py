@@ -1,0 +1,155 @@
+"""Whether Python takes the arguments of a call: how they are bound to the parameters of a function.
+
+See "Calls" in the language reference: arguments by place fill parameters from the left, those by
+name fill the ones of their names, and each parameter without a default must be filled once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+from rebsync.reverse.analysis.call_graph import CallGraph
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.operators import ImplicitCall
+from rebsync.reverse.ir.program import Function, Parameter, ParameterKind
+from rebsync.reverse.ir.walk import walk
+
+REFUSED = "gets other arguments than it takes"
+_BY_PLACE = (ParameterKind.PLAIN, ParameterKind.BY_PLACE)
+_BY_NAME = (ParameterKind.PLAIN, ParameterKind.BY_NAME)
+# Decorators of libraries that leave the parameters of a function as they are.
+_KEEPING = frozenset(
+    f"{module}.{name}"
+    for module, names in (
+        ("builtins", "staticmethod classmethod property"),
+        ("abc", "abstractmethod"),
+        ("typing", "override final"),
+        ("typing_extensions", "override"),
+        ("functools", "lru_cache cache"),
+        ("contextlib", "contextmanager"),
+    )
+    for name in names.split()
+)
+
+
+def refuses(arguments: Sequence[s.CallArgument], parameters: Sequence[Parameter]) -> bool:
+    """Whether parameters may not take some arguments, of which those with stars may be any."""
+    by_place = sum(a.name is None and not a.stars for a in arguments)
+    names = [a.name for a in arguments if a.name is not None]
+    kinds = {p.kind for p in parameters}
+    placed = [p for p in parameters if p.kind in _BY_PLACE]
+    has_rest, has_named = ParameterKind.REST in kinds, ParameterKind.NAMED_REST in kinds
+    stars = {a.stars for a in arguments}
+    if (by_place > len(placed) or 1 in stars) and not has_rest:
+        return True
+    if 2 in stars and not has_named:
+        return True
+    known = {p.name for p in parameters if p.kind in _BY_NAME}
+    first = {p.name for p in placed[:by_place]}
+    if any(n in first & known or (n not in known and not has_named) for n in names):
+        return True
+    filled = first.union(names)
+    required = (p for p in parameters if p.kind in {*_BY_PLACE, *_BY_NAME} and not p.has_default)
+    return any(p.name not in filled for p in required)
+
+
+class CallBinding:
+    """The calls of one program; compilers of other languages than Python refuse such themselves."""
+
+    def __init__(self, graph: CallGraph, is_python: bool) -> None:
+        self._graph = graph
+        self._program = graph.program
+        self._is_python = is_python
+
+    def of_method(self, call: s.Call, of: str, name: str, is_object: bool) -> bool:
+        """Whether a method of an object of a class, or of that class, may refuse the arguments."""
+        if not self._is_python:
+            return False
+        line = [of, *self._graph.bases(of)]
+        nearest = next(filter(None, (self._defined(c, name) for c in line)), None)
+        below = self._graph.subclasses.get(of, set()) - {of}
+        found = {nearest, *(self._defined(c, name) for c in below)} - {None}
+        return any(self._refuses(call, f, is_object) for f in found if f is not None)
+
+    def of_base(self, call: s.Call, after: str, name: str) -> bool:
+        """Whether the method that follows those of a class refuses the arguments."""
+        bases = self._graph.bases(after)
+        if not self._is_python or any(b not in self._program.classes for b in bases):
+            return False  # a library's may come first
+        nearest = next(filter(None, (self._defined(b, name) for b in bases)), None)
+        return nearest is not None and self._refuses(call, nearest, True)
+
+    def of_function(self, call: s.Call, name: str) -> bool:
+        """Whether a function refuses the arguments: a method with and without its object."""
+        if not self._is_python or name in self._wrapped:
+            return False
+        function = self._program.function(name)
+        ways = [function.parameters]
+        if function.owner is not None:
+            ways.append(function.parameters[1:])
+        return all(refuses(call.arguments, each) for each in ways)
+
+    def of_class(self, call: s.Call, name: str) -> bool:
+        """Whether a class cannot be called with the arguments."""
+        if not self._is_python:
+            return False
+        line = [name, *self._graph.bases(name)]
+        classes = [self._program.classes.get(c) for c in line]
+        if any(c is None or not c.complete for c in classes):
+            return False  # a library, a decorator or a class of classes may take them
+        makers = {
+            method
+            for c in classes
+            for implicit, method in (c.operators if c is not None else ())
+            if implicit is ImplicitCall.CONSTRUCT
+        }
+        if not makers:
+            return bool(call.arguments)
+        return makers == {"__init__"} and self.of_method(call, name, "__init__", True)
+
+    def _defined(self, of: str, name: str) -> str | None:
+        """The function that a class itself has under the name of a method."""
+        class_ = self._program.classes.get(of)
+        return dict(class_.methods).get(name) if class_ is not None else None
+
+    def _refuses(self, call: s.Call, name: str, is_object: bool) -> bool:
+        function = self._program.function(name)
+        if name in self._wrapped:
+            return False
+        is_method = function.receiver is not None or not function.parameters
+        if name in self._static or (is_method and not is_object):
+            return refuses(call.arguments, function.parameters)
+        return not function.parameters or refuses(call.arguments, _bound(function))
+
+    @cached_property
+    def _static(self) -> frozenset[str]:
+        """The functions that are static methods of classes."""
+        return self._decorated({"builtins.staticmethod"})
+
+    @cached_property
+    def _wrapped(self) -> frozenset[str]:
+        """The functions in whose place a decorator may put one with other parameters."""
+        return self._decorated(None)
+
+    def _decorated(self, names: set[str] | None) -> frozenset[str]:
+        """The functions that some functions of libraries get alone, or (None) any unknown ones."""
+        found = set[str]()
+        for name in self._program.functions:
+            for node in walk(self._program.function(name)):
+                match node:
+                    case s.Call(_, callee, (s.CallArgument(e.Closure(function)),)):
+                        known = callee.name if isinstance(callee, s.LibraryCallee) else ""
+                        is_asked = known not in _KEEPING if names is None else known in names
+                        found |= {function} if is_asked else set()
+                    case _:
+                        pass
+        return frozenset(found)
+
+
+def _bound(function: Function) -> Sequence[Parameter]:
+    """The parameters behind the one for the object, unless that is one of any number."""
+    first = function.parameters[:1]
+    is_rest = any(p.kind is ParameterKind.REST for p in first)
+    return function.parameters if is_rest else function.parameters[1:]
