@@ -64,21 +64,21 @@ class CallBinding:
         self._is_python = is_python
 
     def of_method(self, call: s.Call, of: str, name: str, is_object: bool) -> bool:
-        """Whether a method of an object of a class, or of that class, may refuse the arguments."""
-        if not self._is_python:
-            return False
-        line = [of, *self._graph.bases(of)]
-        nearest = next(filter(None, (self._defined(c, name) for c in line)), None)
-        below = self._graph.subclasses.get(of, set()) - {of}
-        found = {nearest, *(self._defined(c, name) for c in below)} - {None}
-        return any(self._refuses(call, f, is_object) for f in found if f is not None)
+        """Whether a method of an object of just that class, or of the class, may refuse the call."""
+        found = self._nearest([of, *self._graph.bases(of)], name)
+        return found is not None and self._refuses(call, found, is_object)
+
+    def of_own_method(self, call: s.Call, of: str, name: str) -> bool:
+        """Whether a method that a class calls on itself may refuse the call: of those below too."""
+        below = self._graph.subclasses.get(of, {of})
+        return any(self.of_method(call, each, name, True) for each in below)
 
     def of_base(self, call: s.Call, after: str, name: str) -> bool:
         """Whether the method that follows those of a class refuses the arguments."""
         bases = self._graph.bases(after)
         if not self._is_python or any(b not in self._program.classes for b in bases):
             return False  # a library's may come first
-        nearest = next(filter(None, (self._defined(b, name) for b in bases)), None)
+        nearest = self._nearest(bases, name)
         return nearest is not None and self._refuses(call, nearest, True)
 
     def of_function(self, call: s.Call, name: str) -> bool:
@@ -109,10 +109,13 @@ class CallBinding:
             return bool(call.arguments)
         return makers == {"__init__"} and self.of_method(call, name, "__init__", True)
 
-    def _defined(self, of: str, name: str) -> str | None:
-        """The function that a class itself has under the name of a method."""
-        class_ = self._program.classes.get(of)
-        return dict(class_.methods).get(name) if class_ is not None else None
+    def _nearest(self, line: Sequence[str], name: str) -> str | None:
+        """The function that the first of some classes has under the name of a method."""
+        if not self._is_python:
+            return None
+        classes = (self._program.classes.get(each) for each in line)
+        methods = (dict(c.methods) for c in classes if c is not None)
+        return next((found[name] for found in methods if name in found), None)
 
     def _refuses(self, call: s.Call, name: str, is_object: bool) -> bool:
         function = self._program.function(name)

@@ -5,6 +5,9 @@ By what the classes of the program answer them with, whatever the operands are: 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Protocol, TypeAlias
+
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.ir import expressions as e
@@ -23,6 +26,7 @@ _COMPARING = frozenset(
     | {"insort_right", "bisect", "bisect_left", "bisect_right", "heappush", "heappop", "heapify"}
     | {"heapreplace", "heappushpop", "nlargest", "nsmallest", "merge"}
 )
+_Values: TypeAlias = "Sequence[e.Expression] | None"
 _KEYS = (ImplicitCall.HASH, Operator.EQUAL)
 
 
@@ -34,18 +38,28 @@ class ImplicitCalls:
     has_library: bool
 
 
-def implicit_calls(graph: CallGraph, function: Function) -> ImplicitCalls:
-    """What a body itself runs so, without what its calls run."""
-    visitor = _Visitor(graph, function)
+class Operands(Protocol):
+    """What says which classes may answer for a value, or for what is in it."""
+
+    def of(self, value: e.Expression, function: str, asks_elements: bool) -> frozenset[str] | None:
+        """The classes; None if they are not known."""
+
+
+def implicit_calls(
+    graph: CallGraph, function: Function, operands: Operands | None = None
+) -> ImplicitCalls:
+    """What a body itself runs so, without what its calls run; without `operands` by names alone."""
+    visitor = _Visitor(graph, function, operands)
     for statement in function.body:
         visitor.visit(statement)
     return ImplicitCalls(frozenset(visitor.functions), visitor.has_library)
 
 
 class _Visitor:
-    def __init__(self, graph: CallGraph, function: Function) -> None:
+    def __init__(self, graph: CallGraph, function: Function, operands: Operands | None) -> None:
         self.graph = graph
         self.function = function
+        self.operands = operands
         self.functions: set[str] = set()
         self.has_library = False
 
@@ -59,12 +73,38 @@ class _Visitor:
             else:
                 self.visit(part)
 
-    def _runs(self, *calls: Operator | ImplicitCall) -> None:
-        self.functions |= self.graph.implicit(calls)
+    def _runs(
+        self, *calls: Operator | ImplicitCall, of: _Values = None, asks_elements: bool = False
+    ) -> None:
+        """Notes what may answer calls, of some values if these are known."""
+        found = self.graph.implicit(calls)
+        self.functions |= self._of_values(found, of, asks_elements) if found else found
 
-    def _iterates(self) -> None:
-        self._runs(*_ITERATED)
-        self.functions |= self.graph.suspended
+    def _of_values(
+        self, functions: frozenset[str], of: _Values, asks_elements: bool = False
+    ) -> frozenset[str]:
+        """The methods among some that classes of values have; all where these are not known."""
+        classes = self._classes(of, asks_elements)
+        if classes is None:
+            return functions
+        owners = {f: self.graph.program.function(f).owner for f in functions}
+        return frozenset(f for f, owner in owners.items() if owner in classes)
+
+    def _classes(self, of: _Values, asks_elements: bool) -> frozenset[str] | None:
+        found = frozenset[str]()
+        for value in of or ():
+            if self.operands is None:
+                return None
+            classes = self.operands.of(value, self.function.name, asks_elements)
+            if classes is None:
+                return None
+            found |= classes
+        return None if of is None else found
+
+    def _iterates(self, of: _Values = None) -> None:
+        self._runs(*_ITERATED, of=of)
+        if self.graph.suspended and self._classes(of, False) is None:
+            self.functions |= self.graph.suspended
 
     def _write(self, target: Node) -> None:
         """A target is stored in or deleted; what it is a part of is read."""
@@ -77,8 +117,8 @@ class _Visitor:
                         self.functions |= self.graph.accessors(name, part)
                 self.visit(holder)
             case e.Index(holder, index):
-                self._runs(ImplicitCall.SET_ITEM, ImplicitCall.DELETE_ITEM, *_KEYS)
-                self._runs(ImplicitCall.NUMBER)
+                self._runs(ImplicitCall.SET_ITEM, ImplicitCall.DELETE_ITEM, of=(holder,))
+                self._runs(ImplicitCall.NUMBER, *_KEYS, of=_at(index), asks_elements=True)
                 if isinstance(index, e.Slice):
                     self._iterates()
                 self.visit(holder)
@@ -90,57 +130,71 @@ class _Visitor:
 
     def _note(self, node: Node) -> None:
         match node:
-            case e.Attribute(_, name, _, True):
-                self._gets(name)
-            case e.Index():
-                self._runs(ImplicitCall.GET_ITEM, ImplicitCall.NUMBER, *_KEYS)
-            case e.Unary(operator, _, _, True):
-                self._runs(operator)
-            case e.Binary(operator, _, _, _, True):
+            case e.Attribute(of, name, _, True):
+                self._gets(of, name)
+            case e.Index(of, index):
+                self._runs(ImplicitCall.GET_ITEM, of=(of,))
+                self._runs(ImplicitCall.NUMBER, *_KEYS, of=_at(index), asks_elements=True)
+            case e.Unary(operator, of, _, True):
+                self._runs(operator, of=(of,))
+            case e.Binary(operator, left, right, _, True):
                 if operator not in (Operator.SAME, Operator.NOT_SAME):
-                    self._binary(operator)
-            case e.And() | e.Or() | e.Conditional() | s.If() | s.Assert() | s.Loop():
+                    self._binary(operator, left, right)
+            case e.And(of) | e.Or(of) | e.Conditional(of) | s.If(of) | s.Assert(of):
                 if node.dynamic:
-                    self._runs(ImplicitCall.TRUTH)
-            case e.Convert(_, _, _, True):
-                self._runs(ImplicitCall.NUMBER, ImplicitCall.TRUTH, ImplicitCall.TEXT)
-            case e.Format(_, _, True):
-                self._runs(ImplicitCall.TEXT)
-            case e.Spread() | s.Unpack():
-                self._iterates()
-            case e.BuildMapping() | e.Build() | s.Insert():
+                    self._runs(ImplicitCall.TRUTH, of=(of,))
+            case s.Loop(test=of, dynamic=True):
+                self._runs(ImplicitCall.TRUTH, of=(of,))
+            case e.Convert(_, of, _, True):
+                asked = ImplicitCall.NUMBER, ImplicitCall.TRUTH, ImplicitCall.TEXT
+                self._runs(*asked, of=(of,), asks_elements=True)
+            case e.Format(pieces, _, True):
+                self._runs(ImplicitCall.TEXT, of=[p.value for p in pieces], asks_elements=True)
+            case e.Spread(of) | s.Unpack(_, of):
+                self._iterates((of,))
+            case e.BuildMapping(_, entries):
+                keys = [p.operand if isinstance(p, e.Spread) else p[0] for p in entries]
+                self._runs(*_KEYS, of=keys, asks_elements=True)
+            case e.Build(_, elements):
+                values = [p.operand if isinstance(p, e.Spread) else p for p in elements]
+                self._runs(*_KEYS, of=values, asks_elements=True)
+            case s.Insert():
                 self._runs(*_KEYS)
             case e.Copy() | e.Move():
                 self._runs(ImplicitCall.COPY, ImplicitCall.MOVE)
             case _:
                 self._statement(node)
 
-    def _gets(self, name: str) -> None:
+    def _gets(self, of: e.Expression, name: str) -> None:
         """An attribute is looked up, which hooks may answer."""
-        self._runs(ImplicitCall.GET_ATTRIBUTE, ImplicitCall.DESCRIBE)
-        self.functions |= self.graph.accessors(name, "getter")
+        self._runs(ImplicitCall.GET_ATTRIBUTE, of=(of,))
+        self.functions |= self._of_values(self.graph.accessors(name, "getter"), (of,))
+        if self._classes((of,), False) != frozenset():
+            self._runs(ImplicitCall.DESCRIBE)
 
-    def _binary(self, operator: Operator) -> None:
+    def _binary(self, operator: Operator, left: e.Expression, right: e.Expression) -> None:
         """An operator of classes; containers apply it to their elements."""
-        if operator in _EQUALITY:
-            self._runs(*_EQUALITY)
-        else:
-            self._runs(*(_COMPARED if operator in _COMPARED else (operator,)))
+        both = left, right
+        compares = _EQUALITY if operator in _EQUALITY else _COMPARED
+        asked = compares if operator in (*_EQUALITY, *_COMPARED) else (operator,)
+        self._runs(*asked, of=both, asks_elements=True)
         if operator in _CONTAINED:
-            self._runs(*_CONTAINED, *_COMPARED)
-            self._iterates()
-            self._runs(*_KEYS)
-        self._runs(ImplicitCall.TEXT, ImplicitCall.NUMBER)
+            self._runs(*_COMPARED, *_KEYS, of=both, asks_elements=True)
+            self._runs(*_CONTAINED, of=(right,))
+            self._iterates((right,))
+        self._runs(ImplicitCall.TEXT, ImplicitCall.NUMBER, of=both, asks_elements=True)
 
     def _statement(self, node: Node) -> None:
         match node:
             case s.CompoundAssign(target, operator, value, dynamic):
                 self.visit(target)
                 if dynamic:
-                    self._binary(operator)
+                    self._binary(operator, target, value)
                     if not isinstance(value, e.Literal):  # a list takes what one goes through
-                        self._iterates()
-            case s.ForEach() | s.Yield():
+                        self._iterates((value,))
+            case s.ForEach(_, iterable):
+                self._iterates((iterable,))
+            case s.Yield():
                 self._iterates()
             case s.Await():
                 self._iterates()
@@ -175,12 +229,19 @@ class _Visitor:
         if any(a.stars for a in node.arguments):
             self._iterates()
         if isinstance(node.callee, s.MethodCallee) and node.callee.dynamic:
-            self._gets(node.callee.name)
+            self._gets(node.callee.receiver, node.callee.name)
         called = node.callee
         name = called.name if isinstance(called, s.MethodCallee | s.LibraryCallee) else ""
         if name.rpartition(".")[2] in _COMPARING:
             self._runs(*_COMPARED)
         self._runs(ImplicitCall.CALL)
+
+
+def _at(index: e.Expression) -> Sequence[e.Expression]:
+    """The values of an index, of which a slice has several."""
+    if not isinstance(index, e.Slice):
+        return (index,)
+    return [part for part in (index.low, index.high, index.step) if part is not None]
 
 
 def _target(node: Node) -> Node | None:

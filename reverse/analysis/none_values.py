@@ -11,6 +11,7 @@ from rebsync.reverse.analysis.facts import Facts, Holds, IsThere, names_of, test
 from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, Member, Stored, key_of
+from rebsync.reverse.analysis.unpacked_values import UnpackedValues
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import FunctionKind
@@ -30,6 +31,7 @@ class NoneValues:
         self._graph = notes.origins.graph
         self._name = notes.function.name
         self._loops: list[s.ForEach] | None = None
+        self._unpacked = UnpackedValues(self._graph)
 
     def check(
         self,
@@ -97,11 +99,18 @@ class NoneValues:
             yield self._name
         if isinstance(value, e.Local) and any(map(self.has_none, self._gone_through(value))):
             yield self._name
+        if any(self._is_nothing(each, 0) for each in self._unpacked.of(value, self._name)):
+            yield self._name
         key = key_of(value, self._name)
         stored = self._graph.stores.of(key) if key is not None else ()
         for each in stored:
             if self._is_nothing(each, 0) and not self._is_of_other(value, key, each[0]):
                 yield each[0]
+
+    def unpacks_wrongly(self, node: s.Unpack) -> bool:
+        """Whether a sequence may have more or fewer parts than it is unpacked into."""
+        is_python = self._notes.table.language is Language.PYTHON
+        return is_python and self._unpacked.has_another_length(node, self._name)
 
     def _gone_through(self, element: e.Local) -> Iterator[e.Expression]:
         """The containers of which a variable of the function is an element in a loop."""
@@ -140,7 +149,8 @@ class NoneValues:
                 return self._gives_nothing(call, function, depth)
             case e.Temporary() | e.Local() if depth < _DEEPEST:
                 key = key_of(value, function)
-                found = self._graph.stores.of(key) if key is not None else []
+                found = [*(self._graph.stores.of(key) if key is not None else ())]
+                found += self._unpacked.of(value, function)
                 return any(self._is_nothing(each, depth + 1) for each in found)
             case _:
                 return False

@@ -29,11 +29,12 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
-from rebsync.reverse.ir.program import Program
+from rebsync.reverse.ir.program import FunctionKind, Program
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 
+_SUSPENDED = (FunctionKind.GENERATOR, FunctionKind.COROUTINE)
 _SETTERS = frozenset({"builtins.setattr", "builtins.vars"})
 
 
@@ -243,6 +244,8 @@ class Origins:
 
     def _returned(self, name: str) -> frozenset[Origin]:
         body = self.graph.program.function(name)
+        if body.kind in _SUSPENDED:
+            return ANYTHING  # an iterator, or what is awaited
         values = [n.value for n in walk(body) if isinstance(n, s.Return)]
         found = (self.of(v, name) if v is not None else PLAIN for v in values)
         return frozenset[Origin]().union(*found) or PLAIN

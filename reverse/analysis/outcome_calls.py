@@ -327,7 +327,7 @@ class OutcomeCalls:
                 self._library(node, name, self.notes.table.method(None, name), receiver, facts)
             case _:
                 own = self.origins.graph.class_of(receiver, self.notes.function)
-                if own is not None and self._binding.of_method(node, own, name, True):
+                if own is not None and self._binding.of_own_method(node, own, name):
                     self.notes.fails(node, REFUSED)
                 self._stored_in(node, name, facts)
                 for method in sorted(self.origins.methods_of_any(name)):

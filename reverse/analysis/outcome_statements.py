@@ -137,11 +137,14 @@ class OutcomeWalk:
                 of = self.notes.counts.size(value, self.name)
                 least = len(targets) - (node.rest is not None)
                 is_given = self._sizes.is_given(value)
-                if max(size_of(facts, value), of) < least and not is_given:
+                is_short = max(size_of(facts, value), of) < least and not is_given
+                if is_short or self._expressions.none.unpacks_wrongly(node):
                     self.notes.fails(node, "has another number of elements")
                 self._expressions.none.check(value, node, facts)
                 for target in targets:
-                    facts = stored(facts, target) | {IsThere(target)}
+                    facts = stored(facts, target)
+                    if not self._expressions.none.may_be(target, facts):
+                        facts |= {IsThere(target)}
                 return facts
             case s.Insert(container, value, key):
                 self.value(value, facts)

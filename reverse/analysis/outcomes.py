@@ -23,11 +23,11 @@ from rebsync.reverse.analysis.fixpoint import Equation, LeastFixpoint, in_cycles
 from rebsync.reverse.analysis.given_arguments import with_none
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
+from rebsync.reverse.analysis.operand_classes import OperandClasses
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcome_statements import ENDLESS, OutcomeWalk
 from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
 from rebsync.reverse.analysis.silent_calls import SilentCalls
-from rebsync.reverse.analysis.unset_names import LACKS, UNSET
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
@@ -35,6 +35,7 @@ from rebsync.reverse.ir.program import Function, Program
 from rebsync.reverse.ir.walk import STATEMENTS, Node, parts, walk
 from rebsync.reverse.libraries.outcome_classes import TERMINATES
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
+from rebsync.reverse.libraries.routines import Language
 from rebsync.source import NOWHERE, Span
 
 _GETS_NONE = frozenset({"__eq__", "__ne__", "__exit__"})
@@ -84,6 +85,11 @@ class OutcomeAnalysis:
         return frozenset(o.name for o in held if isinstance(o, FunctionOrigin))
 
     @cached_property
+    def _operands(self) -> OperandClasses | None:
+        """Which classes answer for values, in Python; in C++ the types of these say so."""
+        return OperandClasses(self.origins) if self.table.language is Language.PYTHON else None
+
+    @cached_property
     def _silent(self) -> SilentCalls:
         return SilentCalls(self.origins)
 
@@ -115,7 +121,7 @@ class OutcomeAnalysis:
         self.locks.check(function, notes)
         for node in self.iterators.gone_through(function):
             notes.problem(node, ENDLESS)
-        found = implicit_calls(self.graph, function)
+        found = implicit_calls(self.graph, function, self._operands)
         asked = self._asked(function) if found.has_library else frozenset()
         implicit = found.functions | asked
         self._run(function, implicit, notes)
@@ -151,7 +157,7 @@ class OutcomeAnalysis:
             if not self.is_model(name) and name != function.name:
                 compares = name.rpartition(".")[2] in _GETS_NONE
                 gives = with_none if compares else None
-                notes.take({Called(name, (_is_no_name,), gives)})
+                notes.take({Called(name, (), gives)})
                 if name in self._endless:
                     notes.take({Problem(name, self.program.function(name).place, ENDLESS)})
 
@@ -177,11 +183,6 @@ class OutcomeAnalysis:
                 if isinstance(node, e.Closure) and node.defaults:
                     found[node.function] = tuple((around, value) for _, value in node.defaults)
         return found
-
-
-def _is_no_name(problem: Problem) -> bool:
-    """Whether a problem is another than a name without a value, of which few run so have one."""
-    return not problem.why.endswith((LACKS, UNSET))
 
 
 def _ending(problem: Problem) -> Problem:
