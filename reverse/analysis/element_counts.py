@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 
+from rebsync.reverse.analysis.foreign_emptying import ForeignEmptying
 from rebsync.reverse.analysis.held_values import held_by, is_own
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origin, Origins
 from rebsync.reverse.analysis.stores import (
@@ -36,6 +37,7 @@ class ElementCounts:
         self.origins = origins
         self.graph = origins.graph
         self.table = origins.table
+        self.emptying = ForeignEmptying(origins)
 
     def size(self, value: e.Expression, function: str) -> int:
         """How many elements a container has at least, whenever that is asked."""
@@ -205,7 +207,8 @@ class ElementCounts:
 
     def _may_lose(self, key: Key) -> bool:
         """Whether elements may be taken out of what is stored under a name, by whatever name."""
-        return self._losing is None or key in self._losing
+        is_lost = self._losing is None or key in self._losing
+        return is_lost or key in self.emptying.handed
 
     @property
     def keeps_elements(self) -> bool:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from rebsync.reverse.analysis.foreign_emptying import whole
 from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import (
@@ -53,7 +54,7 @@ class ForeignFilling:
     def _gets(self, call: s.Call, function: str, names: frozenset[Key]) -> bool:
         """Whether a call gets what has one of some names."""
         return any(
-            key_of(part, function) in names for a in call.arguments for part in _whole(a.value)
+            key_of(part, function) in names for a in call.arguments for part in whole(a.value)
         )
 
     def _is_handed(self, names: frozenset[Key]) -> bool:
@@ -81,7 +82,7 @@ class ForeignFilling:
             for node in walk(self._program.function(name).body):
                 if isinstance(node, s.Assign | s.Declare) and node.value is not None:
                     to = key_of(node.target, name)
-                    values = (key_of(part, name) for part in _whole(node.value))
+                    values = (key_of(part, name) for part in whole(node.value))
                     if to is not None:
                         yield to, frozenset(v for v in values if v is not None)
 
@@ -114,19 +115,3 @@ class ForeignFilling:
         if name.partition(".")[0] in FINITE or self._table.is_standard(name):
             return False
         return self._table.function(name) == _NOTHING
-
-
-def _whole(value: e.Expression) -> Iterator[e.Expression]:
-    """The values that an expression gives as they are, or in a container that it makes."""
-    match value:
-        case e.AddressOf(inner) | e.Dereference(inner) | e.Convert(_, inner) | e.Move(inner):
-            yield from _whole(inner)
-        case e.Conditional(_, one, other) | e.And(one, other) | e.Or(one, other):
-            yield from _whole(one)
-            yield from _whole(other)
-        case e.Build(_, elements):
-            for each in elements:
-                if not isinstance(each, e.Spread):
-                    yield from _whole(each)
-        case _:
-            yield value

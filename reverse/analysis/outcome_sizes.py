@@ -49,6 +49,9 @@ class OutcomeSizes:
         if outcome is None:
             facts = without_shared(facts)
             return facts if self.notes.counts.keeps_elements else without_sizes(facts)
+        emptying = self.notes.counts.emptying
+        if emptying.is_foreign(node, self.function) and emptying.handed:
+            facts = without_sizes(facts)
         if receiver is None:
             return facts
         match outcome.size:
