@@ -164,7 +164,20 @@ class Origins:
         methods = {
             f for o in held if isinstance(o, ClassOrigin) for f in self.methods(o.name, name)
         }
-        return found.union(map(FunctionOrigin, methods)) or ANYTHING
+        found = found.union(map(FunctionOrigin, methods))
+        if self.table.language is Language.PYTHON and not self._is_own(of, held, function):
+            found |= ANYTHING  # a message, or what else the program did not make, has its own
+        return found or ANYTHING
+
+    def _is_own(self, value: e.Expression, held: frozenset[Origin], function: str) -> bool:
+        """Whether a value is an object that the program made: its attributes are told by names."""
+        match value:
+            case e.Local(name) if name == self.object_of.get(function):
+                return True
+            case e.Captured(around, name) if name == self.object_of.get(around):
+                return True
+            case _:
+                return bool(held) and all(isinstance(o, ClassOrigin) for o in held)
 
     def _stored(self, key: Key) -> frozenset[Origin]:
         """What is stored under a name: the least fixpoint of all that one is stored from."""
