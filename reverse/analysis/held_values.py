@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.origins import ClassOrigin, Origins
-from rebsync.reverse.analysis.stores import ANY_VALUE, Stored, key_of
+from rebsync.reverse.analysis.stores import ANY_VALUE, Member, Stored, key_of
 from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.program import Function
+from rebsync.reverse.ir.walk import walk
 
 
 def held_by(origins: Origins, value: e.Expression, function: str) -> list[Stored]:
@@ -34,3 +38,23 @@ def is_own(origins: Origins, value: e.Expression, function: str) -> bool:
         return True
     held = origins.of(value, function)
     return bool(held) and all(isinstance(o, ClassOrigin) for o in held)
+
+
+def is_of_other(
+    graph: CallGraph, here: Function, value: e.Expression, key: object, function: str
+) -> bool:
+    """Whether what a function stores is an attribute of its own object, of another class.
+
+    It is none of the objects whose attribute `value` the function `here` asks, its own too.
+    """
+    if not (isinstance(key, Member) and isinstance(value, e.Attribute)):
+        return False
+    there = graph.program.function(function)
+    if not (isinstance(value.object, e.Local) and value.object.name == here.receiver):
+        return False
+    if here.owner is None or there.owner is None or there.owner in graph.family(here.owner):
+        return False
+    targets = [n.target for n in walk(there) if isinstance(n, s.Assign | s.Call | s.Declare)]
+    own = e.Local(there.receiver or "")
+    asked = [n for n in targets if isinstance(n, e.Attribute) and n.name == key.name]
+    return all(n.object == own for n in asked)

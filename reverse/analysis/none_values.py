@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rebsync.reverse.analysis.facts import Facts, Holds, IsThere, names_of, tested
+from rebsync.reverse.analysis.held_values import is_of_other
 from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
-from rebsync.reverse.analysis.stores import CallResult, Member, Stored, key_of
+from rebsync.reverse.analysis.stores import CallResult, Stored, key_of
 from rebsync.reverse.analysis.unpacked_values import UnpackedValues
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -104,7 +105,10 @@ class NoneValues:
         key = key_of(value, self._name)
         stored = self._graph.stores.of(key) if key is not None else ()
         for each in stored:
-            if self._is_nothing(each, 0) and not self._is_of_other(value, key, each[0]):
+            here = self._notes.function
+            if self._is_nothing(each, 0) and not is_of_other(
+                self._graph, here, value, key, each[0]
+            ):
                 yield each[0]
 
     def unpacks_wrongly(self, node: s.Unpack) -> bool:
@@ -117,24 +121,6 @@ class NoneValues:
         if self._loops is None:
             self._loops = [n for n in walk(self._notes.function) if isinstance(n, s.ForEach)]
         return (loop.iterable for loop in self._loops if loop.target == element)
-
-    def _is_of_other(self, value: e.Expression, key: object, function: str) -> bool:
-        """Whether what a function stores is an attribute of its own object, of another class."""
-        if not (isinstance(key, Member) and isinstance(value, e.Attribute)):
-            return False
-        here, there = self._notes.function, self._graph.program.function(function)
-        if not (isinstance(value.object, e.Local) and value.object.name == here.receiver):
-            return False
-        if (
-            here.owner is None
-            or there.owner is None
-            or there.owner in self._graph.family(here.owner)
-        ):
-            return False
-        targets = [n.target for n in walk(there) if isinstance(n, s.Assign | s.Call | s.Declare)]
-        own = e.Local(there.receiver or "")
-        asked = [t for t in targets if isinstance(t, e.Attribute) and t.name == key.name]
-        return all(t.object == own for t in asked)
 
     def _is_nothing(self, stored: Stored, depth: int) -> bool:
         function, value = stored

@@ -65,6 +65,7 @@ class OutcomeCalls:
         """Notes what a call may do, and gives what is known after it."""
         self._here = facts
         self._arguments(node, facts)
+        self.expressions.types.call(node, facts)
         match node.callee:
             case s.FunctionCallee(name):
                 self._enters(node, name)

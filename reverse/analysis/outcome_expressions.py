@@ -22,6 +22,7 @@ from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrig
 from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.signs import Signs
 from rebsync.reverse.analysis.stores import AnyValue, key_of
+from rebsync.reverse.analysis.type_errors import TypeErrors
 from rebsync.reverse.analysis.unset_names import UnsetNames
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
@@ -56,6 +57,7 @@ class OutcomeExpressions:
         self._signs = Signs(notes)
         self._constants = ConstantNumbers(notes.origins, notes.function.name)
         self.none = NoneValues(notes)
+        self.types = TypeErrors(notes)
         self._unset = UnsetNames(notes)
         self.foreign = ForeignValues(notes.origins)
 
@@ -90,6 +92,7 @@ class OutcomeExpressions:
                 self.check(part, facts)  # type: ignore[arg-type]
 
     def _itself(self, value: e.Expression, facts: Facts) -> None:
+        self.types.check(value, facts)
         match value:
             case e.Attribute(of):
                 self.none.check(of, value, facts, "asks None for an attribute")
@@ -326,6 +329,7 @@ class OutcomeExpressions:
     def stored_at(self, target: e.Index, facts: Facts) -> None:
         """Notes what storing an element may do: a mapping takes any key."""
         self.check(target.object, facts)
+        self.types.stores(target, facts)
         if not isinstance(target.index, e.Slice):
             self.check(target.index, facts)
         kinds = self.origins.of(target.object, self.function)

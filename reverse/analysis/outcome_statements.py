@@ -141,6 +141,7 @@ class OutcomeWalk:
                 if is_short or self._expressions.none.unpacks_wrongly(node):
                     self.notes.fails(node, "has another number of elements")
                 self._expressions.none.check(value, node, facts)
+                self._expressions.types.iterates(node, value, facts)
                 for target in targets:
                     facts = stored(facts, target)
                     if not self._expressions.none.may_be(target, facts):
@@ -320,6 +321,7 @@ class OutcomeWalk:
         if not self._endings.ends(node):
             self.notes.problem(node, ENDLESS)
         self._expressions.none.check(node.iterable, node, facts)
+        self._expressions.types.iterates(node, node.iterable, facts)
         inside = without(self._changed(facts, node.body), node.target)
         size = self.notes.counts.elements(node.iterable, self.name)
         if self.notes.is_parameter(node.iterable):

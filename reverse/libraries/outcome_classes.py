@@ -24,6 +24,9 @@ FAILURES: Mapping[str, tuple[str, str]] = {
     "may have no value yet": ("", "builtins.UnboundLocalError"),
     "may have no such attribute yet": ("", "builtins.AttributeError"),
     "gets other arguments than it takes": ("", "builtins.TypeError"),
+    "is of another type": ("", "builtins.TypeError"),
+    "has no such attribute": ("", "builtins.AttributeError"),
+    "names what nothing defines": ("", "builtins.NameError"),
     "does not hold": ("", "builtins.AssertionError"),
 }
 # Of transforms between frames that are not there, or not yet.

@@ -1,0 +1,241 @@
+"""What Python asks of values of its own types that these have not: a TypeError, an AttributeError.
+
+A value that may be of several types must have what is asked in each; one of which no type is known
+is trusted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rebsync.reverse.analysis.facts import Facts
+from rebsync.reverse.analysis.operand_kinds import ATTRIBUTES, OperandKinds, OwnType
+from rebsync.reverse.analysis.origins import ClassOrigin
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.stores import GlobalVariable, Member
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.walk import Node, walk
+from rebsync.reverse.libraries.routines import Language
+
+_WRONG = "is of another type"
+_LACKS = "has no such attribute"
+_UNDEFINED = "names what nothing defines"
+_OF_MODULES = frozenset({"__name__", "__file__", "__doc__", "__package__", "__spec__"})
+_HOOKS = ("__getattr__", "__getattribute__")
+NUMBER, TEXT = OwnType.NUMBER, OwnType.TEXT
+_SEQUENCES = frozenset({TEXT, OwnType.LIST, OwnType.TUPLE})
+_INDEXED = _SEQUENCES | {OwnType.QUEUE, OwnType.MAPPING}
+_UNHASHABLE = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
+_ORDERED = (Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL)
+_OF_SETS = (Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR, Operator.SUBTRACT)
+_OF_NUMBERS = frozenset(f"builtins.{n}" for n in "abs round float int divmod pow range chr".split())
+_OF_TEXTS = frozenset({"builtins.float", "builtins.int"})  # which take texts as well
+_OF_ELEMENTS = frozenset(
+    f"builtins.{n}"
+    for n in "len sum any all sorted list tuple set enumerate reversed iter zip".split()
+)
+
+
+class TypeErrors:
+    """The values of one function."""
+
+    def __init__(self, notes: ProblemNotes) -> None:
+        self._notes = notes
+        self._kinds = OperandKinds(notes)
+        self._is_python = notes.table.language is Language.PYTHON
+
+    def check(self, value: e.Expression, facts: Facts) -> None:
+        """Notes what evaluating an expression asks of values that have it not."""
+        if not self._is_python:
+            return
+        match value:
+            case e.Attribute(of, name) if not isinstance(of, e.ClassReference):
+                self._asks(value, of, name, facts)
+            case e.Binary(operator, left, right):
+                self._computes(value, operator, left, right, facts)
+            case e.Unary(Operator.NEGATE | Operator.PLUS | Operator.INVERT, of):
+                self._needs(value, of, {NUMBER}, facts)
+            case e.Index(of, index):
+                self._at(value, of, index, facts)
+            case e.Format(pieces):
+                for piece in pieces:
+                    if piece.style is not None:
+                        self._styled(value, piece, facts)
+            case e.Global(module, name):
+                self._named(value, module, name)
+            case _:
+                pass
+
+    def call(self, node: s.Call, facts: Facts) -> None:
+        """Notes what a call asks of what is called, and of what it gets."""
+        if not self._is_python:
+            return
+        plain = [a.value for a in node.arguments if a.name is None and not a.stars]
+        match node.callee:
+            case s.ValueCallee(value):
+                self._needs(node, value, set(), facts)
+            case s.MethodCallee(receiver, name, _, None):
+                self._asks(node, receiver, name, facts)
+                if not self._notes.origins.methods_of_any(name):
+                    self._needs(node, e.Attribute(receiver, name), set(), facts)
+            case s.LibraryCallee(name) if name in _OF_NUMBERS:
+                taken = {NUMBER, TEXT} if name in _OF_TEXTS else {NUMBER}
+                for value in plain:
+                    self._needs(node, value, taken, facts)
+            case s.LibraryCallee(name) if name in _OF_ELEMENTS:
+                for value in plain if name == "builtins.zip" else plain[:1]:
+                    self.iterates(node, value, facts)
+            case _:
+                pass
+
+    def iterates(self, node: s.Statement, value: e.Expression, facts: Facts) -> None:
+        """Notes that something is gone through that has no elements."""
+        if self._is_python:
+            self._needs(node, value, set(OwnType) - {NUMBER}, facts)
+
+    def stores(self, target: e.Index, facts: Facts) -> None:
+        """Notes that an element is stored in what takes none."""
+        if not self._is_python:
+            return
+        changing = {OwnType.LIST, OwnType.MAPPING, OwnType.QUEUE}
+        self._needs(target, target.object, changing, facts)
+        if self._kinds.of(target.object, facts) == {OwnType.MAPPING}:
+            self._needs(target, target.index, set(OwnType) - _UNHASHABLE, facts)
+
+    def _needs(
+        self,
+        node: s.Statement | e.Expression,
+        value: e.Expression,
+        taken: Iterable[OwnType],
+        facts: Facts,
+    ) -> None:
+        if self._kinds.of(value, facts) - {*taken, None}:
+            self._notes.fails(node, _WRONG)
+
+    # --- attributes ------------------------------------------------------------------------------
+
+    def _asks(
+        self, node: s.Statement | e.Expression, of: e.Expression, name: str, facts: Facts
+    ) -> None:
+        """An attribute is asked of a value."""
+        kinds = self._kinds.of(of, facts)
+        if any(kind is not None and name not in ATTRIBUTES[kind] for kind in kinds):
+            self._notes.fails(node, _LACKS)
+        elif kinds == {None} and self._is_of_none(of, name):
+            self._notes.fails(node, _LACKS)
+
+    def _is_of_none(self, of: e.Expression, name: str) -> bool:
+        """Whether no object of the classes that a value is of may have an attribute."""
+        origins = self._notes.origins
+        own = origins.graph.class_of(of, self._notes.function)
+        held = origins.of(of, self._notes.function.name)
+        classes = {o.name for o in held if isinstance(o, ClassOrigin) and o.of_object}
+        if own is not None:
+            classes = {own}
+        elif len(classes) != len(held):
+            return False
+        return bool(classes) and any(self._lacks(each, name) for each in classes)
+
+    def _lacks(self, of: str, name: str) -> bool:
+        """Whether a class, and all that it extends, say nothing of an attribute."""
+        origins, program = self._notes.origins, self._notes.origins.graph.program
+        family = origins.graph.family(of) - {"builtins.object"}
+        if not family <= program.classes.keys() or name in _OF_OBJECTS:
+            return False
+        classes = [program.classes[each] for each in family]
+        if any(None in c.bases or not c.complete for c in classes) or origins.sets_by_text:
+            return False
+        known = {n for c in classes for n, _ in c.methods}
+        known |= {p.name for c in classes for p in c.properties}
+        known |= {f.name for c in classes for f in c.fields}
+        return known.isdisjoint({name, *_HOOKS}) and not origins.graph.stores.of(Member(name))
+
+    def _named(self, value: e.Expression, module: str, name: str) -> None:
+        """A name that no scope of a module binds, and no import brings in unseen."""
+        graph = self._notes.origins.graph
+        if name in _OF_MODULES or graph.stores.of(GlobalVariable(module, name)):
+            return
+        body = graph.program.modules.get(module)
+        if body is None or self._notes.origins.sets_by_text:
+            return
+        nodes = walk(graph.program.function(body))
+        if not any(isinstance(n, s.Unsupported) or _is_star(n) for n in nodes):
+            self._notes.fails(value, _UNDEFINED)
+
+    # --- operators -------------------------------------------------------------------------------
+
+    def _computes(
+        self,
+        value: e.Binary,
+        operator: Operator,
+        left: e.Expression,
+        right: e.Expression,
+        facts: Facts,
+    ) -> None:
+        kinds = self._kinds.of(left, facts), self._kinds.of(right, facts)
+        if operator in (Operator.IN, Operator.NOT_IN):
+            wrong = bool(kinds[1] & {NUMBER}) or (
+                kinds[1] == {TEXT} and bool(kinds[0] - {TEXT, None})
+            )
+        elif operator in (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SAME):
+            wrong = False
+        else:
+            wrong = any(not _takes(operator, a, b) for a in kinds[0] for b in kinds[1])
+        if wrong:
+            self._notes.fails(value, _WRONG)
+
+    # --- elements and texts ----------------------------------------------------------------------
+
+    def _at(self, value: e.Index, of: e.Expression, index: e.Expression, facts: Facts) -> None:
+        self._needs(value, of, _INDEXED, facts)
+        kinds = self._kinds.of(of, facts)
+        if isinstance(index, e.Slice):
+            return
+        if kinds and kinds <= _SEQUENCES | {OwnType.QUEUE}:
+            self._needs(value, index, {NUMBER}, facts)
+            if isinstance(index, e.Literal) and isinstance(index.value, float):
+                self._notes.fails(value, _WRONG)
+            if isinstance(index, e.Binary) and index.operator is Operator.TRUE_DIVIDE:
+                self._notes.fails(value, _WRONG)
+        elif kinds == {OwnType.MAPPING}:
+            self._needs(value, index, set(OwnType) - _UNHASHABLE, facts)
+
+    def _styled(self, value: e.Format, piece: e.FormatPiece, facts: Facts) -> None:
+        """A style that only numbers have."""
+        style = piece.style
+        if isinstance(style, e.Literal) and isinstance(style.value, str) and style.value:
+            is_of_numbers = style.value[-1] in "bcdeEfFgGnoxX%"
+            taken = {NUMBER} if is_of_numbers else {NUMBER, TEXT}
+            self._needs(value, piece.value, taken, facts)
+
+
+def _is_star(node: Node) -> bool:
+    """Whether a node imports all that a module has."""
+    return isinstance(node, s.Import) and node.name == "*"
+
+
+_OF_OBJECTS = frozenset(dir(object)) | {"__dict__", "__module__", "__name__", "__slots__"}
+
+
+def _takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bool:
+    """Whether an operator takes operands of two types, as far as they are known."""
+    if left is None or right is None:
+        return True
+    match operator:
+        case _ if left is right is NUMBER:
+            return True
+        case Operator.ADD:
+            return left is right and left in _SEQUENCES | {OwnType.QUEUE}
+        case Operator.MULTIPLY:
+            return {left, right} in [{NUMBER, each} for each in _SEQUENCES | {OwnType.QUEUE}]
+        case Operator.FLOOR_MODULO:
+            return left is TEXT
+        case _ if operator in _ORDERED:
+            return left is right and left is not OwnType.MAPPING
+        case _ if operator in _OF_SETS:
+            is_mapping = left is right is OwnType.MAPPING and operator is Operator.BIT_OR
+            return left is right is OwnType.SET or is_mapping
+        case _:
+            return False
