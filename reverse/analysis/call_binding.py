@@ -17,6 +17,7 @@ from rebsync.reverse.ir.program import Function, Parameter, ParameterKind
 from rebsync.reverse.ir.walk import walk
 
 REFUSED = "gets other arguments than it takes"
+_WITH_KEYS = frozenset({"builtins.sorted", "builtins.max", "builtins.min"})
 _BY_PLACE = (ParameterKind.PLAIN, ParameterKind.BY_PLACE)
 _BY_NAME = (ParameterKind.PLAIN, ParameterKind.BY_NAME)
 # Decorators of libraries that leave the parameters of a function as they are.
@@ -90,6 +91,22 @@ class CallBinding:
         if function.owner is not None:
             ways.append(function.parameters[1:])
         return all(refuses(call.arguments, each) for each in ways)
+
+    def of_handed(self, call: s.Call, argument: s.CallArgument, name: str) -> bool:
+        """Whether a function is handed to one of Python's that calls it otherwise than it takes."""
+        match call.callee:
+            case s.LibraryCallee("builtins.map") if argument is call.arguments[0]:
+                count = len(call.arguments) - 1
+            case s.LibraryCallee("builtins.filter") if argument is call.arguments[0]:
+                count = 1
+            case s.LibraryCallee(called) if called in _WITH_KEYS and argument.name == "key":
+                count = 1
+            case s.MethodCallee(_, "sort") if argument.name == "key":
+                count = 1
+            case _:
+                return False
+        given = (s.CallArgument(e.Literal(0)),) * count
+        return self.of_function(s.Call(None, call.callee, given), name)
 
     def of_class(self, call: s.Call, name: str) -> bool:
         """Whether a class cannot be called with the arguments."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator
 from string import Formatter
 
@@ -27,3 +28,22 @@ def _fields(text: str) -> Iterator[str]:
         if field is not None:
             yield field
             yield from _fields(style or "")
+
+
+_CONVERSION = re.compile(
+    r"%(?:\((?P<key>[^)]*)\))?[#0\- +]*(?P<width>\*|\d+)?(?:\.(\*|\d+))?[hlL]?(.)"
+)
+
+
+def conversions(text: str) -> list[str] | None:
+    """The letters of what `%` puts into a text, in order; None where it takes them by names.
+
+    A width or precision that is given as well is a number: `d`.
+    """
+    found: list[str] = []
+    for match in _CONVERSION.finditer(text):
+        if match["key"] is not None:
+            return None
+        found += "d" * match[0].count("*")
+        found += match[0][-1] if match[0][-1] != "%" else ""
+    return found

@@ -21,7 +21,20 @@ from rebsync.reverse.libraries.routines import Kind
 # Functions of Python that give parts of what they get, and no others.
 _PASSING = frozenset(
     f"builtins.{name}"
-    for name in "enumerate zip reversed sorted list tuple set frozenset min max sum iter".split()
+    for name in [
+        "enumerate",
+        "zip",
+        "reversed",
+        "sorted",
+        "list",
+        "tuple",
+        "set",
+        "frozenset",
+        "min",
+        "max",
+        "sum",
+        "iter",
+    ]
 )
 _AT = 2  # where the callback of a subscription stands
 

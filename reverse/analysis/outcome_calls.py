@@ -33,7 +33,22 @@ _WAITING_ALONE = frozenset({"get", "join"})
 # What takes numbers, or elements, and so no None.
 _OF_NUMBERS = frozenset(
     f"builtins.{name}"
-    for name in "len int float abs sum min max sorted list tuple set enumerate zip round".split()
+    for name in [
+        "len",
+        "int",
+        "float",
+        "abs",
+        "sum",
+        "min",
+        "max",
+        "sorted",
+        "list",
+        "tuple",
+        "set",
+        "enumerate",
+        "zip",
+        "round",
+    ]
 )
 _UNKNOWN = "what is called is not known"
 
@@ -173,6 +188,8 @@ class OutcomeCalls:
                     case FunctionOrigin() if self._asks_a_node(node):
                         pass  # it runs when a message is there; that this asks is noted
                     case FunctionOrigin(name):
+                        if self.origins.binding.of_handed(node, argument, name):
+                            self.notes.fails(node, REFUSED)
                         known = self.notes.elements.get(name, 0)
                         self.notes.elements[name] = max(known, *sizes)
                         self._hands(node, name)

@@ -44,11 +44,7 @@ ENDLESS = "nothing shows that this loop ends"
 class OutcomeWalk:
     """The statements of one function, in their order, with what is known at each."""
 
-    def __init__(
-        self,
-        notes: ProblemNotes,
-        iterators: EndlessIterators,
-    ) -> None:
+    def __init__(self, notes: ProblemNotes, iterators: EndlessIterators) -> None:
         self.notes = notes
         self.origins = notes.origins
         self.name = notes.function.name

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from rebsync.reverse.analysis.facts import Facts
+from rebsync.reverse.analysis.format_strings import conversions
 from rebsync.reverse.analysis.operand_kinds import ATTRIBUTES, OperandKinds, OwnType
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
@@ -30,11 +31,26 @@ _INDEXED = _SEQUENCES | {OwnType.QUEUE, OwnType.MAPPING}
 _UNHASHABLE = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
 _ORDERED = (Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL)
 _OF_SETS = (Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR, Operator.SUBTRACT)
-_OF_NUMBERS = frozenset(f"builtins.{n}" for n in "abs round float int divmod pow range chr".split())
+_OF_NUMBERS = frozenset(
+    f"builtins.{n}" for n in ["abs", "round", "float", "int", "divmod", "pow", "range", "chr"]
+)
 _OF_TEXTS = frozenset({"builtins.float", "builtins.int"})  # which take texts as well
 _OF_ELEMENTS = frozenset(
     f"builtins.{n}"
-    for n in "len sum any all sorted list tuple set enumerate reversed iter zip".split()
+    for n in [
+        "len",
+        "sum",
+        "any",
+        "all",
+        "sorted",
+        "list",
+        "tuple",
+        "set",
+        "enumerate",
+        "reversed",
+        "iter",
+        "zip",
+    ]
 )
 
 
@@ -80,6 +96,8 @@ class TypeErrors:
                 self._asks(node, receiver, name, facts)
                 if not self._notes.origins.methods_of_any(name):
                     self._needs(node, e.Attribute(receiver, name), set(), facts)
+            case s.LibraryCallee("builtins.range") if any(map(_is_fraction, plain)):
+                self._notes.fails(node, _WRONG)
             case s.LibraryCallee(name) if name in _OF_NUMBERS:
                 taken = {NUMBER, TEXT} if name in _OF_TEXTS else {NUMBER}
                 for value in plain:
@@ -121,9 +139,9 @@ class TypeErrors:
     ) -> None:
         """An attribute is asked of a value."""
         kinds = self._kinds.of(of, facts)
-        if any(kind is not None and name not in ATTRIBUTES[kind] for kind in kinds):
-            self._notes.fails(node, _LACKS)
-        elif kinds == {None} and self._is_of_none(of, name):
+        if any(kind is not None and name not in ATTRIBUTES[kind] for kind in kinds) or (
+            kinds == {None} and self._is_of_none(of, name)
+        ):
             self._notes.fails(node, _LACKS)
 
     def _is_of_none(self, of: e.Expression, name: str) -> bool:
@@ -183,8 +201,28 @@ class TypeErrors:
             wrong = False
         else:
             wrong = any(not _takes(operator, a, b) for a in kinds[0] for b in kinds[1])
+            is_times = operator is Operator.MULTIPLY and _is_fraction(right)
+            wrong |= is_times and bool(kinds[0] - {NUMBER, None})
+        if operator is Operator.FLOOR_MODULO and isinstance(left, e.Literal):
+            wrong |= isinstance(left.value, str) and self._puts(left.value, right, facts)
         if wrong:
             self._notes.fails(value, _WRONG)
+
+    def _puts(self, text: str, value: e.Expression, facts: Facts) -> bool:
+        """Whether `%` may not put values into a text: too many, too few, or of another type."""
+        letters, kinds = conversions(text), self._kinds.of(value, facts)
+        if letters is None or (None in kinds and not isinstance(value, e.Build)):
+            return letters is not None and len(letters) != 1
+        values = list(value.elements) if isinstance(value, e.Build) else [value]
+        if kinds == {OwnType.TUPLE} and not isinstance(value, e.Build):
+            return False
+        if any(isinstance(each, e.Spread) for each in values) or len(letters) != len(values):
+            return True
+        pairs = zip(letters, values, strict=True)
+        return any(
+            letter not in "sra" and self._kinds.of(each, facts) - {NUMBER, None}  # type: ignore[arg-type]
+            for letter, each in pairs
+        )
 
     # --- elements and texts ----------------------------------------------------------------------
 
@@ -195,9 +233,7 @@ class TypeErrors:
             return
         if kinds and kinds <= _SEQUENCES | {OwnType.QUEUE}:
             self._needs(value, index, {NUMBER}, facts)
-            if isinstance(index, e.Literal) and isinstance(index.value, float):
-                self._notes.fails(value, _WRONG)
-            if isinstance(index, e.Binary) and index.operator is Operator.TRUE_DIVIDE:
+            if _is_fraction(index):
                 self._notes.fails(value, _WRONG)
         elif kinds == {OwnType.MAPPING}:
             self._needs(value, index, set(OwnType) - _UNHASHABLE, facts)
@@ -217,6 +253,17 @@ def _is_star(node: Node) -> bool:
 
 
 _OF_OBJECTS = frozenset(dir(object)) | {"__dict__", "__module__", "__name__", "__slots__"}
+
+
+def _is_fraction(value: e.Expression) -> bool:
+    """Whether a number is a float by how it is computed, other than of whole numbers only."""
+    match value:
+        case e.Literal(float()):
+            return True
+        case e.Binary(operator):
+            return operator is Operator.TRUE_DIVIDE
+        case _:
+            return False
 
 
 def _takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bool:
