@@ -65,7 +65,7 @@ class CallBinding:
         self._is_python = is_python
 
     def of_method(self, call: s.Call, of: str, name: str, is_object: bool) -> bool:
-        """Whether a method of an object of just that class, or of the class, may refuse the call."""
+        """Whether a method of an object of just that class, or of the class, may refuse a call."""
         found = self._nearest([of, *self._graph.bases(of)], name)
         return found is not None and self._refuses(call, found, is_object)
 

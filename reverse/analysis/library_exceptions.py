@@ -100,16 +100,19 @@ class LibraryExceptions:
                 return any(self.expressions.texts(v) not in _WHOLE for v in values)
             case Raises.UNWRITTEN:
                 return not all(map(self.expressions.texts, values[:1]))
-            case Raises.UNDECLARED:
-                return not self._is_there(node, facts) and self.origins.declared.may_lack(
-                    node, self.function
-                )
-            case Raises.REPEATED:
-                return self.origins.declared.may_have(self.function)
+            case Raises.UNDECLARED | Raises.REPEATED:
+                return self._is_odd_parameter(node, when, facts)
             case Raises.UNORDERED:
                 return not self._are_ordered(values, facts)
             case _:
                 assert_never(when)
+
+    def _is_odd_parameter(self, node: s.Call, when: Raises, facts: Facts) -> bool:
+        """Whether a parameter may not be declared that is asked for, or is declared again."""
+        declared = self.origins.declared
+        if when is Raises.REPEATED:
+            return declared.may_have(self.function)
+        return not self._is_there(node, facts) and declared.may_lack(node, self.function)
 
     def _are_numbers(self, values: Sequence[e.Expression], when: _OfNumbers, facts: Facts) -> bool:
         """Whether the arguments are numbers for which a rule says that a call does not raise."""

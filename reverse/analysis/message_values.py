@@ -21,20 +21,10 @@ from rebsync.reverse.libraries.routines import Kind
 # Functions of Python that give parts of what they get, and no others.
 _PASSING = frozenset(
     f"builtins.{name}"
-    for name in [
-        "enumerate",
-        "zip",
-        "reversed",
-        "sorted",
-        "list",
-        "tuple",
-        "set",
-        "frozenset",
-        "min",
-        "max",
-        "sum",
-        "iter",
-    ]
+    for name in (
+        *("enumerate", "zip", "reversed", "sorted", "list", "tuple", "set", "frozenset"),
+        *("min", "max", "sum", "iter"),
+    )
 )
 _AT = 2  # where the callback of a subscription stands
 
@@ -220,7 +210,8 @@ def _stored(node: Node) -> Iterator[tuple[e.Expression, e.Expression | None]]:
                 yield target, None
             else:
                 yield from ((target, a.value) for a in arguments)
-        case _ if getattr(node, "target", None) is not None and not isinstance(node, e.AddressOf):
-            yield node.target, None  # type: ignore[union-attr]
+        case _ if (target := getattr(node, "target", None)) is not None:
+            if not isinstance(node, e.AddressOf):
+                yield target, None
         case _:
             pass

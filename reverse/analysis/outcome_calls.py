@@ -33,22 +33,10 @@ _WAITING_ALONE = frozenset({"get", "join"})
 # What takes numbers, or elements, and so no None.
 _OF_NUMBERS = frozenset(
     f"builtins.{name}"
-    for name in [
-        "len",
-        "int",
-        "float",
-        "abs",
-        "sum",
-        "min",
-        "max",
-        "sorted",
-        "list",
-        "tuple",
-        "set",
-        "enumerate",
-        "zip",
-        "round",
-    ]
+    for name in (
+        *("len", "int", "float", "abs", "sum", "min", "max", "sorted", "list", "tuple", "set"),
+        *("enumerate", "zip", "round"),
+    )
 )
 _UNKNOWN = "what is called is not known"
 

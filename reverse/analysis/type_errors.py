@@ -32,25 +32,15 @@ _UNHASHABLE = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUE
 _ORDERED = (Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL)
 _OF_SETS = (Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR, Operator.SUBTRACT)
 _OF_NUMBERS = frozenset(
-    f"builtins.{n}" for n in ["abs", "round", "float", "int", "divmod", "pow", "range", "chr"]
+    f"builtins.{n}" for n in ("abs", "round", "float", "int", "divmod", "pow", "range", "chr")
 )
 _OF_TEXTS = frozenset({"builtins.float", "builtins.int"})  # which take texts as well
 _OF_ELEMENTS = frozenset(
     f"builtins.{n}"
-    for n in [
-        "len",
-        "sum",
-        "any",
-        "all",
-        "sorted",
-        "list",
-        "tuple",
-        "set",
-        "enumerate",
-        "reversed",
-        "iter",
-        "zip",
-    ]
+    for n in (
+        *("len", "sum", "any", "all", "sorted", "list", "tuple", "set", "enumerate"),
+        *("reversed", "iter", "zip"),
+    )
 )
 
 
