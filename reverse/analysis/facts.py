@@ -6,6 +6,7 @@ whatever may take elements out of a container ends those about all containers.
 
 from __future__ import annotations
 
+from enum import Enum
 from typing import TypeAlias
 
 from rebsync.records import dataclass
@@ -85,16 +86,37 @@ class IsPositive:
 
 
 @dataclass(frozen=True, slots=True)
+class IsOf:
+    """A value is of one of some types; None among these is any type."""
+
+    value: e.Expression
+    types: frozenset[Enum | None]
+
+
+ANY_TYPE: frozenset[Enum | None] = frozenset({None})
+
+
+@dataclass(frozen=True, slots=True)
 class Implies:
     """If a value counts as true (or as false), something else is so as well."""
 
     value: e.Expression
     is_true: bool
-    fact: HasSize | HasKey | IsThere
+    fact: HasSize | HasKey | IsThere | IsOf
 
 
 Fact: TypeAlias = (
-    HasSize | HasKey | Holds | IsThere | IsBound | IsSize | IsSame | IsBelow | IsPositive | Implies
+    HasSize
+    | HasKey
+    | Holds
+    | IsThere
+    | IsBound
+    | IsSize
+    | IsSame
+    | IsBelow
+    | IsPositive
+    | IsOf
+    | Implies
 )
 Facts: TypeAlias = frozenset[Fact]
 NO_FACTS: Facts = frozenset()
@@ -128,7 +150,7 @@ def without(facts: Facts, target: e.Expression) -> Facts:
 
 def stored(facts: Facts, target: e.Expression) -> Facts:
     """The facts that are left when something is stored in a target, which then has a value."""
-    return without(facts, target) | {IsBound(target)}
+    return without(facts, target) | {IsBound(target), IsOf(target, ANY_TYPE)}
 
 
 def is_bound(fact: Fact) -> bool:
@@ -165,6 +187,8 @@ def _expressions(fact: Fact) -> tuple[e.Expression, ...]:
             return value, container
         case IsSame(value, other):
             return value, other
+        case IsOf(value):
+            return (value,)
         case Implies(value, _, inner):
             return value, *_expressions(inner)
 

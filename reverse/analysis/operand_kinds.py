@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator, Mapping
 from enum import Enum
+from typing import TypeAlias
 
-from rebsync.reverse.analysis.facts import Facts, Holds, IsBound
+from rebsync.reverse.analysis.facts import Facts, Holds, IsBound, IsOf
 from rebsync.reverse.analysis.held_values import is_of_other, is_own
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import (
@@ -64,7 +65,7 @@ _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.M
 _ADDED = frozenset({OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
 _DEEPEST = 12
 UNKNOWN = None  # in a set of kinds: a value that may be of any type
-Kinds = frozenset["OwnType | None"]
+Kinds: TypeAlias = "frozenset[Enum | None]"
 _ANY: Kinds = frozenset({UNKNOWN})
 _A_NUMBER: Kinds = frozenset({OwnType.NUMBER})
 
@@ -79,6 +80,9 @@ class OperandKinds:
 
     def of(self, value: e.Expression, facts: Facts) -> Kinds:
         """The types of what a value may be where some facts are known; None is looked for apart."""
+        known = [fact.types for fact in facts if isinstance(fact, IsOf) and fact.value == value]
+        if known:  # what a test says is not told apart, and is any type
+            return _ANY if _ANY in known else known[0]
         key = key_of(value, self._name)
         if key is None or isinstance(value, e.Temporary):
             return self._of(value, self._name, frozenset())
@@ -106,7 +110,7 @@ class OperandKinds:
     def _union(self, stored: list[Stored], seen: frozenset[Key]) -> Kinds:
         if not stored or len(seen) > _DEEPEST:
             return _ANY
-        return Kinds().union(*(self._of_stored(each, seen) for each in stored))
+        return frozenset[Enum | None]().union(*(self._of_stored(each, seen) for each in stored))
 
     def _of_stored(self, stored: Stored, seen: frozenset[Key]) -> Kinds:
         function, value = stored
@@ -121,13 +125,13 @@ class OperandKinds:
     def _of(self, value: e.Expression, function: str, seen: frozenset[Key]) -> Kinds:
         match value:
             case e.Literal(None):
-                return Kinds()
+                return frozenset()
             case e.Literal(int() | float()) | e.Unary(Operator.NOT):
                 return _A_NUMBER
             case e.Literal(str()) | e.Format():
-                return Kinds({OwnType.TEXT})
+                return frozenset({OwnType.TEXT})
             case e.Build(t.Container(kind)) | e.BuildMapping(t.Container(kind)):
-                return Kinds({_CONTAINERS[kind]})
+                return frozenset({_CONTAINERS[kind]})
             case e.Conditional(_, one, other) | e.And(one, other) | e.Or(one, other):
                 return self._of(one, function, seen) | self._of(other, function, seen)
             case e.Binary(operator) if operator in COMPARISONS:
@@ -142,7 +146,7 @@ class OperandKinds:
             case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():
                 key = key_of(value, function)
                 if key is None or key in seen:
-                    return _ANY if key is None else Kinds()
+                    return _ANY if key is None else frozenset()
                 return self._union(list(self._stored(key)), seen | {key})
             case _:
                 return _ANY
@@ -152,13 +156,13 @@ class OperandKinds:
         match call.callee:
             case s.LibraryCallee(name):
                 kind = _BY_NAME.get(self._notes.table.function(name).gives)
-                return Kinds({kind})
+                return frozenset({kind})
             case callee:
                 around = self._graph.program.function(function)
                 targets = self._graph.callee(callee, around)
         if targets.unknown or targets.libraries or not targets.functions:
             return _ANY
-        found = Kinds()
+        found: Kinds = frozenset()
         for name in targets.functions:
             body = self._graph.program.function(name)
             if body.kind is not FunctionKind.FUNCTION or len(seen) > _DEEPEST:

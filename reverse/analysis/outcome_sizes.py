@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from rebsync.reverse.analysis.facts import (
+    ANY_TYPE,
     Facts,
     HasKey,
     HasSize,
     Holds,
     Implies,
     IsBelow,
+    IsOf,
     IsSize,
     IsThere,
     bare,
@@ -95,7 +97,8 @@ class OutcomeSizes:
             case Tells.HAS if first is not None:
                 return frozenset({Implies(node.target, True, HasKey(of, first))})
             case Tells.OBJECT:
-                return frozenset({Implies(node.target, True, IsThere(of))})
+                told = IsThere(of), IsOf(of, ANY_TYPE)
+                return frozenset(Implies(node.target, True, each) for each in told)
             case Tells.SAME:
                 return sized(node.target, self.expressions.size(of, facts))
             case Tells.RANGE if len(node.arguments) == 1:

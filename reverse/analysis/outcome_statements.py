@@ -6,12 +6,14 @@ from collections.abc import Iterable
 
 from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.facts import (
+    ANY_TYPE,
     NO_FACTS,
     Facts,
     HasKey,
     Holds,
     IsBelow,
     IsBound,
+    IsOf,
     IsSame,
     IsSize,
     IsThere,
@@ -173,8 +175,9 @@ class OutcomeWalk:
         """What is known after a value is stored; of the target it is as of the value."""
         self.value(value, facts)
         self._stored(target, facts)
-        before = facts
-        facts = stored(facts, target)
+        before, facts = facts, stored(facts, target)
+        if (types := self._expressions.types.of(value, before)) is not None:
+            facts = facts - {IsOf(target, ANY_TYPE)} | {IsOf(target, types)}
         if not self._expressions.none.may_be(value, before):
             facts |= {IsThere(target)}
         if isinstance(target, e.Index):
@@ -322,7 +325,7 @@ class OutcomeWalk:
         size = self.notes.counts.elements(node.iterable, self.name)
         if self.notes.is_parameter(node.iterable):
             size = max(size, self.notes.elements.get(self.name, 0))
-        known = {*sized(node.target, size), IsBound(node.target)}
+        known = {*sized(node.target, size), *stored(NO_FACTS, node.target)}
         if not self._expressions.none.has_none(node.iterable):
             known.add(IsThere(node.target))
         for fact in inside:

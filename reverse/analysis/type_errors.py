@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.format_strings import conversions
-from rebsync.reverse.analysis.operand_kinds import ATTRIBUTES, OperandKinds, OwnType
+from rebsync.reverse.analysis.operand_kinds import ATTRIBUTES, Kinds, OperandKinds, OwnType
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import GlobalVariable, Member
@@ -51,6 +51,10 @@ class TypeErrors:
         self._notes = notes
         self._kinds = OperandKinds(notes)
         self._is_python = notes.table.language is Language.PYTHON
+
+    def of(self, value: e.Expression, facts: Facts) -> Kinds | None:
+        """The types that a value may be of; None in other languages."""
+        return self._kinds.of(value, facts) if self._is_python else None
 
     def check(self, value: e.Expression, facts: Facts) -> None:
         """Notes what evaluating an expression asks of values that have it not."""
