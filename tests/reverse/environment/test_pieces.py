@@ -127,7 +127,7 @@ int main(int argc, char** argv) {{
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A row: the parts of a node, or its whole `text`."""
+    """A row: the parts of a node, or its whole `text`; of some `clients`, or of all of the file."""
 
     name: str
     verdict: str
@@ -136,6 +136,7 @@ class Piece:
     methods: str = ""
     body: str = ""
     text: str = ""
+    clients: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,7 +160,8 @@ def _tables(path: Path) -> Iterator[tuple[str, Table]]:
     first = "roscpp" if path.stem.startswith("cpp") else "rospy"
     for client in found.get("clients", [first]):
         name = path.stem if client == first else f"{path.stem}_{client}"
-        yield name, Table(found["ask"], client, pieces)
+        asked = tuple(p for p in pieces if not p.clients or client in p.clients)
+        yield name, Table(found["ask"], client, asked)
 
 
 _FILES = sorted((Path(__file__).parent / "pieces").glob("*.toml"))
