@@ -6,7 +6,7 @@ name fill the ones of their names, and each parameter without a default must be 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 from rebsync.reverse.analysis.call_graph import CallGraph
@@ -18,6 +18,17 @@ from rebsync.reverse.ir.walk import walk
 
 REFUSED = "gets other arguments than it takes"
 _WITH_KEYS = frozenset({"builtins.sorted", "builtins.max", "builtins.min"})
+# Where callbacks stand, under which names, and how many arguments they get.
+_CALLED_BACK: Mapping[str, tuple[int, frozenset[str], int]] = {
+    "create_subscription": (2, frozenset({"callback"}), 1),
+    "create_timer": (1, frozenset({"callback"}), 0),
+    "create_service": (2, frozenset({"callback"}), 2),
+    "add_on_set_parameters_callback": (0, frozenset({"callback"}), 1),
+    "rospy.Subscriber": (2, frozenset({"callback"}), 1),
+    "rospy.Timer": (1, frozenset({"callback"}), 1),
+    "rospy.Service": (2, frozenset({"handler"}), 1),
+    "rospy.on_shutdown": (0, frozenset({"h"}), 0),
+}
 _BY_PLACE = (ParameterKind.PLAIN, ParameterKind.BY_PLACE)
 _BY_NAME = (ParameterKind.PLAIN, ParameterKind.BY_NAME)
 # Decorators of libraries that leave the parameters of a function as they are.
@@ -108,11 +119,42 @@ class CallBinding:
         given = (s.CallArgument(e.Literal(0)),) * count
         return self.of_function(s.Call(None, call.callee, given), name)
 
+    def of_callback(self, call: s.Call, around: Function) -> bool:
+        """Whether a client library may call back a function otherwise than it takes."""
+        if not self._is_python or not isinstance(call.callee, s.MethodCallee | s.LibraryCallee):
+            return False
+        at, names, count = _CALLED_BACK.get(call.callee.name, (0, frozenset(), -1))
+        plain = [a.value for a in call.arguments if a.name is None and not a.stars]
+        given = [*plain[at : at + 1], *(a.value for a in call.arguments if a.name in names)]
+        if call.callee.name == "rospy.Subscriber":
+            count += len(plain) > at + 1 or any(a.name == "callback_args" for a in call.arguments)
+        arguments = (s.CallArgument(e.Literal(0)),) * count
+        return count >= 0 and any(self._is_refused(v, around, arguments) for v in given)
+
+    def _is_refused(
+        self, callback: e.Expression, around: Function, arguments: Sequence[s.CallArgument]
+    ) -> bool:
+        """Whether a callback that a function hands over takes no such arguments."""
+        called = s.Call(None, s.ValueCallee(callback), tuple(arguments))
+        match callback:
+            case e.Attribute(of, name) if (owner := self._graph.class_of(of, around)) is not None:
+                return self.of_own_method(called, owner, name)
+            case e.Global(module, name) if f"{module}:{name}" in self._program:
+                return self.of_function(called, f"{module}:{name}")
+            case e.Closure(name):
+                return self.of_function(called, name)
+            case _:
+                return False
+
     def of_class(self, call: s.Call, name: str) -> bool:
-        """Whether a class cannot be called with the arguments."""
+        """Whether a class cannot be called with the arguments, or has abstract methods."""
         if not self._is_python:
             return False
         line = [name, *self._graph.bases(name)]
+        classes_there = [self._program.classes[c] for c in line if c in self._program.classes]
+        methods = {m for c in classes_there for m, _ in c.methods}
+        if any(self._nearest(line, method) in self._abstract for method in methods):
+            return True
         classes = [self._program.classes.get(c) for c in line]
         if any(c is None or not c.complete for c in classes):
             return False  # a library, a decorator or a class of classes may take them
@@ -142,6 +184,11 @@ class CallBinding:
         if name in self._static or (is_method and not is_object):
             return refuses(call.arguments, function.parameters)
         return not function.parameters or refuses(call.arguments, _bound(function))
+
+    @cached_property
+    def _abstract(self) -> frozenset[str]:
+        """The methods that classes of objects must define anew."""
+        return self._decorated({"abc.abstractmethod"})
 
     @cached_property
     def _static(self) -> frozenset[str]:

@@ -11,10 +11,9 @@ from functools import cached_property
 from typing import TypeAlias
 
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.call_binding import CallBinding
 from rebsync.reverse.analysis.call_graph import CallGraph
-from rebsync.reverse.analysis.declared_parameters import DeclaredParameters
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
+from rebsync.reverse.analysis.python_rules import PythonRules
 from rebsync.reverse.analysis.stores import (
     AnyValue,
     CallResult,
@@ -97,14 +96,9 @@ class Origins:
         self._visited: set[Key] | None = None
 
     @cached_property
-    def binding(self) -> CallBinding:
-        """Which calls bind their arguments to the parameters of what they run."""
-        return CallBinding(self.graph, self.table.language is Language.PYTHON)
-
-    @cached_property
-    def declared(self) -> DeclaredParameters:
-        """The parameters that nodes of Python declare before their callbacks run."""
-        return DeclaredParameters(self)
+    def python(self) -> PythonRules:
+        """What Python refuses of the program."""
+        return PythonRules(self)
 
     @classmethod
     def of_program(cls, program: Program, table: LibraryOutcomes) -> Origins:

@@ -214,6 +214,7 @@ class OutcomeWalk:
                 if is_attribute:
                     asked = "asks None for an attribute"
                     self._expressions.none.check(holder, target, facts, asked)
+                    self._expressions.types.sets(target)
                 held = self.origins.of(holder, self.name)
                 if any(isinstance(o, LibraryOrigin) and not o.of_object for o in held):
                     self.notes.problem(target, "this is stored in another module")
@@ -238,8 +239,7 @@ class OutcomeWalk:
                 self.notes.take(self._handled[-1])
             return
         self.value(node.value, facts)
-        held = self.origins.of(node.value, self.name)
-        for origin in held:
+        for origin in self.origins.of(node.value, self.name):
             name = origin.name if isinstance(origin, ClassOrigin | LibraryOrigin) else ""
             self.notes.problem(node, "this raises an exception", name or "an exception")
 

@@ -107,6 +107,18 @@ class TypeErrors:
         if self._is_python:
             self._needs(node, value, set(OwnType) - {NUMBER}, facts)
 
+    def sets(self, target: e.Lvalue) -> None:
+        """Notes that an attribute is stored in an object whose class has none to store in."""
+        if not (self._is_python and isinstance(target, e.Attribute)):
+            return
+        origins = self._notes.origins
+        held = origins.of(target.object, self._notes.function.name)
+        if target.object == e.Local(self._notes.function.receiver or ""):
+            held = frozenset({ClassOrigin(self._notes.function.owner or "")})
+        classes = (o.name for o in held if isinstance(o, ClassOrigin) and o.of_object)
+        if any(origins.python.fixed.refuses(each, target.name) for each in classes):
+            self._notes.fails(target, _LACKS)
+
     def stores(self, target: e.Index, facts: Facts) -> None:
         """Notes that an element is stored in what takes none."""
         if not self._is_python:

@@ -1,0 +1,37 @@
+"""What Python refuses of one program, other than by values: each rule is made when first asked."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from rebsync.reverse.analysis.call_binding import CallBinding
+from rebsync.reverse.analysis.declared_parameters import DeclaredParameters
+from rebsync.reverse.analysis.fixed_attributes import FixedAttributes
+from rebsync.reverse.libraries.routines import Language
+
+if TYPE_CHECKING:
+    from rebsync.reverse.analysis.origins import Origins
+
+
+class PythonRules:
+    """The rules for one program."""
+
+    def __init__(self, origins: Origins) -> None:
+        self._origins = origins
+
+    @cached_property
+    def binding(self) -> CallBinding:
+        """Which calls bind their arguments to the parameters of what they run."""
+        is_python = self._origins.table.language is Language.PYTHON
+        return CallBinding(self._origins.graph, is_python)
+
+    @cached_property
+    def fixed(self) -> FixedAttributes:
+        """Which classes take no value for an attribute."""
+        return FixedAttributes(self._origins.graph)
+
+    @cached_property
+    def declared(self) -> DeclaredParameters:
+        """The parameters that nodes declare before their callbacks run."""
+        return DeclaredParameters(self._origins)
