@@ -19,6 +19,7 @@ from rebsync.reverse.models.building import bare, binary, chosen, is_calm, tight
 from rebsync.reverse.python import body_functions, body_timers
 from rebsync.reverse.python.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.body_floats import as_number
+from rebsync.reverse.python.body_quantified import quantified
 from rebsync.reverse.python.body_scope import (
     REAL,
     STRING,
@@ -43,6 +44,8 @@ def called(reader: BodyExpressionReader, node: Node) -> Value:
     stopped = body_timers.is_stopped(reader.reading, node, reader.frame)
     if stopped is not None:
         return Value(stopped, TRUTH)
+    if (truth := quantified(reader, node)) is not None:
+        return truth
     name = reader.reading.external(function, reader.frame)
     plain, keywords = arguments_of(node)
     if name.startswith("builtins.") and not keywords:

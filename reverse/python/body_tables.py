@@ -142,6 +142,8 @@ def _use(name: Node) -> int | None:
             return 0 if text_of(field(above, "attribute")) in _LOOKS else None
         case "comparison_operator":
             return 0
+        case "for_in_clause" if above is not None and field(above, "right") == at:
+            return 0  # its elements are constants
         case _:
             return None
 
