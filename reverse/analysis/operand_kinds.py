@@ -13,6 +13,7 @@ from typing import TypeAlias
 
 from rebsync.reverse.analysis.facts import Facts, Holds, IsBound, IsOf
 from rebsync.reverse.analysis.held_values import is_of_other, is_own
+from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import (
     AnyValue,
@@ -30,6 +31,7 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import COMPARISONS, Operator
 from rebsync.reverse.ir.program import FunctionKind
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
 
 class OwnType(Enum):
@@ -86,9 +88,7 @@ class OperandKinds:
         key = key_of(value, self._name)
         if key is None or isinstance(value, e.Temporary):
             return self._of(value, self._name, frozenset())
-        if isinstance(value, e.Attribute) and not is_own(
-            self._notes.origins, value.object, self._name
-        ):
+        if isinstance(value, e.Attribute) and not self._has_own(value.object, self._name):
             return _ANY
         found = list(self._stored(key))
         if isinstance(key, Member):
@@ -101,6 +101,15 @@ class OperandKinds:
             kinds = {n: self._graph.program.function(n).kind for n, _ in found}
             found = [s for s in found if kinds[s[0]] not in _FIRST]
         return self._union(found, frozenset({key}))
+
+    def _has_own(self, of: e.Expression, function: str) -> bool:
+        """Whether attributes of an object have what the program stores, as it is."""
+        origins = self._notes.origins
+        if not is_own(origins, of, function):
+            return False
+        classes = (o.name for o in origins.of(of, function) if isinstance(o, ClassOrigin))
+        # Of an enumeration they are its members, which have that as their values.
+        return all(ENUMERATIONS.isdisjoint(self._graph.bases(name)) for name in classes)
 
     def _stored(self, key: Key) -> Iterator[Stored]:
         """What is stored under a name, with what operators compute there."""
@@ -141,7 +150,7 @@ class OperandKinds:
                 return _computed(operator, *both)
             case e.Unary(_, of):
                 return _A_NUMBER if self._of(of, function, seen) == _A_NUMBER else _ANY
-            case e.Attribute(of) if not is_own(self._notes.origins, of, function):
+            case e.Attribute(of) if not self._has_own(of, function):
                 return _ANY
             case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():
                 key = key_of(value, function)

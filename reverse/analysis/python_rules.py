@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from rebsync.reverse.analysis.call_binding import CallBinding
 from rebsync.reverse.analysis.declared_parameters import DeclaredParameters
 from rebsync.reverse.analysis.fixed_attributes import FixedAttributes
+from rebsync.reverse.analysis.object_operators import ObjectOperators
 from rebsync.reverse.libraries.routines import Language
 
 if TYPE_CHECKING:
@@ -30,6 +31,11 @@ class PythonRules:
     def fixed(self) -> FixedAttributes:
         """Which classes take no value for an attribute."""
         return FixedAttributes(self._origins.graph)
+
+    @cached_property
+    def objects(self) -> ObjectOperators:
+        """Which objects lack what operators need."""
+        return ObjectOperators(self._origins)
 
     @cached_property
     def declared(self) -> DeclaredParameters:

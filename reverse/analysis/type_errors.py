@@ -16,7 +16,7 @@ from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import GlobalVariable, Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.operators import ImplicitCall, Operator
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.routines import Language
 
@@ -30,6 +30,8 @@ _SEQUENCES = frozenset({TEXT, OwnType.LIST, OwnType.TUPLE})
 _INDEXED = _SEQUENCES | {OwnType.QUEUE, OwnType.MAPPING}
 _UNHASHABLE = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
 _ORDERED = (Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL)
+_EQUALITY = (Operator.EQUAL, Operator.UNEQUAL)
+_SORTING = frozenset({"builtins.sorted", "builtins.max", "builtins.min"})
 _OF_SETS = (Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR, Operator.SUBTRACT)
 _OF_NUMBERS = frozenset(
     f"builtins.{n}" for n in ("abs", "round", "float", "int", "divmod", "pow", "range", "chr")
@@ -50,6 +52,7 @@ class TypeErrors:
     def __init__(self, notes: ProblemNotes) -> None:
         self._notes = notes
         self._kinds = OperandKinds(notes)
+        self._objects = notes.origins.python.objects
         self._is_python = notes.table.language is Language.PYTHON
 
     def of(self, value: e.Expression, facts: Facts) -> Kinds | None:
@@ -65,7 +68,8 @@ class TypeErrors:
                 self._asks(value, of, name, facts)
             case e.Binary(operator, left, right):
                 self._computes(value, operator, left, right, facts)
-            case e.Unary(Operator.NEGATE | Operator.PLUS | Operator.INVERT, of):
+            case e.Unary(Operator.NEGATE | Operator.PLUS | Operator.INVERT as operator, of):
+                self._answers(value, of, operator)
                 self._needs(value, of, {NUMBER}, facts)
             case e.Index(of, index):
                 self._at(value, of, index, facts)
@@ -83,11 +87,15 @@ class TypeErrors:
         if not self._is_python:
             return
         plain = [a.value for a in node.arguments if a.name is None and not a.stars]
+        self._sorts(node, plain)
         match node.callee:
             case s.ValueCallee(value):
                 self._needs(node, value, set(), facts)
             case s.MethodCallee(receiver, name, _, None):
                 self._asks(node, receiver, name, facts)
+                if name == "add" and self._kinds.of(receiver, facts) == {OwnType.SET}:
+                    for value in plain:
+                        self._needs(node, value, set(OwnType) - _UNHASHABLE, facts)
                 if not self._notes.origins.methods_of_any(name):
                     self._needs(node, e.Attribute(receiver, name), set(), facts)
             case s.LibraryCallee("builtins.range") if any(map(_is_fraction, plain)):
@@ -96,16 +104,44 @@ class TypeErrors:
                 taken = {NUMBER, TEXT} if name in _OF_TEXTS else {NUMBER}
                 for value in plain:
                     self._needs(node, value, taken, facts)
+            case s.LibraryCallee("builtins.len"):
+                for value in plain[:1]:
+                    self._needs(node, value, set(OwnType) - {NUMBER}, facts)
+                    self._answers(node, value, ImplicitCall.LENGTH)
             case s.LibraryCallee(name) if name in _OF_ELEMENTS:
                 for value in plain if name == "builtins.zip" else plain[:1]:
                     self.iterates(node, value, facts)
             case _:
                 pass
 
+    def _sorts(self, node: s.Call, plain: list[e.Expression]) -> None:
+        """A call that compares the elements of a container by themselves."""
+        match node.callee:
+            case s.LibraryCallee(name) if name in _SORTING and len(plain) == 1:
+                container = plain[0]
+            case s.MethodCallee(receiver, "sort"):
+                container = receiver
+            case _:
+                return
+        function, has_key = self._notes.function.name, any(a.name == "key" for a in node.arguments)
+        if not has_key and self._objects.has_lacking_elements(container, function, Operator.LESS):
+            self._notes.fails(node, _WRONG)
+
     def iterates(self, node: s.Statement, value: e.Expression, facts: Facts) -> None:
         """Notes that something is gone through that has no elements."""
         if self._is_python:
             self._needs(node, value, set(OwnType) - {NUMBER}, facts)
+            self._answers(node, value, ImplicitCall.ITERATE)
+
+    def _answers(
+        self,
+        node: s.Statement | e.Expression,
+        value: e.Expression,
+        call: Operator | ImplicitCall,
+    ) -> None:
+        """A value's class must answer an operator, if it is one of the program's."""
+        if self._objects.lacks(value, self._notes.function.name, call):
+            self._notes.fails(node, _WRONG)
 
     def sets(self, target: e.Lvalue) -> None:
         """Notes that an attribute is stored in an object whose class has none to store in."""
@@ -155,6 +191,10 @@ class TypeErrors:
         origins = self._notes.origins
         own = origins.graph.class_of(of, self._notes.function)
         held = origins.of(of, self._notes.function.name)
+        if held and all(isinstance(o, ClassOrigin) and not o.of_object for o in held):
+            names = {o.name for o in held if isinstance(o, ClassOrigin)}
+            is_stored = bool(origins.graph.stores.of(Member(name))) or name in _OF_CLASSES
+            return not is_stored and any(self._objects.lacks_attribute(n, name) for n in names)
         classes = {o.name for o in held if isinstance(o, ClassOrigin) and o.of_object}
         if own is not None:
             classes = {own}
@@ -213,6 +253,11 @@ class TypeErrors:
             wrong |= isinstance(left.value, str) and self._puts(left.value, right, facts)
         if wrong:
             self._notes.fails(value, _WRONG)
+        if operator in (Operator.IN, Operator.NOT_IN):
+            self._answers(value, right, operator)
+        elif operator not in (*_EQUALITY, Operator.SAME, Operator.NOT_SAME):
+            self._answers(value, left, operator)
+            self._answers(value, right, operator)
 
     def _puts(self, text: str, value: e.Expression, facts: Facts) -> bool:
         """Whether `%` may not put values into a text: too many, too few, or of another type."""
@@ -258,6 +303,7 @@ def _is_star(node: Node) -> bool:
     return isinstance(node, s.Import) and node.name == "*"
 
 
+_OF_CLASSES = frozenset(dir(type)) | {"__members__"}
 _OF_OBJECTS = frozenset(dir(object)) | {"__dict__", "__module__", "__name__", "__slots__"}
 
 
