@@ -39,18 +39,34 @@ def try_(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
         yield from _either(reader, node)
         return
     count = len(findings.all)
-    found = reader.statements(named(body))
+    nodes, last = named(body), _returning_last(node)
+    found = reader.statements(nodes[:-1] if last is not None else nodes)
     clauses = {c.type for c in named(node)}
     if not reader.frame.is_start:
         unsure = any(_may_raise(reader, n) for n in inside(body))
         if unsure or len(findings.all) > count or body_raising.is_raised_in(reader, body):
             raise Unread(span, _RAISED)
-    if clauses & _BEHIND and jumps:
+    if clauses & _BEHIND and jumps and last is None:
         raise Unread(span, "what runs behind a jump out of this is not read")
     yield from found
     if not reader.frame.is_start:
         yield from _behind(reader, node, "else_clause")
         yield from _behind(reader, node, "finally_clause")
+    if last is not None:
+        yield from reader.statements([last])
+
+
+def _returning_last(node: Node) -> Node | None:
+    """The plain `return` that a block ends with, behind which only `finally` runs.
+
+    None where something else in the block jumps, or more may run behind it.
+    """
+    nodes = named(field(node, "body"))
+    last = nodes[-1] if nodes and nodes[-1].type == "return_statement" else None
+    if last is None or named(last) or _has(node, "else_clause"):
+        return None
+    others = (n for each in nodes[:-1] for n in inside(each))
+    return None if any(n.type in _LEAVING for n in others) else last
 
 
 def _either(reader: BodyStatementReader, node: Node) -> Iterator[m.Statement]:
