@@ -85,15 +85,27 @@ class IsPositive:
     value: e.Expression
 
 
+class OwnType(Enum):
+    """A type of Python's own; numbers are one, with truth values."""
+
+    NUMBER = "number"
+    TEXT = "str"
+    LIST = "list"
+    TUPLE = "tuple"
+    SET = "set"
+    MAPPING = "dict"
+    QUEUE = "deque"
+
+
 @dataclass(frozen=True, slots=True)
 class IsOf:
     """A value is of one of some types; None among these is any type."""
 
     value: e.Expression
-    types: frozenset[Enum | None]
+    types: frozenset[OwnType | None]
 
 
-ANY_TYPE: frozenset[Enum | None] = frozenset({None})
+ANY_TYPE: frozenset[OwnType | None] = frozenset({None})
 
 
 @dataclass(frozen=True, slots=True)

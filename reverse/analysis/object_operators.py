@@ -46,7 +46,8 @@ class ObjectOperators:
         """Whether a class itself has no such attribute, nor anything that may make it one."""
         known = [self._program.classes[c] for c in self._line(of) if c in self._program.classes]
         names = {n for c in known for n, _ in c.methods}
-        names |= {each.name for c in known for each in (*c.properties, *c.fields)}
+        names |= {each.name for c in known for each in c.properties}
+        names |= {each.name for c in known for each in c.fields}
         return self._is_plain(of) and name not in names and _HOOKS.isdisjoint(names)
 
     def _line(self, name: str) -> list[str]:

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator, Mapping
-from enum import Enum
 from typing import TypeAlias
 
-from rebsync.reverse.analysis.facts import Facts, Holds, IsBound, IsOf
+from rebsync.reverse.analysis.facts import Facts, Holds, IsBound, IsOf, OwnType
 from rebsync.reverse.analysis.held_values import is_of_other, is_own
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
@@ -32,19 +31,6 @@ from rebsync.reverse.ir.operators import COMPARISONS, Operator
 from rebsync.reverse.ir.program import FunctionKind
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
-
-
-class OwnType(Enum):
-    """A type of Python's own; numbers are one, with truth values."""
-
-    NUMBER = "number"
-    TEXT = "str"
-    LIST = "list"
-    TUPLE = "tuple"
-    SET = "set"
-    MAPPING = "dict"
-    QUEUE = "deque"
-
 
 _CONTAINERS = {
     t.ContainerKind.SEQUENCE: OwnType.LIST,
@@ -67,7 +53,7 @@ _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.M
 _ADDED = frozenset({OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
 _DEEPEST = 12
 UNKNOWN = None  # in a set of kinds: a value that may be of any type
-Kinds: TypeAlias = "frozenset[Enum | None]"
+Kinds: TypeAlias = "frozenset[OwnType | None]"
 _ANY: Kinds = frozenset({UNKNOWN})
 _A_NUMBER: Kinds = frozenset({OwnType.NUMBER})
 
@@ -119,7 +105,7 @@ class OperandKinds:
     def _union(self, stored: list[Stored], seen: frozenset[Key]) -> Kinds:
         if not stored or len(seen) > _DEEPEST:
             return _ANY
-        return frozenset[Enum | None]().union(*(self._of_stored(each, seen) for each in stored))
+        return frozenset[OwnType | None]().union(*(self._of_stored(each, seen) for each in stored))
 
     def _of_stored(self, stored: Stored, seen: frozenset[Key]) -> Kinds:
         function, value = stored

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from rebsync.reverse.analysis.facts import Facts
+from rebsync.reverse.analysis.facts import Facts, OwnType
 from rebsync.reverse.analysis.format_strings import conversions
-from rebsync.reverse.analysis.operand_kinds import ATTRIBUTES, Kinds, OperandKinds, OwnType
+from rebsync.reverse.analysis.operand_kinds import ATTRIBUTES, Kinds, OperandKinds
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import GlobalVariable, Member

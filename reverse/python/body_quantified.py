@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from tree_sitter import Node
 
 from rebsync import model as m
@@ -36,7 +38,7 @@ def quantified(reader: BodyExpressionReader, call: Node) -> Value | None:
 
 
 def _joined(
-    reader: BodyExpressionReader, sign: str, name: str, listed: list[Value], test: Node
+    reader: BodyExpressionReader, sign: str, name: str, listed: Sequence[Value], test: Node
 ) -> Value | None:
     """The test of each element, as what the variable stands for."""
     bound, before = reader.frame.bound, reader.frame.bound.get(name)
