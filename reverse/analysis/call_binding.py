@@ -6,7 +6,7 @@ name fill the ones of their names, and each parameter without a default must be 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 
 from rebsync.reverse.analysis.call_graph import CallGraph
@@ -15,20 +15,10 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
 from rebsync.reverse.ir.program import Function, Parameter, ParameterKind
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.callbacks import CALLBACKS
 
 REFUSED = "gets other arguments than it takes"
 _WITH_KEYS = frozenset({"builtins.sorted", "builtins.max", "builtins.min"})
-# Where callbacks stand, under which names, and how many arguments they get.
-_CALLED_BACK: Mapping[str, tuple[int, frozenset[str], int]] = {
-    "create_subscription": (2, frozenset({"callback"}), 1),
-    "create_timer": (1, frozenset({"callback"}), 0),
-    "create_service": (2, frozenset({"callback"}), 2),
-    "add_on_set_parameters_callback": (0, frozenset({"callback"}), 1),
-    "rospy.Subscriber": (2, frozenset({"callback"}), 1),
-    "rospy.Timer": (1, frozenset({"callback"}), 1),
-    "rospy.Service": (2, frozenset({"handler"}), 1),
-    "rospy.on_shutdown": (0, frozenset({"h"}), 0),
-}
 _BY_PLACE = (ParameterKind.PLAIN, ParameterKind.BY_PLACE)
 _BY_NAME = (ParameterKind.PLAIN, ParameterKind.BY_NAME)
 # Decorators of libraries that leave the parameters of a function as they are.
@@ -123,13 +113,18 @@ class CallBinding:
         """Whether a client library may call back a function otherwise than it takes."""
         if not self._is_python or not isinstance(call.callee, s.MethodCallee | s.LibraryCallee):
             return False
-        at, names, count = _CALLED_BACK.get(call.callee.name, (0, frozenset(), -1))
+        callback = CALLBACKS.get(call.callee.name)
+        if callback is None:
+            return False
         plain = [a.value for a in call.arguments if a.name is None and not a.stars]
-        given = [*plain[at : at + 1], *(a.value for a in call.arguments if a.name in names)]
-        if call.callee.name == "rospy.Subscriber":
-            count += len(plain) > at + 1 or any(a.name == "callback_args" for a in call.arguments)
+        named = [a.value for a in call.arguments if a.name == callback.name]
+        is_more = len(plain) > callback.at + 1 or any(
+            a.name == callback.more for a in call.arguments
+        )
+        count = callback.count + (bool(callback.more) and is_more)
         arguments = (s.CallArgument(e.Literal(0)),) * count
-        return count >= 0 and any(self._is_refused(v, around, arguments) for v in given)
+        given = (*plain[callback.at : callback.at + 1], *named)
+        return any(self._is_refused(value, around, arguments) for value in given)
 
     def _is_refused(
         self, callback: e.Expression, around: Function, arguments: Sequence[s.CallArgument]

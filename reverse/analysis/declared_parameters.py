@@ -9,16 +9,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING
 
+from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.stores import CallResult, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, FunctionKind
 from rebsync.reverse.ir.walk import walk
-
-if TYPE_CHECKING:
-    from rebsync.reverse.analysis.origins import Origins
 
 _FIRST = (FunctionKind.CONSTRUCTOR, FunctionKind.MODULE, FunctionKind.CLASS)
 _DECLARING = ("declare_parameter", "declare_parameters")

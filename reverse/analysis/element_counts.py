@@ -8,6 +8,7 @@ from functools import cached_property
 from rebsync.reverse.analysis.foreign_emptying import ForeignEmptying
 from rebsync.reverse.analysis.held_values import held_by, is_own
 from rebsync.reverse.analysis.origins import FunctionOrigin, Origin, Origins
+from rebsync.reverse.analysis.python_rules import PythonRules
 from rebsync.reverse.analysis.stores import (
     AnyValue,
     CallResult,
@@ -38,6 +39,7 @@ class ElementCounts:
         self.graph = origins.graph
         self.table = origins.table
         self.emptying = ForeignEmptying(origins)
+        self.rules = PythonRules(origins)
 
     def size(self, value: e.Expression, function: str) -> int:
         """How many elements a container has at least, whenever that is asked."""

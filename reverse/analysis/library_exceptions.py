@@ -109,7 +109,7 @@ class LibraryExceptions:
 
     def _is_odd_parameter(self, node: s.Call, when: Raises, facts: Facts) -> bool:
         """Whether a parameter may not be declared that is asked for, or is declared again."""
-        declared = self.origins.python.declared
+        declared = self.expressions.notes.counts.rules.declared
         if when is Raises.REPEATED:
             return declared.may_have(self.function)
         return not self._is_there(node, facts) and declared.may_lack(node, self.function)

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING
 
+from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.stores import Key, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
 from rebsync.reverse.ir.walk import walk
-
-if TYPE_CHECKING:
-    from rebsync.reverse.analysis.origins import Origins
 
 # Bases of libraries whose objects have no operators, and do not say what attributes they have.
 _PLAIN_BASES = frozenset({"builtins.object", "enum.Enum", "abc.ABC"})

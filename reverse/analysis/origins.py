@@ -13,7 +13,6 @@ from typing import TypeAlias
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
-from rebsync.reverse.analysis.python_rules import PythonRules
 from rebsync.reverse.analysis.stores import (
     AnyValue,
     CallResult,
@@ -94,11 +93,6 @@ class Origins:
         # While names are looked for: what was found of them, and which this round has visited.
         self._found: dict[Key, frozenset[Origin]] = {}
         self._visited: set[Key] | None = None
-
-    @cached_property
-    def python(self) -> PythonRules:
-        """What Python refuses of the program."""
-        return PythonRules(self)
 
     @classmethod
     def of_program(cls, program: Program, table: LibraryOutcomes) -> Origins:

@@ -59,7 +59,7 @@ class OutcomeCalls:
         self.expressions = expressions
         self._sizes = sizes
         self._exceptions = LibraryExceptions(notes, expressions)
-        self._binding = notes.origins.python.binding
+        self._binding = notes.counts.rules.binding
         self.origins = notes.origins
         self.function = notes.function.name
         self._here: Facts = frozenset()  # what is known where the call stands
@@ -178,7 +178,7 @@ class OutcomeCalls:
                     case FunctionOrigin() if self._asks_a_node(node):
                         pass  # it runs when a message is there; that this asks is noted
                     case FunctionOrigin(name):
-                        if self.origins.python.binding.of_handed(node, argument, name):
+                        if self.notes.counts.rules.binding.of_handed(node, argument, name):
                             self.notes.fails(node, REFUSED)
                         known = self.notes.elements.get(name, 0)
                         self.notes.elements[name] = max(known, *sizes)

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from rebsync.reverse.analysis.call_binding import CallBinding
 from rebsync.reverse.analysis.declared_parameters import DeclaredParameters
 from rebsync.reverse.analysis.fixed_attributes import FixedAttributes
 from rebsync.reverse.analysis.object_operators import ObjectOperators
+from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.libraries.routines import Language
-
-if TYPE_CHECKING:
-    from rebsync.reverse.analysis.origins import Origins
 
 
 class PythonRules:

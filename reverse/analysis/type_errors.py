@@ -52,7 +52,7 @@ class TypeErrors:
     def __init__(self, notes: ProblemNotes) -> None:
         self._notes = notes
         self._kinds = OperandKinds(notes)
-        self._objects = notes.origins.python.objects
+        self._objects = notes.counts.rules.objects
         self._is_python = notes.table.language is Language.PYTHON
 
     def of(self, value: e.Expression, facts: Facts) -> Kinds | None:
@@ -152,7 +152,7 @@ class TypeErrors:
         if target.object == e.Local(self._notes.function.receiver or ""):
             held = frozenset({ClassOrigin(self._notes.function.owner or "")})
         classes = (o.name for o in held if isinstance(o, ClassOrigin) and o.of_object)
-        if any(origins.python.fixed.refuses(each, target.name) for each in classes):
+        if any(self._notes.counts.rules.fixed.refuses(each, target.name) for each in classes):
             self._notes.fails(target, _LACKS)
 
     def stores(self, target: e.Index, facts: Facts) -> None:
