@@ -16,7 +16,7 @@ from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
-from rebsync.reverse.python.model_helpers import is_transparent
+from rebsync.reverse.python.model_decorators import is_transparent
 from rebsync.reverse.python.model_logs import is_logger
 from rebsync.reverse.python.model_parameters import only_declares, parameter_read
 from rebsync.reverse.python.model_posts import Post
