@@ -22,6 +22,7 @@ from rebsync.reverse.build.field_order import are_named
 from rebsync.reverse.generated.annotations import priority
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
 from rebsync.reverse.generated.sensors import sensor_of
+from rebsync.reverse.python.model_asked import asked_back
 from rebsync.reverse.python.model_logs import only_describes
 from rebsync.reverse.python.model_parameters import (
     ParameterRead,
@@ -168,9 +169,9 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
             _does(roles, function, servers)
     for name in ("__init__", "_wire"):
         if name in roles.functions:
-            roles.ticking.update(
-                n for n in called_back(roles.functions[name]) if _is_added(roles, n)
-            )
+            set_up = roles.functions[name]
+            handed = (*called_back(set_up), *asked_back(set_up))
+            roles.ticking.update(n for n in handed if _is_added(roles, n))
     return roles
 
 

@@ -55,7 +55,7 @@ class Timers:
         logging = {}
         for name, function in functions.items():
             others = (f for f in code.methods.get(name, ()) if f is not function)
-            if _only_logs(function, looks) and not any(map(_is_heir, others)):
+            if _only_logs(function, looks) and not any(map(is_heir, others)):
                 logging[name] = len(function.parameters) - 1
         return Timers(looks, logging)
 
@@ -91,7 +91,7 @@ class Timers:
         return holder == "self" and self.logging.get(name) == count
 
 
-def _is_heir(function: Scope) -> bool:
+def is_heir(function: Scope) -> bool:
     """Whether a method is of a class that may be below another one of the package."""
     owner = function.owner
     bases = owner.node.child_by_field_name("superclasses") if owner is not None else None
