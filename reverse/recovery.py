@@ -261,7 +261,8 @@ class _Reading:
 
         names = {name for p in self.programs for name in (p.name, p.stem)}
         names = names.union(*executables(self.files).values())
-        code.classes.messages = by_name(in_cpp.messages, in_cpp.signed)
+        known = code.classes.messages.constants
+        code.classes.messages = by_name(OwnMessages(in_cpp.messages, in_cpp.signed, known))
         return read_python(
             code,
             findings,

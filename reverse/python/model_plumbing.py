@@ -16,7 +16,7 @@ from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
-from rebsync.reverse.python.model_decorators import is_transparent
+from rebsync.reverse.python.model_decorators import is_context, is_transparent
 from rebsync.reverse.python.model_logs import is_logger
 from rebsync.reverse.python.model_parameters import only_declares, parameter_read
 from rebsync.reverse.python.model_posts import Post
@@ -234,6 +234,12 @@ def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
         if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
             continue
         if constants.is_quiet(module, statement) or is_alias(module, statement):
+            continue
+        if (
+            statement.type == "decorated_definition"
+            and definition.type == "function_definition"
+            and is_context(module, constants.code.scope_of(definition, module.py))
+        ):
             continue
         is_class = definition.type == "class_definition"
         if is_class and text_of(field(definition, "name")) not in NO_PYTHON_CLASSES:

@@ -23,6 +23,7 @@ from rebsync.reverse.python import model_records as records
 from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_switches as switches
 from rebsync.reverse.python import model_users as users
+from rebsync.reverse.python.model_decorators import context_of
 from rebsync.reverse.python.model_failing import failing, may_fail, methods_of
 from rebsync.reverse.python.model_filled import filled
 from rebsync.reverse.python.model_kinds import is_kind
@@ -134,6 +135,8 @@ class Statements(ModelStatementReader):
                 self.expressions.py, node
             ):
                 return list(self.block(named(held), held).statements)
+            case "with_statement" if (told := self._told(node)) is not None:
+                return list(self.block(named(told), told).statements)
             case "return_statement":
                 return self._return(node)
             case "break_statement":
@@ -142,6 +145,11 @@ class Statements(ModelStatementReader):
                 return [m.Continue(span=span)]
             case _:
                 raise Unread(span, "the model has no such statement")
+
+    def _told(self, node: Node) -> Node | None:
+        """What is done in a context that only tells people of it."""
+        names = self.expressions.names
+        return context_of(names.code, names.constants.module, node)
 
     def _return(self, node: Node) -> list[m.Statement]:
         values = [v for v in named(node) if v.type != "none"]

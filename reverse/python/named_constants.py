@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import builtins
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import field as with_default
 from itertools import count, takewhile
 from math import isfinite
@@ -60,9 +60,13 @@ Constant: TypeAlias = "Value | Record"
 
 @dataclass(eq=False, slots=True)
 class CodeConstants:
-    """The constants of some files: what is bound once, by its text, and by nothing else."""
+    """The constants of some files: what is bound once, by its text, and by nothing else.
+
+    `messages` are the numbers that the package's message types name.
+    """
 
     values: PyValues
+    messages: Mapping[str, Mapping[str, int]] = with_default(default_factory=dict)
 
     @property
     def code(self) -> PyCode:
@@ -165,6 +169,8 @@ class CodeConstants:
         found = self._only(binding, name, scope)
         if isinstance(found, Module) or binding.node.type == "import_statement":
             return found
+        if module_of(binding.node).endswith(".msg") and name in self.messages:
+            return Record({**self.messages[name]})
         source, item = module_named(self.code, module_of(binding.node), scope), binding.value
         wanted = field(item, "name") if item.type == "aliased_import" else item
         is_other = source is not None and source is not scope.module
