@@ -221,7 +221,7 @@ class ModelClasses:
         before = len(self.findings.all)
         Plumbing(
             *(roles, self._signed, self.findings, self._named, names.silent, lineage),
-            *(names.posts, self._is_lost),
+            *(names.posts, self._is_lost, self.constants),
         ).check()
         members: list[m.ClassMember] = []
         known = [self._variable(owner, *v) for v in roles.known.values()]

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
+from rebsync.intervals import Interval
 from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
@@ -36,6 +37,7 @@ from rebsync.reverse.python.model_types import (
     type_of,
     without_parentheses,
 )
+from rebsync.reverse.python.model_validation import is_passed
 from rebsync.reverse.python.named_constants import CodeConstants
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -76,7 +78,7 @@ class Plumbing:
 
     Of `messages` that another package has, as in ROS 2, only the order of what is passed on can be
     looked at. `above` are the classes above, `posts` what is posted, by the ids of the calls; what
-    is lost nobody takes in.
+    is lost nobody takes in. `numbers` are those of the constants.
     """
 
     roles: PyRoles
@@ -87,6 +89,7 @@ class Plumbing:
     above: Sequence[Scope]
     posts: Mapping[int, Post]
     is_lost: Callable[[PySends], bool]
+    numbers: Mapping[str, Interval]
 
     def check(self) -> None:
         """Lists what a class does besides."""
@@ -160,6 +163,8 @@ class Plumbing:
         yield from early
         for statement in body:
             if statement in early:
+                continue
+            if is_passed(statement, self.roles.env, self.numbers):
                 continue
             is_late = is_constructed and not is_logger(expression_in(statement))
             if is_late or not self._sets_up(function, statement):
