@@ -31,6 +31,7 @@ from rebsync.reverse.python.module_variables import (
     imported_as,
     is_clock,
     loggers_of,
+    maths_of,
     tables_of,
 )
 from rebsync.reverse.python.plain_functions import describing
@@ -214,6 +215,7 @@ def silent_in(
         loggers=loggers_of(owner.module) - hidden,
         tables=tables_of(code, owner.module) - hidden,
         clocks=frozenset(n for n in owner.module.names if is_clock(owner.module, n)) - hidden,
+        maths=maths_of(owner.module) if "math" not in hidden else frozenset(),
         records={name: fields for name, fields in records.items() if name not in hidden},
     )
     taken |= looks.functions
@@ -223,11 +225,12 @@ def silent_in(
     members = {name: value for name, value in made.items() if not is_of_node(name)}
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
-    timers = Timers.of(code, {n: functions[n] for n in roles[0].ticking}, looks)
+    handed = {n: functions[n] for n in roles[0].ticking}
+    timers = Timers.of(code, handed, looks)
+    looks = replace(looks, logging=timers.logging)
     stores = stores_in(module.node for module in modules)
     looks = replace(looks, containers=containers_in(owner.module, members, stores))
     timers = replace(timers, looks=looks)  # what ticks runs while containers may change
-    handed = {n: functions[n] for n in roles[0].ticking}
     asked = Asked.of(code, owner.module, handed, members, looks)
     told = frozenset(
         name
@@ -252,7 +255,17 @@ def silent_in(
         asked,
     )
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
-    while members or found.counters or any(found.locals.values()):
+    found = _consistent(found, modules, beside)
+    timers = found.timers.telling(code, handed, found.holds)
+    if timers.logging == found.timers.logging:
+        return found
+    ticking = found.ticking.union(n for n, v in members.items() if timers.is_idle(v))
+    return _consistent(replace(found, timers=timers, ticking=ticking), modules, beside)
+
+
+def _consistent(found: Silent, modules: Sequence[Scope], beside: Collection[str]) -> Silent:
+    """Without what something else names than statements for people."""
+    while found.members or found.counters or any(found.locals.values()):
         wrong = {n for module in modules for n in _odd(found, module.node, beside)}
         if not wrong:
             break
