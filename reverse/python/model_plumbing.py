@@ -19,6 +19,7 @@ from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
 from rebsync.reverse.python.model_decorators import is_context, is_transparent
 from rebsync.reverse.python.model_logs import is_logger
+from rebsync.reverse.python.model_members import declares_plain
 from rebsync.reverse.python.model_parameters import only_declares, parameter_read
 from rebsync.reverse.python.model_posts import Post
 from rebsync.reverse.python.model_roles import OFFERING, PyRoles, PySends
@@ -33,6 +34,7 @@ from rebsync.reverse.python.model_types import (
     is_alias,
     is_unset,
     literal_type,
+    string_value,
     type_made,
     type_of,
     without_parentheses,
@@ -212,6 +214,8 @@ class Plumbing:
             names = [*(p.name for p in function.parameters[1:]), *self.roles.arguments]
             return [text_of(v) for v in values] == names[-len(values) :] if values else True
         if self.silent.timers.is_idle(call) or self.silent.asked.is_idle(call):
+            return True
+        if declares_plain(call) and string_value(arguments[1]) is not None:
             return True
         return called in _CALLED or only_declares(call, function.node)
 
