@@ -302,6 +302,8 @@ class Expressions(ModelExpressionReader):
             given = arguments_for(helper, self, node, arguments)
             call = m.Call(None, helper.name, given, span=self.py.span(node))
             return self.cuts.passing(call, called)
+        if (stands := self.bound.get(text_of(node))) is not None:
+            return stands
         if len(arguments) == 2 and is_cast(self.names.constants.module, called):
             return self.read(arguments[1])
         drawn = builtins.drawn(self, node, called, arguments)

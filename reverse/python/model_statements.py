@@ -14,6 +14,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, cell
 from rebsync.reverse.python import model_aliases as aliases
 from rebsync.reverse.python import model_builtins as builtins
+from rebsync.reverse.python import model_counts as counts
 from rebsync.reverse.python import model_endings as endings
 from rebsync.reverse.python import model_going_on as going_on
 from rebsync.reverse.python import model_idioms as idioms
@@ -189,6 +190,8 @@ class Statements(ModelStatementReader):
         span, left = self.expressions.py.span(node), field(node, "left")
         value = field(node, "right")
         name = text_of(left)
+        if (number := counts.declared(self, node, name, value)) is not None:
+            return number
         type_ = type_of(node.child_by_field_name("type"))
         if type_ is not None and left.type == "identifier":
             if any(x.startswith(_HOISTED) for x in markers_above(self.expressions.py, node)):
@@ -262,11 +265,10 @@ class Statements(ModelStatementReader):
             return [switch]
         parts = [node, *node.children_by_field_name("alternative")]
         otherwise: m.Statement | None = None
-        conditions = [
-            self.expressions.condition(field(p, "condition"))
-            for p in parts
-            if p.type != "else_clause"
-        ]
+        counted, stands = counts.before(self, node, field(node, "condition"))
+        asked = [field(p, "condition") for p in parts if p.type != "else_clause"]
+        with self.expressions.standing_for([*stands], [*stands.values()]):
+            conditions = [*map(self.expressions.condition, asked)]
         bodies = []
         for part in parts:
             name = "body" if part.type == "else_clause" else "consequence"
@@ -279,7 +281,7 @@ class Statements(ModelStatementReader):
         for condition, body, part in reversed(list(zip(conditions, bodies, parts, strict=False))):
             otherwise = m.If(condition, body, otherwise, span=self.expressions.py.span(part))
         assert otherwise is not None
-        return [otherwise]
+        return [*counted, otherwise]
 
     def _for(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         called, arguments = call_parts(field(node, "right")) or ("", [])
