@@ -99,8 +99,9 @@ class CodeConstants:
                 return self.of(scope, name)
             case Class(scope) if self._is_plain(scope):
                 return self.of(scope, name)
-            case Class(scope) if self._is_plain(scope, ENUM) and self.of(scope, name) is not None:
-                return Record({"value": self.of(scope, name)})
+            case Class(scope) if self._is_plain(scope, ENUM):
+                value = self.of(scope, name)
+                return Record({"value": value}) if value is not None else None
             case Record(fields):
                 return fields.get(name)
             case _:

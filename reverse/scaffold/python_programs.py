@@ -65,7 +65,7 @@ def _without_arguments(main: ast.FunctionDef) -> ast.FunctionDef:
             if name not in used and len(rest) == len(body) - 1:
                 made = ast.parse("rclpy.init()").body[0]
                 body = [made if ast.unparse(s) == handed else s for s in body]
-                fields["args"] = ast.parse("def main(): pass").body[0].args
+                fields["args"] = ast.arguments([], [], None, [], [], None, [])
         case _:
             pass
-    return ast.FunctionDef(**{**fields, "body": body})
+    return ast.copy_location(ast.FunctionDef(**{**fields, "body": body}), main)
