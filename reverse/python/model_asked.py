@@ -46,7 +46,7 @@ def asked_back(function: Scope) -> Iterator[str]:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Asked:
+class Answering:
     """What tells the services and diagnostics of a class that only tell what there is.
 
     `telling` are the functions that do no more, each with how many arguments it takes, `bodies`
@@ -67,7 +67,7 @@ class Asked:
         functions: Mapping[str, Scope],
         members: Mapping[str, Node],
         looks: Looks,
-    ) -> Asked:
+    ) -> Answering:
         """Those of a class by what it hands over; what an heir has instead may be anything."""
         names = {n: _SERVICES.fullmatch(imported_as(module, n)) for n in module.names}
         services = frozenset(n for n, found in names.items() if found is not None)
@@ -80,7 +80,7 @@ class Asked:
                 telling[name] = len(function.parameters) - 1
         made = (n for n, value in members.items() if _is_updater(module, value))
         bodies = frozenset(field(functions[n].node, "body").id for n in telling)
-        return Asked(looks, telling, services, frozenset(made), bodies)
+        return Answering(looks, telling, services, frozenset(made), bodies)
 
     def is_idle(self, node: Node) -> bool:
         """Whether something offers a service that only tells what there is."""

@@ -17,7 +17,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_METHOD
 from rebsync.reverse.python.body_form import PyForm
-from rebsync.reverse.python.model_asked import Asked
+from rebsync.reverse.python.model_asked import Answering
 from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
 from rebsync.reverse.python.model_members import VALUES, is_lock, is_own_parameter
 from rebsync.reverse.python.model_roles import PyRoles, is_of_node
@@ -79,7 +79,7 @@ class Silent:
     counters: frozenset[str] = frozenset()
     form: PyForm | None = None
     variables: Mapping[str, m.Type] = with_default(default_factory=dict)
-    asked: Asked = Asked()
+    asked: Answering = Answering()
 
     @property
     def looks(self) -> Looks:
@@ -231,7 +231,7 @@ def silent_in(
     stores = stores_in(module.node for module in modules)
     looks = replace(looks, containers=containers_in(owner.module, members, stores))
     timers = replace(timers, looks=looks)  # what ticks runs while containers may change
-    asked = Asked.of(code, owner.module, handed, members, looks)
+    asked = Answering.of(code, owner.module, handed, members, looks)
     told = frozenset(
         name
         for name, v in members.items()
