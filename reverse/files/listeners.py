@@ -9,12 +9,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
+from rebsync.reverse.libraries.generated_calls import SUBSCRIBES
 from rebsync.source import Source
 
 _PROGRAM = re.compile(r"(?:.*\.py|(?:.*/)?scripts/\w+)\Z")
 _MODELLED = re.compile(r"^\s*(?:#|//) rebsync: (?:reactiveclass|interface) ", re.M)
 _LAUNCH = re.compile(r"(?:\.launch(?:\.py|\.xml|\.yaml)?|(?:^|/)launch/.*)\Z")
-_LISTENS = re.compile(r"\brospy\.Subscriber\(|\bcreate_subscription\(")
+_LISTENS = re.compile(SUBSCRIBES)
 # What may be heard by others, or may be anything.
 _ACTS = re.compile(
     r"publish|advertis|Service|Client|Action|create_client|create_service|call|param\b|set_param"

@@ -14,6 +14,7 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.libraries.generated_calls import SERVICE_OF_NODE, SERVICE_OF_ROS_1
 from rebsync.reverse.python.model_logs import Looks, only_logs
 from rebsync.reverse.python.model_timers import is_heir
 from rebsync.reverse.python.model_types import call_parts, expression_in, string_value
@@ -23,7 +24,7 @@ from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 # What offers a service, and how many arguments its callback gets.
-_OFFERS = {"rospy.Service": 1, "self.create_service": 2}
+_OFFERS = {SERVICE_OF_ROS_1: 1, SERVICE_OF_NODE: 2}
 _UPDATER = "diagnostic_updater.Updater"
 _STATED = frozenset({"add", "addf", "summary", "summaryf"})
 _OF_ROS = re.compile(r"parameter|logger")
