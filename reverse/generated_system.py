@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.python.recovery import PythonPart
 
 _TIME_UNIT = "/mailbox/time_unit"
+_CONSTANTS = "env/"
 _HINT = "give it a value of the type that the code asks for"
 _GIVE = "give it in the launch file"
 
@@ -73,8 +74,17 @@ class GeneratedSystem:
 
     @property
     def common(self) -> tuple[Parameter, ...]:
-        """The parameters that are under no node."""
-        return self.launch.parameters if self.launch is not None else ()
+        """The parameters that are under no node, and constants that each rebec is given alike."""
+        if self.launch is None:
+            return ()
+        given = [n.parameters for n in self.launch.nodes if self._started(n) is not None]
+        first = {p.name: p for p in (given[0] if given else ()) if p.name.startswith(_CONSTANTS)}
+        alike = [
+            replace(p, name=f"/{name}")
+            for name, p in first.items()
+            if all(_is_given(parameters, p) for parameters in given)
+        ]
+        return (*self.launch.parameters, *alike)
 
     # --- constants ------------------------------------------------------------------------------
 
@@ -273,6 +283,12 @@ class GeneratedSystem:
     def _list_other_kind(self, parameter: Parameter, key: str, within: str) -> None:
         unread = Unread(parameter.span, f"the code reads another kind of value for `{key}`", _HINT)
         self.classes.findings.unreadable(parameter.source, unread, within)
+
+
+def _is_given(parameters: Sequence[Parameter], wanted: Parameter) -> bool:
+    """Whether a node is given a parameter of the same value, and of the same kind."""
+    values = [p.value for p in parameters if p.name == wanted.name]
+    return [*map(repr, values)] == [repr(wanted.value)]
 
 
 def _made(function: CppFunction) -> Iterator[tuple[str, list[str]]]:

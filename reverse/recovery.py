@@ -15,6 +15,7 @@ from rebsync.reverse.build.built import unbuilt
 from rebsync.reverse.build.field_order import in_order
 from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.calls.ros_calls import Asking
+from rebsync.reverse.files.listeners import listeners
 from rebsync.reverse.files.monitors import is_monitor
 from rebsync.reverse.files.packages import BESIDE, CODE
 from rebsync.reverse.files.python_files import SETUP, is_launch, is_python
@@ -100,7 +101,8 @@ def extract(
     whose numbers are known.
     """
     findings = Findings()
-    files = {n: s for n, s in files.items() if n == only or not is_monitor(n, s)}
+    beside = listeners(files)
+    files = {n: s for n, s in files.items() if n == only or not (is_monitor(n, s) or n in beside)}
     files = _built(files, only, findings)
     at = _Reading.of(files, only, findings, environment)
     listed, declared = Findings(), own_messages(files)
@@ -261,7 +263,8 @@ class _Reading:
 
         names = {name for p in self.programs for name in (p.name, p.stem)}
         names = names.union(*executables(self.files).values())
-        code.classes.messages = by_name(in_cpp.messages, in_cpp.signed)
+        known = code.classes.messages.constants
+        code.classes.messages = by_name(OwnMessages(in_cpp.messages, in_cpp.signed, known))
         return read_python(
             code,
             findings,

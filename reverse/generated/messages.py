@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import field as with_default
 
 from rebsync.model import Type
 from rebsync.records import dataclass
@@ -28,11 +29,12 @@ class OwnMessages:
 
     `fields` are those of each, by its name with its package, but for those of the run-time part;
     None for what the model has no type for. `signed` are those that say who sends them, by their
-    names alone.
+    names alone. `constants` are the whole numbers that each names, by its name with its package.
     """
 
     fields: Mapping[str, Mapping[str, Type | None]]
     signed: frozenset[str]
+    constants: Mapping[str, Mapping[str, int]] = with_default(default_factory=dict)
 
 
 NO_MESSAGES = OwnMessages({}, frozenset())
@@ -43,16 +45,18 @@ def own_messages(files: Mapping[str, Source]) -> OwnMessages:
     declared = {path: s for path, s in sorted(files.items()) if path.endswith(".msg")}
     manifest = files.get("package.xml") if declared else None
     package = name_in(manifest) if manifest is not None else None
-    found, signed = {}, set[str]()
+    found, constants, signed = {}, {}, set[str]()
     for path, source in declared.items():
         name = path.rpartition("/")[2].removesuffix(".msg")
         read = read_message(source, "", name)
         found[f"{owner_of(path, package or '')}/{name}"] = {
             f.name: _type(f) for f in read.fields if f.name not in RUNTIME_FIELDS
         }
+        numbers = {c.name: c.value for c in read.constants if type(c.value) is int}
+        constants[f"{owner_of(path, package or '')}/{name}"] = numbers
         if any(f.name == SENDER_FIELD for f in read.fields):
             signed.add(name)
-    return OwnMessages(found, frozenset(signed))
+    return OwnMessages(found, frozenset(signed), constants)
 
 
 def _type(field: MessageField) -> Type | None:

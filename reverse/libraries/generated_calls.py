@@ -13,6 +13,11 @@ PUBLISHER_METHOD = PUBLISHER_OF_NODE.rpartition(".")[2]
 # What makes a timer.
 TIMER_OF_ROS_1 = "rospy.Timer"
 TIMER_OF_NODE = "self.create_timer"
+# What offers a service.
+SERVICE_OF_ROS_1 = "rospy.Service"
+SERVICE_OF_NODE = "self.create_service"
+# How people subscribe by hand, as a regular expression.
+SUBSCRIBES = r"\brospy\.Subscriber\(|\bcreate_subscription\("
 DURATIONS = frozenset({"rospy.Duration", "rospy.Duration.from_sec"})
 PARAMETER_OF_ROS_1 = "rospy.get_param"
 LOGGER = "rclpy.logging.get_logger"

@@ -61,7 +61,7 @@ class ModelClasses:
 
     def __post_init__(self) -> None:
         self._values = PyValues(self.code)
-        self._named = CodeConstants(self._values)
+        self._named = CodeConstants(self._values, self.messages.constants)
         self._form = PyForm(self.code, without_runtime=True)
         self._owners = [c for c in classes_in(self.code) if not is_runtime_file(c.py.source)]
         self._lines: dict[int, list[Scope]] = {}
@@ -221,7 +221,7 @@ class ModelClasses:
         before = len(self.findings.all)
         Plumbing(
             *(roles, self._signed, self.findings, self._named, names.silent, lineage),
-            *(names.posts, self._is_lost),
+            *(names.posts, self._is_lost, self.constants),
         ).check()
         members: list[m.ClassMember] = []
         known = [self._variable(owner, *v) for v in roles.known.values()]

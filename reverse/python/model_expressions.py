@@ -16,6 +16,7 @@ from rebsync.reverse.python import model_formats as formats
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python import model_places as places
 from rebsync.reverse.python import model_tuples as tuples
+from rebsync.reverse.python.model_decorators import is_cast
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_helpers import arguments_for
 from rebsync.reverse.python.model_kinds import float_literal
@@ -301,6 +302,10 @@ class Expressions(ModelExpressionReader):
             given = arguments_for(helper, self, node, arguments)
             call = m.Call(None, helper.name, given, span=self.py.span(node))
             return self.cuts.passing(call, called)
+        if (stands := self.bound.get(text_of(node))) is not None:
+            return stands
+        if len(arguments) == 2 and is_cast(self.names.constants.module, called):
+            return self.read(arguments[1])
         drawn = builtins.drawn(self, node, called, arguments)
         found = drawn or builtins.of_python(self, node, called, arguments)
         if found is None:

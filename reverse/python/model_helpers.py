@@ -13,10 +13,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_idioms import in_order
-from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_names import Helper
 from rebsync.reverse.python.plain_functions import function_named, is_runtime
-from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import (
     PyCode,
@@ -150,29 +148,3 @@ def _object(call: Node, function: Scope) -> str:
     arguments = named(field(call, "arguments"))
     is_given = bool(arguments) and text_of(arguments[0]) in ("self", "node")
     return function.parameters[0].name if is_given and function.parameters else ""
-
-
-# --- decorators ---------------------------------------------------------------------------------
-
-
-def is_transparent(code: PyCode, module: Scope, decorator: str) -> bool:
-    """Whether a decorator only logs, and calls the function with all that it is given."""
-    made = function_named(code, module, decorator) if decorator.isidentifier() else None
-    if made is None or len(made.parameters) != 1:
-        return False
-    inner = [s for s in body_of(made) if s.type in ("function_definition", "decorated_definition")]
-    rest = [text_of(s) for s in body_of(made) if s not in inner]
-    if len(inner) != 1:
-        return False
-    of = inner[0].child_by_field_name("definition") or inner[0]
-    around = [text_of(c) for c in inner[0].children if c.type == "decorator"]
-    function, name = code.scope_of(of, module.py), made.parameters[0].name
-    said = [s for s in body_of(function) if not only_logs(s)]
-    stars = [p.star for p in function.parameters]
-    passed = [f"{'*' * p.star}{p.name}" for p in function.parameters]
-    return (
-        rest == [f"return {function.name}"]
-        and set(around) <= {f"@wraps({name})", f"@functools.wraps({name})"}
-        and stars in ([1, 2], [0, 1, 2], [0])
-        and [text_of(s) for s in said] == [f"return {name}({', '.join(passed)})"]
-    )

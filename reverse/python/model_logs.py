@@ -33,7 +33,9 @@ class Looks:
     that stand for a logger of Python's library, a dictionary of literals, and what tells the time;
     `records` are its classes whose objects only hold what they are made of, with their fields;
     `describing` functions that only put texts together, with how many arguments they take.
-    `containers` are members that only logs look into, with their kinds.
+    `containers` are members that only logs look into, with their kinds; `maths` are what the module
+    calls functions of numbers, and `logging` methods that only log, with how many arguments each
+    takes.
     """
 
     trusted: frozenset[str] = with_default(
@@ -48,6 +50,8 @@ class Looks:
     records: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
     describing: Mapping[str, int] = with_default(default_factory=dict)
     containers: Mapping[str, str] = with_default(default_factory=dict)
+    maths: frozenset[str] = frozenset()
+    logging: Mapping[str, int] = with_default(default_factory=dict)
 
     def is_pure(self, node: Node) -> bool:
         """Whether nothing happens where an expression is evaluated."""
@@ -74,6 +78,8 @@ class Looks:
             return called.partition(".")[0] in self.trusted
         if own_method(call) in libraries.own_name_methods():
             return self._is_node and own_method(call) not in self.functions
+        if called in self.maths:
+            return True
         if called in self.clocks:
             return not named(field(call, "arguments"))
         if function.type == "identifier":
@@ -112,6 +118,10 @@ class Looks:
         """Whether a call only logs what is there already."""
         called = text_of(field(call, "function"))
         head, _, method = called.partition(".")
+        given = field(call, "arguments")
+        if own_method(call) in self.logging:
+            is_whole = len(named(given)) == self.logging[own_method(call)] and not has_splat(call)
+            return is_whole and _by_position(given) and self.is_pure(given)
         if head in self.loggers and method in LEVELS:
             return self.is_pure(field(call, "arguments"))
         if libraries.log_words().match(called) is None:
@@ -141,6 +151,19 @@ class Looks:
     def _is_node(self) -> bool:
         """Whether the object is a node of ROS 2 that has its logger from there."""
         return "self" in self.trusted and "get_logger" not in self.functions
+
+
+def _by_position(given: Node) -> bool:
+    return all(n.type != "keyword_argument" for n in named(given))
+
+
+def only_logs_by_words(function: Scope) -> bool:
+    """Whether each statement of a method is one that logs, whatever it logs."""
+    words = libraries.log_words()
+    calls = [named(s)[0] for s in body_of(function) if s.type == "expression_statement"]
+    called = [text_of(field(c, "function")) for c in calls if c.type == "call"]
+    is_plain = not function.decorators and len(called) == len(body_of(function)) > 0
+    return is_plain and all(words.match(each) is not None for each in called)
 
 
 def own_method(node: Node) -> str:

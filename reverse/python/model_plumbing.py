@@ -10,14 +10,16 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
+from rebsync.intervals import Interval
 from rebsync.names import graph_name
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
-from rebsync.reverse.python.model_helpers import is_transparent
+from rebsync.reverse.python.model_decorators import is_context, is_transparent
 from rebsync.reverse.python.model_logs import is_logger
+from rebsync.reverse.python.model_members import declares_plain
 from rebsync.reverse.python.model_parameters import only_declares, parameter_read
 from rebsync.reverse.python.model_posts import Post
 from rebsync.reverse.python.model_roles import OFFERING, PyRoles, PySends
@@ -32,10 +34,12 @@ from rebsync.reverse.python.model_types import (
     is_alias,
     is_unset,
     literal_type,
+    string_value,
     type_made,
     type_of,
     without_parentheses,
 )
+from rebsync.reverse.python.model_validation import is_passed
 from rebsync.reverse.python.named_constants import CodeConstants
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -76,7 +80,7 @@ class Plumbing:
 
     Of `messages` that another package has, as in ROS 2, only the order of what is passed on can be
     looked at. `above` are the classes above, `posts` what is posted, by the ids of the calls; what
-    is lost nobody takes in.
+    is lost nobody takes in. `numbers` are those of the constants.
     """
 
     roles: PyRoles
@@ -87,6 +91,7 @@ class Plumbing:
     above: Sequence[Scope]
     posts: Mapping[int, Post]
     is_lost: Callable[[PySends], bool]
+    numbers: Mapping[str, Interval]
 
     def check(self) -> None:
         """Lists what a class does besides."""
@@ -161,6 +166,8 @@ class Plumbing:
         for statement in body:
             if statement in early:
                 continue
+            if is_passed(statement, self.roles.env, self.numbers):
+                continue
             is_late = is_constructed and not is_logger(expression_in(statement))
             if is_late or not self._sets_up(function, statement):
                 yield statement
@@ -206,7 +213,9 @@ class Plumbing:
             _, values = call_parts(given) or ("", [])
             names = [*(p.name for p in function.parameters[1:]), *self.roles.arguments]
             return [text_of(v) for v in values] == names[-len(values) :] if values else True
-        if self.silent.timers.is_idle(call):
+        if self.silent.timers.is_idle(call) or self.silent.asked.is_idle(call):
+            return True
+        if declares_plain(call) and string_value(arguments[1]) is not None:
             return True
         return called in _CALLED or only_declares(call, function.node)
 
@@ -234,6 +243,12 @@ def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
         if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
             continue
         if constants.is_quiet(module, statement) or is_alias(module, statement):
+            continue
+        if (
+            statement.type == "decorated_definition"
+            and definition.type == "function_definition"
+            and is_context(module, constants.code.scope_of(definition, module.py))
+        ):
             continue
         is_class = definition.type == "class_definition"
         if is_class and text_of(field(definition, "name")) not in NO_PYTHON_CLASSES:

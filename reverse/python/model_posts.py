@@ -21,6 +21,8 @@ _EARLY = _LITERALS | {"identifier", "attribute"}
 _LOOPS = frozenset({"for_statement", "while_statement"})
 _INNER = frozenset({"function_definition", "lambda"})
 
+_NONE: Mapping[str, Node] = {}
+
 RolesOf = Callable[[Scope], PyRoles]
 
 
@@ -86,12 +88,16 @@ def _post(
     return Post(server, priority, handler.removeprefix("self."), tuple(given), when, is_held)
 
 
-def tells_arguments(told: Node, given: Sequence[Node]) -> bool:
-    """Whether a text is that of some arguments, and is made by nothing else."""
+def tells_arguments(told: Node, given: Sequence[Node], taken: Mapping[str, Node] = _NONE) -> bool:
+    """Whether a text is that of some arguments, and is made by nothing else.
+
+    `taken` are the values of names that stand for one value each.
+    """
     if not given:
         return string_value(told) == ""
     called, arguments = call_parts(told) or ("", [])
-    return called == "text" and [*map(text_of, arguments)] == [*map(text_of, given)]
+    texts = ([text_of(taken.get(text_of(n), n)) for n in each] for each in (arguments, given))
+    return called == "text" and next(texts) == next(texts)
 
 
 def _is_kept(function: Scope, call: Node, value: Node) -> bool:

@@ -22,7 +22,8 @@ from rebsync.reverse.build.field_order import are_named
 from rebsync.reverse.generated.annotations import priority
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
 from rebsync.reverse.generated.sensors import sensor_of
-from rebsync.reverse.python.model_logs import only_describes
+from rebsync.reverse.python.model_asked import asked_back
+from rebsync.reverse.python.model_logs import only_describes, only_logs_by_words
 from rebsync.reverse.python.model_parameters import (
     ParameterRead,
     constant,
@@ -166,11 +167,10 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     for function in roles.functions.values():
         if function.name not in _PLUMBING:
             _does(roles, function, servers)
-    for name in ("__init__", "_wire"):
-        if name in roles.functions:
-            roles.ticking.update(
-                n for n in called_back(roles.functions[name]) if _is_added(roles, n)
-            )
+    handed = [n for n, function in roles.functions.items() if only_logs_by_words(function)]
+    for set_up in (roles.functions[n] for n in ("__init__", "_wire") if n in roles.functions):
+        handed += [*called_back(set_up), *asked_back(set_up)]
+    roles.ticking.update(n for n in handed if _is_added(roles, n))
     return roles
 
 

@@ -25,6 +25,7 @@ from rebsync.reverse.python.model_types import (
 )
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 from rebsync.static.types import PRIMITIVES
@@ -40,12 +41,32 @@ def odd_in_shim(
 
     `body` are those that do not only tell people something.
     """
-    is_one = len(body) == 1 and _receives(code, roles, function, body[0], messages)
+    taken = dict(filter(None, (_taken(function, s) for s in body[:-1])))
+    is_one = len(body) == len(taken) + 1 and _receives(
+        code, roles, function, body[-1], messages, taken
+    )
     return () if is_one else body
 
 
+def _taken(function: Scope, statement: Node) -> tuple[str, Node] | None:
+    """The name that a statement gives a field of the message for good, and the field."""
+    inner = expression_in(statement)
+    value = inner.child_by_field_name("right") if inner is not None else None
+    if inner is None or value is None or inner.type != "assignment":
+        return None
+    name, message = text_of(field(inner, "left")), function.parameters[-1].name
+    is_read = text_of(value) == f"{message}.{field_read(value, message)}" or call_parts(value)
+    is_once = len(function.names.get(name, ())) == 1 and name not in (message, "self")
+    return (name, value) if is_once and is_read else None
+
+
 def _receives(
-    code: PyCode, roles: PyRoles, function: Scope, statement: Node, messages: OwnMessages
+    code: PyCode,
+    roles: PyRoles,
+    function: Scope,
+    statement: Node,
+    messages: OwnMessages,
+    taken: Mapping[str, Node],
 ) -> bool:
     called, arguments = call_parts(expression_in(statement)) or ("", [])
     if called != RECEIVE or len(arguments) != 5:
@@ -54,15 +75,20 @@ def _receives(
     parameter = field(function.node, "parameters").named_children[-1]
     type_, message = parameter.child_by_field_name("type"), function.parameters[-1].name
     handler, values = roles.handler_of(function.name), (passed_on(serve) or ("", []))[1]
-    if type_ is None or text_of(times) != f"{message}.timing":
+    if type_ is None or text_of(taken.get(text_of(times), times)) != f"{message}.timing":
         return False
-    if serve.child_by_field_name("parameters") is not None or not tells_arguments(told, values):
+    if serve.child_by_field_name("parameters") is not None:
         return False
-    if not is_told(function.module, text_of(descriptor)):
+    if not tells_arguments(told, values, taken) or not is_told(
+        function.module, text_of(descriptor)
+    ):
         return False
-    is_signed = text_of(sender) == f"{message}.sender"
+    is_signed = text_of(taken.get(text_of(sender), sender)) == f"{message}.sender"
     if not is_signed and (handler is None or _asks_for_sender(code, handler)):
         return False
+    if not taken.keys() <= {text_of(n) for n in nodes_in(statement) if n.type == "identifier"}:
+        return False  # what nobody asks for may be no field at all
+    values = [taken.get(text_of(value), value) for value in values]
     return _hands_fields_on(message, values, handler, messages.fields.get(text_of(type_)))
 
 

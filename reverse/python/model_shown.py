@@ -15,6 +15,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_OF_NODE, PUBLISHER_OF_ROS_1
 from rebsync.reverse.python.model_types import call_parts, string_value
+from rebsync.reverse.python.module_variables import imported_as
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
@@ -24,9 +25,14 @@ _INTEGERS = frozenset({"byte", "int", "short"})
 # By the names of messages, the types of variables that their values can be.
 _VALUES = {
     **{"Bool": frozenset({"boolean"}), "Int32": _INTEGERS, "Int64": _INTEGERS},
-    "String": frozenset[str](),
+    **{"Float32": frozenset({"float", "double"}), "Float64": frozenset({"float", "double"})},
+    **{"Int32MultiArray": _INTEGERS, "Int64MultiArray": _INTEGERS, "String": frozenset[str]()},
 }
-_LITERALS = {"Bool": ("true", "false"), "Int32": ("integer",), "Int64": ("integer",)}
+_LITERALS = {
+    **{"Bool": ("true", "false"), "Int32": ("integer",), "Int64": ("integer",)},
+    **{"Float32": ("float",), "Float64": ("float",)},
+}
+_PLAIN = frozenset({"string", "integer", "float", "true", "false", "none"})
 _IN_TEXTS = _INTEGERS | {"boolean", "float", "double"}
 _QUOTED = re.compile(r"[fF]?[\"']")
 # What says how many messages may wait: without, rospy waits for those who listen.
@@ -44,10 +50,14 @@ _RUNTIME = frozenset({"state", "cmd_vel", "odom", "clock", "tf", "rosout", "diag
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Shown:
-    """A publisher of messages of a type, and the types of the variables of its class."""
+    """A publisher of messages of a type, and the types of the variables of its class.
+
+    `dumps` are the names in the module for what writes a value as JSON.
+    """
 
     type: str
     variables: Mapping[str, m.Type]
+    dumps: frozenset[str] = frozenset()
 
     def sends(self, arguments: list[Node]) -> bool:
         """Whether it is given a message with a value that this takes: `Int32(data=self._x)`."""
@@ -63,21 +73,36 @@ class Shown:
     def _takes(self, value: Node) -> bool:
         if self.type == "String":
             return self._is_text(value)
-        if value.type in _LITERALS[self.type]:
+        if value.type in _LITERALS.get(self.type, ()):
             whole = whole_number_of(value)
             return value.type != "integer" or (whole is not None and whole <= _GREATEST)
+        called, given = call_parts(value) or ("", [])
+        if self.type.endswith("Array"):
+            is_made = called == "list" and len(given) == 1
+            return is_made and self._is_of(given[0], _VALUES[self.type], 1)
+        if self.type == "Bool" and value.type == "not_operator":
+            return self._is_of(field(value, "argument"), _VALUES[self.type])
+        if self.type.startswith("Float") and called == "float" and len(given) == 1:
+            return self._is_of(given[0], _INTEGERS | _VALUES[self.type])
         return self._is_of(value, _VALUES[self.type])
 
-    def _is_of(self, value: Node, types: frozenset[str]) -> bool:
-        """Whether a value is a variable of one of some types, and no array."""
-        holder, _, name = text_of(value).partition(".")
+    def _is_of(self, value: Node, types: frozenset[str], dimensions: int = 0) -> bool:
+        """Whether a value is a variable of one of some types, or an element that is there."""
+        at = value.children_by_field_name("subscript") if value.type == "subscript" else []
+        holder, _, name = text_of(field(value, "value") if at else value).partition(".")
         type_ = self.variables.get(name) if holder == "self" else None
-        return type_ is not None and not type_.dimensions and type_.name in types
+        if type_ is None or len(type_.dimensions) != dimensions + len(at) or len(at) > 1:
+            return False
+        numbers = [whole_number_of(each) for each in at]
+        is_there = all(n is not None and 0 <= n < type_.dimensions[0] for n in numbers)
+        return is_there and type_.name in types
 
     def _is_text(self, value: Node) -> bool:
         """Whether it is a text that can be sent, put together of plain ones and of variables."""
         if value.type == "call":
             _, given = call_parts(value) or ("", [])
+            if text_of(field(value, "function")) in self.dumps and len(given) == 1:
+                return self._is_record(given[0])
             is_plain = text_of(field(value, "function")) == "str" and len(given) == 1
             return is_plain and self._is_of(given[0], _IN_TEXTS)
         if value.type != "string" or _QUOTED.match(text_of(value)) is None:
@@ -85,6 +110,16 @@ class Shown:
         parts = [n for n in named(value) if n.type not in ("string_start", "string_end")]
         return "\\" not in text_of(value) and all(
             n.type == "string_content" or self._is_put_in(n) for n in parts
+        )
+
+    def _is_record(self, value: Node) -> bool:
+        """Whether a dictionary has plain texts as keys, and variables, numbers or texts in it."""
+        pairs = named(value) if value.type == "dictionary" else []
+        keys = (field(p, "key") if p.type == "pair" else p for p in pairs)
+        return bool(pairs) and all(
+            key.type == "string" and (self._is_of(kept, _IN_TEXTS) or kept.type in _PLAIN)
+            for key, kept in zip(keys, (p.child_by_field_name("value") for p in pairs), strict=True)
+            if kept is not None
         )
 
     def _is_put_in(self, part: Node) -> bool:
@@ -114,7 +149,14 @@ def shown_by(
     modules = [*code.modules.values()]
     is_heard = any(_hears(each, type_) for each in modules)
     taken = any(_is_named(each.node, name, type_) for each in modules)
-    return None if is_heard or taken else Shown(type_, variables)
+    return None if is_heard or taken else Shown(type_, variables, _dumps(module))
+
+
+def _dumps(module: Scope) -> frozenset[str]:
+    names = {"json": "json.dumps", "dumps": "dumps"}
+    return frozenset(
+        n for i, n in names.items() if imported_as(module, i) in ("json", "json.dumps")
+    )
 
 
 def is_topic(name: str, offered_by: str) -> bool:

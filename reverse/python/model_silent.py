@@ -15,13 +15,15 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1, PUBLISHER_METHOD
+from rebsync.reverse.libraries.generated_calls import PUBLISHER_METHOD
 from rebsync.reverse.python.body_form import PyForm
+from rebsync.reverse.python.model_asked import Answering
 from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
+from rebsync.reverse.python.model_members import VALUES, is_lock, is_own_parameter
 from rebsync.reverse.python.model_roles import PyRoles, is_of_node
 from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
 from rebsync.reverse.python.model_timers import Timers
-from rebsync.reverse.python.model_types import call_parts, string_value
+from rebsync.reverse.python.model_types import string_value
 from rebsync.reverse.python.module_variables import (
     call_and_arguments,
     counters_of,
@@ -29,6 +31,7 @@ from rebsync.reverse.python.module_variables import (
     imported_as,
     is_clock,
     loggers_of,
+    maths_of,
     tables_of,
 )
 from rebsync.reverse.python.plain_functions import describing
@@ -52,8 +55,6 @@ from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import Py, field, is_label, named, text_of
 
 _SET_UP = ("__init__", "_wire")
-_VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
-_LOCKS = frozenset({"threading.Lock", "threading.RLock"})
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
 _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
@@ -64,7 +65,8 @@ class Silent:
     """The silent members of a class: `texts` are told to people only, `locks` are only held.
     `ticking` are timers that only log, as `timers` tells them. `locals` are what a function makes
     or measures for people, by the function's node, and `counters` variables of the module; `form`
-    tells who may wait for a lock, and `variables` the state by the names of attributes.
+    tells who may wait for a lock, and `variables` the state by the names of attributes; `asked`
+    are services and diagnostics.
     """
 
     texts: frozenset[str] = frozenset()
@@ -77,6 +79,7 @@ class Silent:
     counters: frozenset[str] = frozenset()
     form: PyForm | None = None
     variables: Mapping[str, m.Type] = with_default(default_factory=dict)
+    asked: Answering = Answering()
 
     @property
     def looks(self) -> Looks:
@@ -85,7 +88,8 @@ class Silent:
 
     @property
     def _members(self) -> tuple[Collection[str], ...]:
-        return self.texts, self.publishers, self.ticking, self.locks, self.shown
+        asked = self.asked.updaters
+        return self.texts, self.publishers, self.ticking, self.locks, self.shown, asked
 
     @property
     def members(self) -> frozenset[str]:
@@ -127,6 +131,8 @@ class Silent:
     def _tells(self, call: Node) -> bool:
         """`self._diagnostics_pub.publish(status)` and `self._history.append(x)`."""
         function, arguments = field(call, "function"), named(field(call, "arguments"))
+        if self.asked.diagnoses(call):
+            return True
         publisher = text_of(function).removeprefix("self.").removesuffix(".publish")
         if text_of(function) == f"self.{publisher}.publish" and publisher in self.shown:
             return self.shown[publisher].sends(arguments)
@@ -169,7 +175,7 @@ class Silent:
 
     def _is_made(self, node: Node) -> bool:
         """Whether a value only takes up what is there, or is a parameter of the node's own."""
-        return self.looks.is_pure(node) or _own_parameter(node)
+        return self.looks.is_pure(node) or is_own_parameter(node)
 
     # --- locks ----------------------------------------------------------------------------------
 
@@ -209,6 +215,7 @@ def silent_in(
         loggers=loggers_of(owner.module) - hidden,
         tables=tables_of(code, owner.module) - hidden,
         clocks=frozenset(n for n in owner.module.names if is_clock(owner.module, n)) - hidden,
+        maths=maths_of(owner.module) if "math" not in hidden else frozenset(),
         records={name: fields for name, fields in records.items() if name not in hidden},
     )
     taken |= looks.functions
@@ -218,20 +225,26 @@ def silent_in(
     members = {name: value for name, value in made.items() if not is_of_node(name)}
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
-    timers = Timers.of(code, {n: functions[n] for n in roles[0].ticking}, looks)
+    handed = {n: functions[n] for n in roles[0].ticking}
+    timers = Timers.of(code, handed, looks)
+    looks = replace(looks, logging=timers.logging)
     stores = stores_in(module.node for module in modules)
     looks = replace(looks, containers=containers_in(owner.module, members, stores))
     timers = replace(timers, looks=looks)  # what ticks runs while containers may change
+    asked = Answering.of(code, owner.module, handed, members, looks)
     told = frozenset(
         name
         for name, v in members.items()
-        if v.type in _VALUES or _own_parameter(v) or looks.tells_time(v) or name in looks.containers
+        if v.type in VALUES
+        or is_own_parameter(v)
+        or looks.tells_time(v)
+        or name in looks.containers
     )
-    locks = frozenset(n for n, v in members.items() if _is_lock(owner.module, v))
+    locks = frozenset(n for n, v in members.items() if is_lock(owner.module, v))
     found = Silent(
         told,
         frozenset(n for n, v in publishers.items() if _is_publisher(v, makers)),
-        frozenset(n for n, v in members.items() if timers.is_idle(v)),
+        frozenset(n for n, v in members.items() if timers.is_idle(v) or asked.is_idle(v)),
         locks,
         {f.node.id: told_locals(f, makers, looks) for f in functions.values()},
         timers,
@@ -239,9 +252,20 @@ def silent_in(
         frozenset(counters_of(code, owner.module)) - hidden,
         form,
         variables,
+        asked,
     )
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
-    while members or found.counters or any(found.locals.values()):
+    found = _consistent(found, modules, beside)
+    timers = found.timers.telling(code, handed, found.holds)
+    if timers.logging == found.timers.logging:
+        return found
+    ticking = found.ticking.union(n for n, v in members.items() if timers.is_idle(v))
+    return _consistent(replace(found, timers=timers, ticking=ticking), modules, beside)
+
+
+def _consistent(found: Silent, modules: Sequence[Scope], beside: Collection[str]) -> Silent:
+    """Without what something else names than statements for people."""
+    while found.members or found.counters or any(found.locals.values()):
         wrong = {n for module in modules for n in _odd(found, module.node, beside)}
         if not wrong:
             break
@@ -264,6 +288,7 @@ def _without(silent: Silent, wrong: set[str]) -> Silent:
         locals=locals_,
         shown=shown,
         counters=silent.counters - wrong,
+        asked=replace(silent.asked, updaters=silent.asked.updaters - wrong),
     )
 
 
@@ -282,30 +307,6 @@ def _made(functions: Mapping[str, Scope]) -> Iterator[tuple[str, Node]]:
 
 
 # --- what members are ---------------------------------------------------------------------------
-
-
-def _own_parameter(node: Node) -> bool:
-    """`rospy.get_param("~label", "robot")` and `self.declare_parameter("label", "robot").value`."""
-    if node.type == "attribute" and text_of(field(node, "attribute")) == "value":
-        called, arguments = call_parts(field(node, "object")) or ("", [])
-        is_read = called == "self.declare_parameter" and len(arguments) == 2
-    else:
-        called, arguments = call_parts(node) or ("", [])
-        is_read = called == PARAMETER_OF_ROS_1 and len(arguments) == 2
-    key = string_value(arguments[0]) if is_read else None
-    if key is None or (called == PARAMETER_OF_ROS_1 and not key.startswith("~")):
-        return False
-    is_plain = arguments[1].type in _VALUES | {"true", "false", "integer", "float"}
-    section = re.split(r"[./]", key.removeprefix("~"))[0]
-    return is_plain and section not in ("env", "knownrebecs", "mailbox", "drive")
-
-
-def _is_lock(module: Scope, node: Node) -> bool:
-    """Whether a value is a lock of Python's library."""
-    called, arguments = call_parts(node) or ("", [])
-    head, _, rest = called.partition(".")
-    whole = ".".join(filter(None, (imported_as(module, head), rest)))
-    return whole in _LOCKS and not arguments
 
 
 def _is_publisher(node: Node, makers: frozenset[str]) -> bool:
@@ -362,7 +363,7 @@ def _is_quiet(silent: Silent, node: Node, name: str) -> bool:
             return True
         if above.type == "global_statement":
             return name in silent.counters
-        if silent.holds(above):
+        if silent.holds(above) or above.id in silent.asked.bodies:
             return True
     return False
 

@@ -14,6 +14,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, cell
 from rebsync.reverse.python import model_aliases as aliases
 from rebsync.reverse.python import model_builtins as builtins
+from rebsync.reverse.python import model_counts as counts
 from rebsync.reverse.python import model_endings as endings
 from rebsync.reverse.python import model_going_on as going_on
 from rebsync.reverse.python import model_idioms as idioms
@@ -23,6 +24,7 @@ from rebsync.reverse.python import model_records as records
 from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_switches as switches
 from rebsync.reverse.python import model_users as users
+from rebsync.reverse.python.model_decorators import context_of
 from rebsync.reverse.python.model_failing import failing, may_fail, methods_of
 from rebsync.reverse.python.model_filled import filled
 from rebsync.reverse.python.model_kinds import is_kind
@@ -134,6 +136,8 @@ class Statements(ModelStatementReader):
                 self.expressions.py, node
             ):
                 return list(self.block(named(held), held).statements)
+            case "with_statement" if (told := self._told(node)) is not None:
+                return list(self.block(named(told), told).statements)
             case "return_statement":
                 return self._return(node)
             case "break_statement":
@@ -142,6 +146,11 @@ class Statements(ModelStatementReader):
                 return [m.Continue(span=span)]
             case _:
                 raise Unread(span, "the model has no such statement")
+
+    def _told(self, node: Node) -> Node | None:
+        """What is done in a context that only tells people of it."""
+        names = self.expressions.names
+        return context_of(names.code, names.constants.module, node)
 
     def _return(self, node: Node) -> list[m.Statement]:
         values = [v for v in named(node) if v.type != "none"]
@@ -181,6 +190,8 @@ class Statements(ModelStatementReader):
         span, left = self.expressions.py.span(node), field(node, "left")
         value = field(node, "right")
         name = text_of(left)
+        if (number := counts.declared(self, node, name, value)) is not None:
+            return number
         type_ = type_of(node.child_by_field_name("type"))
         if type_ is not None and left.type == "identifier":
             if any(x.startswith(_HOISTED) for x in markers_above(self.expressions.py, node)):
@@ -254,11 +265,10 @@ class Statements(ModelStatementReader):
             return [switch]
         parts = [node, *node.children_by_field_name("alternative")]
         otherwise: m.Statement | None = None
-        conditions = [
-            self.expressions.condition(field(p, "condition"))
-            for p in parts
-            if p.type != "else_clause"
-        ]
+        counted, stands = counts.before(self, node, field(node, "condition"))
+        asked = [field(p, "condition") for p in parts if p.type != "else_clause"]
+        with self.expressions.standing_for([*stands], [*stands.values()]):
+            conditions = [*map(self.expressions.condition, asked)]
         bodies = []
         for part in parts:
             name = "body" if part.type == "else_clause" else "consequence"
@@ -271,7 +281,7 @@ class Statements(ModelStatementReader):
         for condition, body, part in reversed(list(zip(conditions, bodies, parts, strict=False))):
             otherwise = m.If(condition, body, otherwise, span=self.expressions.py.span(part))
         assert otherwise is not None
-        return [otherwise]
+        return [*counted, otherwise]
 
     def _for(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         called, arguments = call_parts(field(node, "right")) or ("", [])

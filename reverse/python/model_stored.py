@@ -17,7 +17,7 @@ from rebsync.reverse.python.model_places import is_kept
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
+from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of, whole_number_of
 from rebsync.static.types import INT
 
 _PLACES = ("identifier", "attribute")
@@ -134,8 +134,10 @@ def _declaration(
 def all_elements(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
     """`self._a = Array([x, y])`, element by element; None for another assignment."""
     called, arguments = call_parts(value) or ("", [])
+    if (sliced := _whole_slice(left)) is not None and value.type == "list":
+        left, called, arguments = sliced, "Array", [value]
     if called != "Array" or len(arguments) != 1:
-        return None
+        return _filled(reader, left, value)
     places = builtins.array_elements(reader.expressions, left)
     values = builtins.listed(reader.expressions, arguments[0]) if places else []
     if places is None or len(places) != len(values):
@@ -145,6 +147,36 @@ def all_elements(reader: ModelStatementReader, left: Node, value: Node) -> list[
     span = reader.expressions.py.span(value)
     stored = (m.Assign("=", p, v, span) for p, v in zip(places, values, strict=True))
     return [m.ExpressionStatement(each, span=span) for each in stored]
+
+
+def _whole_slice(node: Node) -> Node | None:
+    """The array of which all is stored in: `self._a[:]`."""
+    at = node.children_by_field_name("subscript") if node.type == "subscript" else []
+    return field(node, "value") if [text_of(n) for n in at] == [":"] else None
+
+
+def _filled(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
+    """`self._a[:] = self._b` and `self._a[:] = [0] * 8`, of as many elements as it has."""
+    target = _whole_slice(left)
+    places = builtins.array_elements(reader.expressions, target) if target is not None else None
+    if target is None or places is None:
+        return None
+    span = reader.expressions.py.span(value)
+    if value.type == "binary_operator" and text_of(field(value, "operator")) == "*":
+        given, times = field(value, "left"), whole_number_of(field(value, "right"))
+        if given.type != "list" or len(named(given)) != 1 or times != len(places):
+            return None
+        if not idioms.is_literal(reader.expressions, named(given)[0]):
+            return None
+        read = reader.expressions.read(named(given)[0])
+        stores = [m.Assign("=", place, read, span) for place in places]
+        return [m.ExpressionStatement(each, span=span) for each in stores]
+    others = builtins.array_elements(reader.expressions, value)
+    kinds = {reader.expressions.kind(each) for each in (*places, *(others or ()))}
+    if others is None or len(others) != len(places) or len(kinds) != 1:
+        return None
+    copied = m.Assign("=", reader.expressions.read(target), reader.expressions.read(value), span)
+    return [m.ExpressionStatement(copied, span=span)]
 
 
 # --- variables ----------------------------------------------------------------------------------

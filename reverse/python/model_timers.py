@@ -7,8 +7,9 @@ and what it logs changes nothing.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import field as with_default
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -52,12 +53,18 @@ class Timers:
     @staticmethod
     def of(code: PyCode, functions: Mapping[str, Scope], looks: Looks) -> Timers:
         """Those of a class by its functions; what an heir has in place of one may be anything."""
-        logging = {}
+        return Timers(looks).telling(code, functions, lambda node: only_logs(node, looks))
+
+    def telling(
+        self, code: PyCode, functions: Mapping[str, Scope], tells: Callable[[Node], bool]
+    ) -> Timers:
+        """The same with those functions of which each statement only tells people something."""
+        logging = dict(self.logging)
         for name, function in functions.items():
             others = (f for f in code.methods.get(name, ()) if f is not function)
-            if _only_logs(function, looks) and not any(map(_is_heir, others)):
+            if _only_tells(function, tells) and not any(map(is_heir, others)):
                 logging[name] = len(function.parameters) - 1
-        return Timers(looks, logging)
+        return replace(self, logging=logging)
 
     def is_idle(self, node: Node) -> bool:
         """Whether something makes a timer that only logs."""
@@ -91,15 +98,15 @@ class Timers:
         return holder == "self" and self.logging.get(name) == count
 
 
-def _is_heir(function: Scope) -> bool:
+def is_heir(function: Scope) -> bool:
     """Whether a method is of a class that may be below another one of the package."""
     owner = function.owner
     bases = owner.node.child_by_field_name("superclasses") if owner is not None else None
     return bases is not None and not {text_of(b) for b in named(bases)} <= _BASES
 
 
-def _only_logs(function: Scope, looks: Looks) -> bool:
-    """Whether a method does nothing but to log, with all its arguments by position."""
+def _only_tells(function: Scope, tells: Callable[[Node], bool]) -> bool:
+    """Whether a method does nothing but to tell people, with all its arguments by position."""
     body = body_of(function)
     is_plain = not function.decorators and function.node.children[0].type == "def"
     parameters = function.parameters
@@ -111,7 +118,7 @@ def _only_logs(function: Scope, looks: Looks) -> bool:
         and by_position
         and len(parameters) == len(named(field(function.node, "parameters")))
         and bool(body)
-        and all(only_logs(statement, looks) for statement in body)
+        and all(map(tells, body))
     )
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.python.log_words import TOTAL
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding
 from rebsync.reverse.syntax.py_index import PyCode, Scope
@@ -77,6 +78,14 @@ def _is_named_elsewhere(code: PyCode, module: Scope, name: str) -> bool:
 def is_clock(module: Scope, name: str) -> bool:
     """Whether a name of a module is imported, and is a function that tells the time."""
     return imported_as(module, name) in libraries.clocks()
+
+
+def maths_of(module: Scope) -> frozenset[str]:
+    """What a module calls those functions of Python's mathematics that do not fail."""
+    names = {n for n in TOTAL if imported_as(module, n) == f"math.{n}"}
+    return frozenset(
+        {*names, *(f"math.{n}" for n in TOTAL if imported_as(module, "math") == "math")}
+    )
 
 
 def loggers_of(module: Scope) -> frozenset[str]:

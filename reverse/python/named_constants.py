@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import builtins
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import field as with_default
 from itertools import count, takewhile
 from math import isfinite
@@ -15,6 +15,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.literals import literal_of
 from rebsync.records import dataclass
+from rebsync.reverse.python.enumerations import ENUM, INTEGERS, is_auto, names_before
 from rebsync.reverse.python.model_kinds import float_literal
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_values import PyValues
@@ -32,8 +33,7 @@ from rebsync.reverse.syntax.py_index import (
 )
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
-_INTEGERS = "enum.IntEnum"
-_PLAIN_BASES = frozenset({"builtins.object", "abc.ABC", _INTEGERS})
+_PLAIN_BASES = frozenset({"builtins.object", "abc.ABC", INTEGERS})
 _FROZEN = frozenset({"dataclass(frozen=True)", "dataclasses.dataclass(frozen=True)"})
 _TUPLES = frozenset({"NamedTuple", "typing.NamedTuple"})
 _FUNCTIONS = frozenset({"function_definition", "decorated_definition"})
@@ -60,9 +60,13 @@ Constant: TypeAlias = "Value | Record"
 
 @dataclass(eq=False, slots=True)
 class CodeConstants:
-    """The constants of some files: what is bound once, by its text, and by nothing else."""
+    """The constants of some files: what is bound once, by its text, and by nothing else.
+
+    `messages` are the numbers that the package's message types name.
+    """
 
     values: PyValues
+    messages: Mapping[str, Mapping[str, int]] = with_default(default_factory=dict)
 
     @property
     def code(self) -> PyCode:
@@ -79,6 +83,8 @@ class CodeConstants:
                 return self._imported(scope, name, binding)
             case "scope":
                 return self._only(binding, name, scope)
+            case "value" if is_auto(scope, binding.value):
+                return self._numbered(scope, name)
             case "value" if binding.value.type == "call":
                 return self._made(scope, binding.value)
             case "value" if binding.value.type != "list" or self._is_kept(scope, name):
@@ -93,10 +99,22 @@ class CodeConstants:
                 return self.of(scope, name)
             case Class(scope) if self._is_plain(scope):
                 return self.of(scope, name)
+            case Class(scope) if self._is_plain(scope, ENUM):
+                value = self.of(scope, name)
+                return Record({"value": value}) if value is not None else None
             case Record(fields):
                 return fields.get(name)
             case _:
                 return None
+
+    def numbers(self, holder: Constant | None) -> bool:
+        """Whether what is constant is an enumeration of integers, whose members have a value."""
+        if not isinstance(holder, Class):
+            return False
+        return any(
+            isinstance(c, External) and c.name == INTEGERS
+            for c in lineage(self.values, holder.scope)
+        )
 
     def is_quiet(self, scope: Scope, statement: Node) -> bool:
         """Whether a statement of a module or class only names constants, or defines a function.
@@ -152,6 +170,8 @@ class CodeConstants:
         found = self._only(binding, name, scope)
         if isinstance(found, Module) or binding.node.type == "import_statement":
             return found
+        if module_of(binding.node).endswith(".msg") and name in self.messages:
+            return Record({**self.messages[name]})
         source, item = module_named(self.code, module_of(binding.node), scope), binding.value
         wanted = field(item, "name") if item.type == "aliased_import" else item
         is_other = source is not None and source is not scope.module
@@ -159,7 +179,18 @@ class CodeConstants:
 
     # --- classes --------------------------------------------------------------------------------
 
-    def _is_plain(self, owner: Scope) -> bool:
+    def _numbered(self, owner: Scope, name: str) -> Constant | None:
+        """What `auto()` gives in an enumeration: one more than the greatest before it."""
+        names = list(names_before(owner, name))
+        before = [self.of(owner, each) for each in names]
+        numbers = [n for n in before if isinstance(n, int) and not isinstance(n, bool)]
+        is_known = len(numbers) == len(names) and (
+            self._is_plain(owner) or self._is_plain(owner, ENUM)
+        )
+        is_last = not numbers or numbers[-1] == max(numbers)
+        return (numbers or [0])[-1] + 1 if is_known and is_last else None
+
+    def _is_plain(self, owner: Scope, base: str = INTEGERS) -> bool:
         """Whether what a class binds is what its attributes are, as it is not in an `Enum`.
 
         Those of an enumeration of integers with functions may compare otherwise.
@@ -170,7 +201,9 @@ class CodeConstants:
         is_known = len(line) == 1 + sum(len(_bases(each)) for each in classes)
         bodies = (s for each in classes for s in named(field(each.node, "body")))
         has_functions = any(s.type in _FUNCTIONS for s in bodies)
-        return is_known and above <= _PLAIN_BASES and not (_INTEGERS in above and has_functions)
+        if base == ENUM and ENUM not in above:
+            return False
+        return is_known and above <= _PLAIN_BASES | {base} and not (base in above and has_functions)
 
     def _made(self, scope: Scope, call: Node) -> Record | None:
         """`LIMITS = Limits(last=10)`, of a class whose objects do not change."""
@@ -235,8 +268,10 @@ class NamedConstants:
             found, rest = inner
         else:
             found = self.code.of(self.module, head)
+        holder: Constant | None = None
         for name in rest:
-            found = self.code.part(found, name)
+            if not (name == "value" and self.code.numbers(holder)):
+                holder, found = found, self.code.part(found, name)
         if match[3] is None:
             return _literal(found)
         at, each = int(match[3]), found.each if isinstance(found, Items) else ()

@@ -127,7 +127,7 @@ class PythonCode:
             sources,
             code,
             PyValues(code),
-            ModelClasses(code, findings, by_name(messages.fields, messages.signed)),
+            ModelClasses(code, findings, by_name(messages)),
         )
 
     def hears_others(self) -> bool:
@@ -141,11 +141,11 @@ class PythonCode:
             yield from roles.orders
 
 
-def by_name(
-    fields: Mapping[str, Mapping[str, m.Type | None]], signed: frozenset[str]
-) -> OwnMessages:
+def by_name(messages: OwnMessages) -> OwnMessages:
     """Message types by their names without the package."""
-    return OwnMessages({t.rpartition("/")[2]: of for t, of in fields.items()}, signed)
+    fields = {type_.rpartition("/")[2]: of for type_, of in messages.fields.items()}
+    constants = {type_.rpartition("/")[2]: of for type_, of in messages.constants.items()}
+    return OwnMessages(fields, messages.signed, constants)
 
 
 def read_python(

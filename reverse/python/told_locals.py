@@ -29,10 +29,18 @@ def told_locals(function: Scope, makers: frozenset[str], looks: Looks) -> frozen
         for name, values in every.items()
         if name not in found
         and all(map(looks.is_pure, values))
-        and any(v.type in _LISTED or _depends(v, found, looks) for v in values)
+        and any(v.type in _LISTED or _is_text(v) or _depends(v, found, looks) for v in values)
     }:
         found |= fresh
     return frozenset(name for name in found if _is_set_first(function.node, name))
+
+
+def _is_text(value: Node) -> bool:
+    """Whether a value is a text, or one of two: no model has any."""
+    if value.type == "conditional_expression":
+        first, _, other = named(value)
+        return _is_text(first) and _is_text(other)
+    return value.type in ("string", "concatenated_string")
 
 
 def _is_set_first(function: Node, name: str) -> bool:

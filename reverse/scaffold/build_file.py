@@ -54,6 +54,7 @@ _DEFINING = "COMPILE_DEFINITIONS"
 _MESSAGES = frozenset({"rosidl_generate_interfaces", "add_message_files"})
 _SCRIPT = re.compile(r"scripts/(\w+)")
 _MESSAGE = re.compile(r"(?:.*/)?(\w+)\.msg")
+_PROGRAMS, _SHARED = "${CATKIN_PACKAGE_BIN_DESTINATION}", "${CATKIN_PACKAGE_SHARE_DESTINATION}"
 
 
 def facts_of_build(source: Source) -> Iterator[Fact]:
@@ -61,6 +62,8 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
     commands = list(_commands(read_cmake(source).items))
     names = dict(filter(None, (_named(command) for command, _ in commands)))
     own = {argument.text for command, _ in commands for argument in command.arguments}
+    projects = (c.arguments[0].text for c, _ in commands if c.name == "project" and c.arguments)
+    project = next(projects, "")
     lists = ConstantLists(commands, _sets_what_it_names)
     caches = {*_CACHES, *_found_caches(commands)}
     for command, condition in commands:
@@ -71,7 +74,7 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
             *(() if _only_remembers(words, caches) else _steps(command, words)),
             *_included(command, words, own),
         )
-        for fact in (*found, *_made(lists.written_out(command), names)):
+        for fact in (*found, *_made(lists.written_out(command), names, project)):
             kind, owner, name, value, span = fact
             yield Fact(kind, owner, name, f"{value}{condition}", source, span)
 
@@ -212,7 +215,7 @@ def _asks(words: Sequence[str]) -> bool:
     return run[:2] in (["git", "describe"], ["git", "rev-parse"], ["git", "log"])
 
 
-def _made(command: Command, names: dict[str, str]) -> Iterator[_Told]:
+def _made(command: Command, names: dict[str, str], project: str) -> Iterator[_Told]:
     """What is built, and what is installed."""
     span, words = command.span, [argument.text for argument in command.arguments]
     match command.name:
@@ -231,7 +234,7 @@ def _made(command: Command, names: dict[str, str]) -> Iterator[_Told]:
             shown = (f'"{w}"' if w == "" else w for w in words[1:])
             yield "name of a program", target, "", squeezed(" ".join(shown)), span
         case "install" | "catkin_install_python":
-            yield from _installed(command.arguments, names)
+            yield from _installed(command.arguments, names, project)
         case "generate_messages":
             yield "code of the messages", "", "", "generated", span
         case "catkin_python_setup":
@@ -246,16 +249,38 @@ def _made(command: Command, names: dict[str, str]) -> Iterator[_Told]:
             pass
 
 
-def _installed(arguments: Sequence[Argument], names: dict[str, str]) -> Iterator[_Told]:
-    """The programs and folders that one command installs."""
-    kind = ""
-    for argument in arguments:
+def _installed(
+    arguments: Sequence[Argument], names: dict[str, str], project: str
+) -> Iterator[_Told]:
+    """The programs and folders that one command installs, where ROS looks for them or elsewhere."""
+    kind, words = "", [argument.text for argument in arguments]
+    for at, argument in enumerate(arguments):
         text, span = argument.text, argument.span
+        to = _destination(words, at, project)
         if text.isupper():
             kind = text
         elif kind == "TARGETS":
-            yield "installed program", "", names.get(text, text), "there", span
+            place = _place(_PROGRAMS in to or not to, to)
+            yield "installed program", "", names.get(text, text), place, span
         elif kind == "DIRECTORY" and not text.startswith("include"):  # no node needs headers there
-            yield "installed folder", "", text.strip("/"), "there", span
+            inside = f"{_SHARED}/{text.strip('/')}" if text.endswith("/") else _SHARED
+            place = _place(to == [inside], to)
+            yield "installed folder", "", text.strip("/"), place, span
         elif (script := _SCRIPT.fullmatch(text)) is not None:
-            yield "installed program", "", script[1], "there", span
+            yield "installed program", "", script[1], _place(to == [_PROGRAMS], to), span
+
+
+def _destination(words: Sequence[str], at: int, project: str) -> list[str]:
+    """The folders that something may be installed in, as ROS calls them."""
+    after = (words[i + 1] for i in range(at, len(words) - 1) if words[i] == "DESTINATION")
+    named = (w.replace("${PROJECT_NAME}", project).rstrip("/") for w in after)
+    known = {f"lib/{project}": _PROGRAMS, f"share/{project}": _SHARED}
+    found = []
+    for word in named:
+        whole = next((n for n in known if word == n or word.startswith(f"{n}/")), "")
+        found.append(f"{known[whole]}{word[len(whole) :]}" if whole else word)
+    return found
+
+
+def _place(is_there: bool, to: Sequence[str]) -> str:
+    return "there" if is_there else f"there in {' '.join(to)}"

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from itertools import zip_longest
 
+from rebsync.reverse.scaffold.python_programs import SERVES, plain_program
 from rebsync.reverse.scaffold.python_trees import (
     bindings,
     said,
@@ -40,7 +41,11 @@ def first_difference(base: Source, source: Source, own: frozenset[str]) -> Span 
         return None if base.text == source.text else Span(0, min(1, len(source.text)))
     if (odd := _imported(old, new, own)) is not None:
         return span_of(source, odd) if isinstance(odd, ast.stmt) else Span(0, 1)
-    old, new = without_types(old), without_types(_without_main(old, new))
+    new = _without_main(old, new)
+    if SERVES in base.text:
+        is_script = not source.path.endswith(".py")
+        old, new = (plain_program(each, is_script) for each in (old, new))
+    old, new = without_types(old), without_types(new)
     last = len(source.text.rstrip())
     for one, other in zip_longest(_parts(old.body, own), _parts(new.body, own)):
         if one is None or other is None or one[0] != other[0]:
@@ -117,15 +122,21 @@ def _quiet(statement: ast.stmt) -> ast.stmt:
     """A statement that makes a node, without the level from which on it logs."""
     match statement:
         case ast.Expr(ast.Call(function, given, keywords)) if ast.unparse(function) == _MAKES:
-            rest = [k for k in keywords if not (k.arg == "log_level" and _is_level(k.value))]
+            rest = [k for k in keywords if not (_is_default(k) or _is_level(k))]
             return ast.Expr(ast.Call(function, given, rest))
         case _:
             return statement
 
 
-def _is_level(value: ast.expr) -> bool:
-    match value:
-        case ast.Attribute(ast.Name("rospy"), level):
+def _is_default(given: ast.keyword) -> bool:
+    """Whether an argument says what holds without it."""
+    is_false = isinstance(given.value, ast.Constant) and given.value.value is False
+    return given.arg in ("anonymous", "disable_signals") and is_false
+
+
+def _is_level(given: ast.keyword) -> bool:
+    match given:
+        case ast.keyword("log_level", ast.Attribute(ast.Name("rospy"), level)):
             return level in _LEVELS
         case _:
             return False

@@ -40,6 +40,7 @@ from rebsync.roundtrip.verdict.wiring.names import (
     is_of_runtime,
     leads_in,
 )
+from rebsync.roundtrip.verdict.wiring.runtime_settings import is_of_all_rebecs, waits_longer
 
 _JOINING = frozenset(
     {
@@ -84,6 +85,8 @@ class Excuses:
         if self._has_moved(first) or self._is_renamed(key) or self._follows(first):
             return True
         if first.kind == "default" and is_always_given(self.base, self.today, key):
+            return True
+        if is_of_all_rebecs(self.today, key) or waits_longer(self.base, self.today, key):
             return True
         if first.kind == "import" and key not in self.today:
             return not self._is_named(first)
