@@ -114,6 +114,11 @@ class LibraryOutcomes:
         is_quiet = self.language is Language.CPP or python.is_of_client(name)
         return CallOutcome(frozenset() if is_quiet else _ANY_EXCEPTION, acts=_UNKNOWN)
 
+    @property
+    def of_anything(self) -> str:
+        """The exception that code raises of which nothing is known."""
+        return "an exception" if self.language is Language.CPP else "builtins.Exception"
+
     def of_failure(self, failure: str) -> str:
         """The exception that an operation raises; empty where none can be caught."""
         return outcome_classes.FAILURES[failure][self.language is Language.PYTHON]

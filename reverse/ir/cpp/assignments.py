@@ -42,7 +42,7 @@ def assignment(context: Context, node: Node) -> Value:
     def assigned() -> Value:
         target.append(lower_value(context, left))
         if not target[0].is_lvalue:
-            raise Unlowered("an assignment to no object that is known")
+            target[0] = _given(target[0], place)
         return Value(address(context, target[0], place), t.Reference(target[0].type))
 
     def value() -> Value:
@@ -64,6 +64,13 @@ def assignment(context: Context, node: Node) -> Value:
     if sign == "=":
         return assign(context, to, from_, place)
     return compound(context, sign.removesuffix("="), to, from_, place)
+
+
+def _given(value: Value, place: Span) -> Value:
+    """The object that a call of a library gives a reference to, as `m(0)` of a matrix."""
+    if value.type != t.UNKNOWN:
+        raise Unlowered("an assignment to no object that is known")
+    return dereferenced(value.expression, t.UNKNOWN, place)
 
 
 def assign(context: Context, to: Value, value: Value, place: Span) -> Value:
@@ -121,8 +128,8 @@ def update(context: Context, node: Node) -> Value:
     if called is not None:
         return called
     if not to.is_lvalue:
-        raise Unlowered("an increment of no object")
-    if not isinstance(to.type, t.Integer | t.Float):
+        to = _given(to, place)
+    if not isinstance(to.type, t.Integer | t.Float | t.Reference):
         return _of_library(context, sign, to, is_prefix, place)
     before = None
     if not is_prefix and not _is_discarded(node):
@@ -145,8 +152,6 @@ def _is_discarded(node: Node) -> bool:
 
 def _of_library(context: Context, sign: str, to: Value, is_prefix: bool, place: Span) -> Value:
     """An iterator, or what is not known."""
-    if isinstance(to.type, t.Reference):
-        raise Unlowered("arithmetic of pointers")
     target = context.temporary(t.UNKNOWN, place)
     argument = s.CallArgument(address(context, to, place))
     callee = s.LibraryCallee(f"operator{sign}")

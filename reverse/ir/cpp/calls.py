@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -17,6 +18,7 @@ from rebsync.reverse.ir.cpp.context import (
     Value,
     lower_value,
     lowers_expression,
+    unsupported,
 )
 from rebsync.reverse.ir.cpp.functions_called import (
     argument_values,
@@ -179,7 +181,9 @@ def _free(
     if found:
         chosen = resolve(context, found, argument_values(context, nodes))
         return call_function(context, chosen, nodes, place)
-    if name in symbols.code.macros or hides(name):
+    if name in symbols.code.macros:
+        return _expanded(context, function, name)
+    if hides(name):
         raise Unlowered(f"a macro, {name}")
     symbol = symbols.type_named(name, context.scope, path)
     type_ = context.world.types.of(context.cpp, context.scope, function) if types else t.UNKNOWN
@@ -189,6 +193,14 @@ def _free(
     if symbols.variable_named(name, context.scope, path) is not None:
         return call_value(context, lower_value(context, function), nodes, place)
     return _library(context, name, nodes, types, place)
+
+
+def _expanded(context: Context, function: Node, name: str) -> Value:
+    """A call of the program's own macro: the reader of bodies asks what its text does."""
+    node = function.parent or function
+    target = context.temporary(t.UNKNOWN, context.place(node))
+    context.emit(replace(unsupported(context, node, f"a macro, {name}", target), raises=False))
+    return Value(target, t.UNKNOWN)
 
 
 def _library(
@@ -250,8 +262,6 @@ def call_value(context: Context, value: Value, nodes: Sequence[Node], place: Spa
         return call_function(context, chosen, nodes, place, value)
     callee = s.ValueCallee(value.expression)
     if not isinstance(value.type, t.FunctionType) or value.type.parameters is None:
-        if nodes and not isinstance(value.expression, e.LibraryReference):
-            raise Unlowered("a call of a value that takes its arguments by value or by reference")
         arguments = library_arguments(context, nodes, place, is_pure=False)
         return stored_result(context, callee, arguments, AUTO, place)
     declared = [_declared(p) for p in value.type.parameters]

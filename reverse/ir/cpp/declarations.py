@@ -29,7 +29,7 @@ from rebsync.reverse.ir.cpp.objects import (
     implicitly,
 )
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
-from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.operators import Conversion, Operator
 from rebsync.reverse.syntax.cpp_declarations import declared_name
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
@@ -100,7 +100,8 @@ def _no_variable(context: Context, node: Node, declarator: Node) -> None:
     except Unlowered as error:
         del context.out[mark:]
         context.emit(s.Declare(local, type_, None, place))
-        context.emit(unsupported(context, node, str(error), local))
+        unread = unsupported(context, node, str(error), local)
+        context.emit(replace(unread, raises=not all(map(_looks_called, list_))))
     context.bind(name, Value(local, type_, is_lvalue=True))
     _begin(context, mark, local, type_, place)
 
@@ -116,6 +117,12 @@ def _argument(context: Context, node: Node) -> Node:
     if not is_name or context.world.symbols.type_named(text, context.scope, path) is not None:
         raise Unlowered("a declaration of a function in a body")
     return type_
+
+
+def _looks_called(node: Node) -> bool:
+    """Whether what looks like a parameter, a function without a name, is a call: `T x(f());`."""
+    declarator = node.child_by_field_name("declarator")
+    return declarator is not None and declarator.type == "abstract_function_declarator"
 
 
 def _is_static(node: Node) -> bool:
@@ -224,7 +231,12 @@ def _refer(
         to = address(context, found, place)
     else:
         if declared.reference is ReferenceKind.LVALUE:
-            raise Unlowered("a reference to what is not known as an object")
+            if found.type not in (declared.type, t.UNKNOWN):
+                raise Unlowered("a reference to what is not known as an object")
+            to = e.Convert(Conversion.CAST, found.expression, form, True, place)
+            context.emit(s.Declare(local, form, to, place))
+            context.bind(name, dereferenced(local, declared.type, place))
+            return
         extended = e.Local(context.unique(f"{name}~value"), found.type, place)
         mark = len(context.out)
         by_value(context, extended, found.type, found, place)

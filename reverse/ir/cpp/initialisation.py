@@ -10,9 +10,16 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.classes import DataMember, is_aggregate, members
+from rebsync.reverse.ir.cpp.classes import (
+    DataMember,
+    copies_trivially,
+    is_aggregate,
+    members,
+)
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value, lower_value
+from rebsync.reverse.ir.cpp.conversions import is_arithmetic
 from rebsync.reverse.ir.cpp.objects import (
+    address,
     as_value,
     class_of,
     default_constructed,
@@ -23,10 +30,11 @@ from rebsync.reverse.ir.cpp.objects import (
 from rebsync.reverse.ir.cpp.sequencing import in_order
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol
 from rebsync.reverse.ir.cpp.types import ReferenceKind
-from rebsync.reverse.syntax.cpp_tree import named
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 
 # What may be a text of which a part is taken, and no letter of one that is listed.
+FROM_RANGE = "std::vector::from_range"
 _PLACES = frozenset({"identifier", "field_expression", "qualified_identifier"})
 
 
@@ -150,7 +158,8 @@ def _filled(
         context.emit(s.Call(target, s.LibraryCallee("std::vector"), arguments, place))
         return
     if not isinstance(values[0].type, t.Integer) or len(values) > 2:
-        raise Unlowered("a container made of a range")
+        _of_range(context, target, element, values, place)
+        return
     count = implicitly(context, values[0], t.Integer(64, False), place).expression
     if len(values) == 2:
         fill = as_value(context, implicitly(context, values[1], element, place), place)
@@ -163,9 +172,24 @@ def _filled(
     context.emit(s.Call(target, s.LibraryCallee("std::vector"), arguments, place))
 
 
+def _of_range(
+    context: Context, target: e.Lvalue, element: t.Type, values: Sequence[Value], place: Span
+) -> None:
+    """`std::vector<T> v(begin, end);`: copies of what is between two iterators."""
+    owner = class_of(context, element)
+    is_range = len(values) == 2 and not any(is_arithmetic(v.type) for v in values)
+    if not is_range or (owner is not None and not copies_trivially(context.world, element)):
+        raise Unlowered("a container made of a range")
+    arguments = tuple(s.CallArgument(v.expression) for v in values)
+    context.emit(s.Call(target, s.LibraryCallee(FROM_RANGE), arguments, place))
+
+
 def _text(context: Context, target: e.Lvalue, nodes: Sequence[Node], place: Span) -> None:
     """`std::string s(count, 'x');` and `std::string s(other, position, count);`."""
     values = [lower_value(context, node) for node in nodes]
+    if all(map(_is_iterator, nodes)):
+        _of_range(context, target, t.Integer(8), values, place)
+        return
     numbers = [isinstance(value.type, t.Integer) for value in values]
     is_part = isinstance(values[0].type, t.Text) and all(numbers[1:]) and len(values) <= 3
     is_unknown = values[0].type == t.UNKNOWN and numbers == [False, True]
@@ -179,6 +203,11 @@ def _text(context: Context, target: e.Lvalue, nodes: Sequence[Node], place: Span
     ]
     arguments = tuple(map(s.CallArgument, found))
     context.emit(s.Call(target, s.LibraryCallee("std::string"), arguments, place))
+
+
+def _is_iterator(node: Node) -> bool:
+    """Whether a value is an iterator by how it is named: `other.begin()`."""
+    return text_of(node).endswith((".begin()", ".end()", ".cbegin()", ".cend()"))
 
 
 # --- lists in braces ([dcl.init.list]) ------------------------------------------------------------
@@ -339,20 +368,47 @@ def _aggregate(
 ) -> None:
     """Aggregate initialisation ([dcl.init.aggr]): fields in order, then their own initialisers."""
     fields = list(members(context.world, owner))
-    if any(n.type == "initializer_pair" for n in nodes) or len(nodes) > len(fields):
-        raise Unlowered("designated initialisers")
+    given = _designated(fields, nodes)
     operands: list[Callable[[], Value]] = []
-    for number, field in enumerate(fields):
-        if field.declared.reference is not ReferenceKind.NONE:
-            raise Unlowered("an aggregate with a reference")
-        if number < len(nodes):
-            operands.append(_operand(context, field.declared.type, nodes[number]))
-        else:
+    for field in fields:
+        node = given.get(field.key)
+        if node is None:
+            if field.declared.reference is not ReferenceKind.NONE:
+                raise Unlowered("an aggregate with a reference to nothing")
             operands.append(partial(_own_value, context, owner, field, place))
+        elif field.declared.reference is not ReferenceKind.NONE:
+            operands.append(partial(_referred, context, node, place))
+        else:
+            operands.append(_operand(context, field.declared.type, node))
     values = in_order(context, operands, place)
     pairs = tuple((f.key, v) for f, v in zip(fields, values, strict=True))
     built = e.BuildRecord(t.Record(owner.name), pairs, place)
     context.emit(s.Assign(target, built, place))
+
+
+def _designated(fields: Sequence[DataMember], nodes: Sequence[Node]) -> dict[str, Node]:
+    """The elements of a list in braces by the fields that they are for: `{a, b}`, `{.y = b}`."""
+    if not any(n.type == "initializer_pair" for n in nodes):
+        if len(nodes) > len(fields):
+            raise Unlowered("a list in braces that is longer than the object")
+        return {f.key: n for f, n in zip(fields, nodes, strict=False)}
+    found = {}
+    for node in nodes:
+        designator = node.child_by_field_name("designator")
+        name = text_of(designator).removeprefix(".") if designator is not None else ""
+        field = next((f for f in fields if f.symbol.name == name), None)
+        if field is None:
+            raise Unlowered("a designated initialiser of this kind")
+        found[field.key] = part(node, "value")
+    return found
+
+
+def _referred(context: Context, node: Node, place: Span) -> Value:
+    """The object that a field refers to."""
+    value = lower_value(context, node)
+    if not value.is_lvalue:
+        raise Unlowered("a member that refers to a temporary")
+    return Value(address(context, value, place), t.Reference(value.type))
 
 
 def _own_value(context: Context, owner: ClassSymbol, field: DataMember, place: Span) -> Value:

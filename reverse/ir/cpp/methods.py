@@ -190,6 +190,8 @@ def _pointer(
 ) -> Value | None:
     """Methods of smart pointers."""
     if type_.ownership is t.Ownership.NONE:
+        if name == "get" and not nodes:  # a pointer has no members: it is a `reference_wrapper`
+            return dereferenced(of.expression, type_.to, place)
         raise Unlowered("a member function of a pointer")
     if name == "get" and not nodes:
         raw = t.Reference(type_.to, True)
@@ -222,4 +224,6 @@ def _atomic(context: Context, of: Value, name: str, nodes: Sequence[Node], place
         else:
             compound(context, operator[name], of, value, place)
         return Value(before, of.type)
+    if name == "get" and not nodes and of.is_lvalue:
+        return of  # what a `reference_wrapper` in a pair refers to
     raise Unlowered("a member function of a number")

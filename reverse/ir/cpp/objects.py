@@ -109,7 +109,11 @@ def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value
     if owner is not None and not isinstance(to, t.Record | t.FunctionType):
         raise Unlowered("a conversion of an object that its class does not declare")
     if isinstance(to, t.Reference):
+        if _is_reference(to) and value.is_lvalue and value.type == to.to:
+            return Value(address(context, value, place), to)
         locked(context, value, place)
+    if _is_reference(value.type) and value.type.to == to:  # type: ignore[union-attr]
+        return dereferenced(value.expression, to, place)
     found = converted(value.expression, value.type, to, place)
     if found is not None:
         return Value(found, to, value.is_lvalue and found is value.expression)
@@ -119,6 +123,12 @@ def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value
         made_value = e.Convert(Conversion.CAST, as_value(context, value, place), to, True, place)
         return Value(made_value, to)
     raise Unlowered("a conversion that is not known")
+
+
+def _is_reference(type_: t.Type) -> bool:
+    """Whether a type is a reference as a part of another: `pair<T&, U>`, `reference_wrapper<T>`."""
+    is_plain = isinstance(type_, t.Reference) and type_.ownership is t.Ownership.NONE
+    return is_plain and not type_.may_be_null  # type: ignore[union-attr]
 
 
 def locked(context: Context, value: Value, place: Span, is_explicit: bool = False) -> None:
