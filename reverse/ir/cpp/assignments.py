@@ -7,7 +7,6 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.classes import copies_trivially
 from rebsync.reverse.ir.cpp.context import (
     Context,
     Unlowered,
@@ -80,10 +79,8 @@ def assign(context: Context, to: Value, value: Value, place: Span) -> Value:
         called = context.world.operator(context, "operator=", [to, value], place)
         if called is not None:
             return called
-        if not copies_trivially(context.world, to.type):
-            raise Unlowered("an assignment that a class makes by itself for its parts")
         value = implicitly(context, value, to.type, place)
-        assigned_memberwise(context, owner, to.expression, value.expression, place)
+        assigned_memberwise(context, owner, to.expression, value, place)
         return to
     target = to.expression
     if not isinstance(target, e.Lvalue):

@@ -21,7 +21,12 @@ from rebsync.reverse.ir.cpp.context import (
 )
 from rebsync.reverse.ir.cpp.conversions import converted
 from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
-from rebsync.reverse.ir.cpp.objects import address, class_of, implicitly
+from rebsync.reverse.ir.cpp.objects import (
+    UNKNOWN_CONSTRUCTOR,
+    address,
+    class_of,
+    implicitly,
+)
 from rebsync.reverse.ir.cpp.types import SIZE, Declared, ReferenceKind
 from rebsync.reverse.ir.dump_types import dump_type
 from rebsync.reverse.ir.operators import Conversion
@@ -71,12 +76,16 @@ def c_cast(context: Context, node: Node) -> Value:
 def cast(context: Context, value: Value, declared: Declared, place: Span) -> Value:
     """What a static cast gives: implicit conversions, and those to enumerations and void."""
     to = declared.type
-    if to == t.UNKNOWN:
-        raise Unlowered("a cast to a type that is not known")
     if declared.reference is not ReferenceKind.NONE:
         is_lvalue = value.is_lvalue and declared.reference is not ReferenceKind.RVALUE
         return Value(value.expression, to, is_lvalue)
     match to:
+        case t.Unknown():  # perhaps of a class, that has a constructor
+            target = context.temporary(to, place)
+            argument = s.CallArgument(value.expression)
+            callee = s.LibraryCallee(UNKNOWN_CONSTRUCTOR)
+            context.emit(s.Call(target, callee, (argument,), place))
+            return Value(target, to)
         case t.UnitType():
             context.emit(s.Evaluate(value.expression, place))
             return Value(e.Literal(None, t.NOTHING, place=place), t.NOTHING)

@@ -18,7 +18,8 @@ from rebsync.reverse.ir.cpp.context import (
     lowers_statement,
     unsupported,
 )
-from rebsync.reverse.ir.cpp.initialisation import by_arguments, by_value, initialised
+from rebsync.reverse.ir.cpp.elision import by_value
+from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
 from rebsync.reverse.ir.cpp.names import field_of
 from rebsync.reverse.ir.cpp.objects import (
     address,
@@ -75,7 +76,8 @@ def declare(context: Context, node: Node, declarator: Node) -> None:
         _bindings(context, declarator, value)
         return
     name = declared_name(declarator)
-    if name is None or type_node.type in ("class_specifier", "struct_specifier"):
+    is_class = type_node.type in ("class_specifier", "struct_specifier")
+    if name is None or (is_class and type_node.child_by_field_name("body") is not None):
         _no_variable(context, node, declarator)
         return
     declared = context.world.types.declared(context.cpp, context.scope, type_node, declarator)

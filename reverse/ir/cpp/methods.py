@@ -63,7 +63,7 @@ def _library_base(context: Context, type_: t.Type) -> str | None:
         for name, base in context.world.symbols.bases(class_):
             if base is None:
                 return context.world.types.imported(class_.cpp, name)
-    raise Unlowered("a member function that no class of the program has")
+    return None
 
 
 # --- containers -----------------------------------------------------------------------------------
