@@ -190,11 +190,20 @@ class OutcomeCalls:
                         self._hands(node, name)
                     case ClassOrigin(name, False) if not keeps:
                         self._makes(node, name)
-                    case LibraryOrigin(name, False) if not keeps and not _is_constant(name):
+                    case LibraryOrigin(name, False) if not keeps and self._is_handed(name):
                         outcome = self.notes.table.function(name)
                         self._library(node, name, outcome, None, facts)
                     case _:
                         pass
+
+    def _is_handed(self, name: str) -> bool:
+        """Whether what a library has under a name is perhaps a function, that is called then.
+
+        In C++ a name that no table has is taken for that of a constant.
+        """
+        if self.notes.table.language is Language.CPP:
+            return self.notes.table.is_known(name)
+        return not _is_constant(name)
 
     def _asks_a_node(self, node: s.Call) -> bool:
         """Whether a method is one that asks a node for something, as to call back."""
@@ -226,6 +235,9 @@ class OutcomeCalls:
                     self._enters(node, method)
             case LibraryOrigin(name, False):
                 self._library(node, name, self.notes.table.function(name), None, facts)
+            case _ if (of := self.expressions.library_class(value)) is not None:
+                outcome = self.notes.table.method(of, "operator()")
+                self._library(node, of, outcome, value, facts)
             case LibraryOrigin(name) if not self.notes.table.is_standard(name):
                 pass
             case LibraryOrigin(name) if self.notes.table.has_methods_of(name):
@@ -234,7 +246,9 @@ class OutcomeCalls:
             case _:
                 # What a function gets was looked at where it was handed over.
                 if not self.notes.is_parameter(value):
-                    self.notes.problem(node, _UNKNOWN)
+                    is_cpp = self.notes.table.language is Language.CPP
+                    raises = self.notes.table.of_anything if is_cpp else ""
+                    self.notes.problem(node, _UNKNOWN, raises)
 
     def _makes(self, node: s.Statement, name: str) -> None:
         if self.notes.is_model(name):

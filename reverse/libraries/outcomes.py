@@ -14,6 +14,7 @@ from collections.abc import Iterable, Mapping
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import (
     cpp,
+    looked_through,
     outcome_classes,
     outcome_rules,
     python,
@@ -84,7 +85,8 @@ class LibraryOutcomes:
             return CallOutcome(frozenset({"an exception"}), when=Raises.COUNT)
         known = self._named.get(name)
         if known is None and self.language is Language.CPP:
-            known = self._named.get(name.partition("<")[0].removeprefix("std::"))
+            plain = name.partition("<")[0].removeprefix("new ")
+            known = self._named.get(plain.removeprefix("std::").removeprefix("boost::"))
         if known is not None:
             return known
         of, _, last = name.rpartition("::" if self.language is Language.CPP else ".")
@@ -95,7 +97,7 @@ class LibraryOutcomes:
             return CallOutcome()
         if effect is not Effect.UNKNOWN:
             return CallOutcome(acts=effect.value)
-        return self._unknown(name) if self.is_standard(name) else CallOutcome()
+        return self._unknown(name)
 
     def method(self, of: str | None, name: str) -> CallOutcome:
         """How a call of a method may end, by its object's class, if that is known."""
@@ -107,12 +109,26 @@ class LibraryOutcomes:
         acting = python.acting_methods() if self.language is Language.PYTHON else cpp.acting()
         if is_asking or name in acting:
             return CallOutcome(acts="acts on a node")
-        return self._named.get(f".{name}", CallOutcome())
+        if of is None or self.language is Language.PYTHON or name in cpp.looking():
+            return self._named.get(f".{name}", CallOutcome())
+        return self._named.get(f".{name}") or self._unknown(f"{of}::{name}")
 
     def _unknown(self, name: str) -> CallOutcome:
-        """How what no table knows of a standard library may end; client libraries raise nothing."""
-        is_quiet = self.language is Language.CPP or python.is_of_client(name)
-        return CallOutcome(frozenset() if is_quiet else _ANY_EXCEPTION, acts=_UNKNOWN)
+        """How what no table knows may end: as anything, but of what was looked through.
+
+        In Python what is of none of the standard libraries gets values, and gives one.
+        """
+        acts = _UNKNOWN if self.is_standard(name) else ""
+        if self.language is Language.CPP:
+            thrown = {looked_through.thrown_by(name)}
+            quiet = looked_through.is_looked_through(name)
+            return CallOutcome(frozenset() if quiet else frozenset(thrown), acts=acts)
+        is_quiet = not acts or python.is_of_client(name)
+        return CallOutcome(frozenset() if is_quiet else _ANY_EXCEPTION, acts=acts)
+
+    def is_known(self, name: str) -> bool:
+        """Whether a table has a function or class by its full name."""
+        return name in self._named
 
     @property
     def of_anything(self) -> str:
@@ -133,6 +149,8 @@ class LibraryOutcomes:
     def _of_class(self, of: str, name: str) -> CallOutcome | None:
         """A method of a class of the table; classes that do the same are one."""
         plain = of.partition("<")[0]
+        if plain.startswith("boost::") and f"{plain}.{name}" not in self._named:
+            plain = plain.replace("boost::", "std::", 1)
         of = outcome_classes.CLASSES.get(plain, plain)
         found = self._named.get(f"{of}.{name}")
         if found is None and of in outcome_classes.PLAIN_CLASSES:

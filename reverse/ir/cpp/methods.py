@@ -179,8 +179,10 @@ def _optional(
             return dereferenced(of.expression, inner, place)
         case "reset":
             return assign(context, of, Value(e.Literal(None, t.NOTHING), t.NOTHING), place)
-        case "emplace" if len(nodes) == 1:
-            return assign(context, of, lower_value(context, nodes[0]), place)
+        case "emplace":
+            made = context.temporary(inner, place)
+            by_arguments(context, made, inner, nodes, place)
+            return assign(context, of, Value(made, inner), place)
         case _:
             return None
 

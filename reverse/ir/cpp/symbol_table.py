@@ -38,6 +38,8 @@ class SymbolTable:
             collected.add(cpp)
         self.imports = collected.imports
         self.names = collected.names
+        self.spaces = collected.spaces
+        self.own_spaces = collected.own_spaces
         self.classes: dict[str, ClassSymbol] = {}
         self.types: dict[str, TypeSymbol | None] = {}
         declared: list[TypeSymbol] = [*collected.classes, *collected.enums, *collected.aliases]

@@ -205,12 +205,25 @@ class TypeReader:
         """A library's name in full where the file says `using`."""
         head, _, rest = name.removeprefix("::").partition("::")
         full = self.symbols.names.get(cpp.source.path, {}).get(head)
+        full = full or (self.symbols.spaces.get(head) if rest else None)
         if full is not None:
-            return f"{full}::{rest}" if rest else full
+            return self.imported(cpp, f"{full}::{rest}") if rest else full
         if not rest and "std" in self.symbols.imports.get(cpp.source.path, ()):
             known = f"std::{name}" in _FUNDAMENTAL or name in _STANDARD
-            return f"std::{name}" if known else name
+            if known:
+                return f"std::{name}"
+        if not rest and (space := self._foreign_space(cpp)) is not None:
+            return f"{space}::{name}"
         return name.removeprefix("::")
+
+    def _foreign_space(self, cpp: Cpp) -> str | None:
+        """The namespace of a library that a file says `using namespace` of, but for `std`."""
+        spaces = self.symbols.imports.get(cpp.source.path, ())
+        others = (s for s in spaces if not s.startswith("std") and "literals" not in s)
+        own = self.symbols.own_spaces
+        return next(
+            (s for s in others if s not in own and s.rpartition("::")[2] != "placeholders"), None
+        )
 
     # --- templates ------------------------------------------------------------------------------
 
