@@ -100,6 +100,8 @@ class LibraryExceptions:
                 return any(self.expressions.texts(v) not in _WHOLE for v in values)
             case Raises.UNWRITTEN:
                 return not all(map(self.expressions.texts, values[:1]))
+            case Raises.UNDECLARED:
+                return len(values) == 1 and not self._are_declared(values[0])
             case Raises.UNORDERED:
                 return not self._are_ordered(values, facts)
             case _:
@@ -127,6 +129,11 @@ class LibraryExceptions:
                 return any(HasKey(of, value) in facts for of in names_of(facts, receiver))
             case _:
                 return False
+
+    def _are_declared(self, name: e.Expression) -> bool:
+        """Whether parameters are declared under all names that a text may be."""
+        names = self.expressions.texts(name)
+        return bool(names) and self.origins.declared_parameters.issuperset(names)
 
     def _is_number(self, value: e.Expression) -> bool:
         """Whether a value is a number by how it is computed."""

@@ -54,6 +54,8 @@ _OF_NUMBERS = frozenset(
         "round",
     ]
 )
+# What throws until a pointer owns the object, as none does while it is made.
+_SHARING = frozenset({"shared_from_this"})
 _UNKNOWN = "what is called is not known"
 
 
@@ -87,14 +89,14 @@ class OutcomeCalls:
             case s.FunctionCallee(name):
                 self._enters(node, name)
             case s.LibraryCallee(name, receiver):
+                is_own = receiver is None and self._of_template(node, name)
                 if receiver is not None:
                     self.expressions.check(receiver, facts)
-                else:
-                    self._of_template(node, name)
                 if name in _OF_NUMBERS:
                     for argument in node.arguments:
                         self.expressions.none.check(argument.value, node, facts)
-                self._library(node, name, self.notes.table.function(name), receiver, facts)
+                outcome = CallOutcome() if is_own else self.notes.table.function(name)
+                self._library(node, name, outcome, receiver, facts)
             case s.ValueCallee(value):
                 self.expressions.check(value, facts)
                 self.expressions.none.check(value, node, facts)
@@ -163,8 +165,11 @@ class OutcomeCalls:
         else:
             self.notes.take({Called(name)})
 
-    def _of_template(self, node: s.Call, name: str) -> None:
-        """A function of a parameter of a template, or of a class that one gives: of any class."""
+    def _of_template(self, node: s.Call, name: str) -> bool:
+        """A function of a parameter of a template, or of a class that one gives: of any class.
+
+        Whether it is one of the program's templates, which has it.
+        """
         before = ""
         while before != name:
             before, name = name, _PARAMETERS.sub("", name)
@@ -173,6 +178,8 @@ class OutcomeCalls:
             for method in sorted(self.origins.methods_of_any(last)):
                 if not self.notes.is_model(method):
                     self._enters(node, method)
+        classes = self.origins.graph.program.classes
+        return any(c == scope or c.endswith(f"::{scope}") for c in classes)
 
     def _arguments(self, node: s.Call, facts: Facts) -> None:
         keeps = self._keeps_types(node)
@@ -332,6 +339,8 @@ class OutcomeCalls:
             case LibraryOrigin(of, False):
                 full = f"{of}.{name}"
                 self._library(node, full, self.notes.table.function(full), receiver, facts)
+            case LibraryOrigin(of) if self.notes.table.is_function(of):
+                self._of_object(node, callee, AnyOrigin(), facts)  # which class it gives is open
             case LibraryOrigin(of):
                 if of == UNKNOWN_CLASS:
                     for method in sorted(self.origins.methods_of_any(name)):
@@ -374,6 +383,8 @@ class OutcomeCalls:
             self.notes.fails(node, "lacks the argument")
         if outcome.acts:
             self.notes.problem(node, f'"{name}": {outcome.acts}')
+        if name.rpartition("::")[2] in _SHARING and self.function in self.origins.constructing:
+            self.notes.problem(node, f'"{name}" may raise an exception', "std::bad_weak_ptr")
         if any(map(self._is_own_iterator, node.arguments)):
             self.notes.problem(node, f'"{name}" may never come to the end')
         for raised in self._exceptions.of(node, outcome, receiver, facts):

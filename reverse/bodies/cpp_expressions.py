@@ -173,9 +173,10 @@ class CppExpressions(CppExpressionReader):
             why = f"{unread.why}, and only a message server can choose"
             raise Unread(unread.span, why, unread.hint)
         Effects(self.cpp, self.scope).check(node)
-        why = self.scope.form.raises(self.cpp, node) if self.scope.form is not None else None
-        if why is not None:
-            raise Unread(self.cpp.span(node), why, "catch what it throws, or look before")
+        form = self.scope.form
+        raised = form.raises(self.cpp, node) if form is not None else None
+        if raised is not None:
+            raise Unread(self.cpp.span(node), raised, "catch what it throws, or look before")
         source = self.cpp.source
         self.findings.approximated(source, unread.span, unread.why, unread.hint, self.within)
 

@@ -16,7 +16,7 @@ _SCOPES = frozenset(
         *("ros", "rclcpp", "rclcpp_lifecycle", "rclcpp_action", "rclcpp_components", "rmw"),
         *("actionlib", "message_filters", "image_transport", "nodelet", "dynamic_reconfigure"),
         *("diagnostic_updater", "realtime_tools", "topic_tools", "tf", "tf2", "tf2_ros"),
-        *("angles", "Eigen", "message", "builtin_interfaces", "rosidl_runtime_cpp"),
+        *("angles", "Eigen", "testing", "message", "builtin_interfaces", "rosidl_runtime_cpp"),
     }
 )
 _MESSAGES = re.compile(
@@ -41,6 +41,9 @@ _THROWN = {
 }
 
 
+_ASKING = frozenset({"rows", "cols", "size", "norm", "squaredNorm", "data", "setZero", "resize"})
+
+
 def thrown_by(name: str) -> str:
     """The exception that a function may throw of which no table has more than its name."""
     return _THROWN.get(name.partition("::")[0], "an exception")
@@ -48,7 +51,10 @@ def thrown_by(name: str) -> str:
 
 def is_looked_through(name: str) -> bool:
     """Whether a full name is of such a library, or of none: those of C throw nothing."""
+    name = name.removeprefix("new ").removeprefix("::")
     scope, _, last = name.partition("::")
-    if _COMPUTED.match(name):
-        return not last.partition("::")[2]  # but to declare one
+    if _COMPUTED.match(name):  # but to declare one, or to ask it
+        return not last.partition("::")[2] or name.rpartition("::")[2] in _ASKING
+    if name.rpartition("::")[2] in ("what", "c_str") or name.endswith("Ptr"):
+        return True
     return not last or scope in _SCOPES or _MESSAGES.match(name) is not None

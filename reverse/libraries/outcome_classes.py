@@ -47,6 +47,7 @@ EXCEPTIONS: Mapping[str, str] = {
     **dict.fromkeys(("nlohmann::detail::exception", "boost::bad_get"), "std::exception"),
     **dict.fromkeys(("cv::Exception", "image_geometry::Exception"), "std::runtime_error"),
     **dict.fromkeys(("std::bad_typeid",), "std::exception"),
+    "rclcpp::exceptions::ParameterNotDeclaredException": "std::runtime_error",
     **dict.fromkeys(("std::ios_base::failure", "pcl::PCLException"), "std::runtime_error"),
     # One of these names stands for the other.
     "tf2::TransformException": "tf::TransformException",

@@ -55,6 +55,7 @@ class Raises(Enum):
     POWER = "a second one that is no positive number in the source"
     CODED = "another encoding than UTF-8, which has all characters"
     UNWRITTEN = "a first one that is no text in the source"
+    UNDECLARED = "the name alone of a parameter that nobody declares in the source"
     UNORDERED = "two of which the second may be the smaller one"
 
 

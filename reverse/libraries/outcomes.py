@@ -21,6 +21,7 @@ from rebsync.reverse.libraries import (
     python_outcomes,
 )
 from rebsync.reverse.libraries.effects import of_function
+from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
 from rebsync.reverse.libraries.outcome_rules import Raises, Size, Tells
 from rebsync.reverse.libraries.registry import derived
 from rebsync.reverse.libraries.routines import Effect, Language
@@ -125,6 +126,13 @@ class LibraryOutcomes:
             return CallOutcome(frozenset() if quiet else frozenset(thrown), acts=acts)
         is_quiet = not acts or python.is_of_client(name)
         return CallOutcome(frozenset() if is_quiet else _ANY_EXCEPTION, acts=acts)
+
+    def is_function(self, name: str) -> bool:
+        """Whether a full name in C++ is written as functions are, and no table has such a class."""
+        last = name.partition("<")[0].rpartition("::")[2]
+        is_class = name in outcome_classes.CLASSES or self.has_methods_of(name)
+        is_cpp = self.language is Language.CPP
+        return is_cpp and not is_class and not last[:1].isupper() and name not in PLAIN_CLASSES
 
     def is_known(self, name: str) -> bool:
         """Whether a table has a function or class by its full name."""

@@ -19,6 +19,15 @@ _QUIET = (
     OutcomeRule(
         "cv::Vec3b cv::Vec3f cv::Mat.empty cv::Mat.data cv::Mat.rows cv::Mat.cols cv::KeyPoint"
     ),
+    OutcomeRule("image_geometry::PinholeCameraModel image_geometry::PinholeCameraModel.fx"),
+    OutcomeRule("image_geometry::PinholeCameraModel.fy image_geometry::PinholeCameraModel.cx"),
+    OutcomeRule("image_geometry::PinholeCameraModel.cy image_geometry::PinholeCameraModel.Tx"),
+    OutcomeRule("image_geometry::PinholeCameraModel.Ty cv_bridge::CvImage.toImageMsg"),
+    OutcomeRule("bind filesystem::path.stem filesystem::path.string filesystem::path.filename"),
+    OutcomeRule(
+        "filesystem::path.extension filesystem::path.parent_path filesystem::path.u8string"
+    ),
+    OutcomeRule("filesystem::path.operator/ filesystem::path.empty filesystem::path.has_filename"),
     OutcomeRule("cv_bridge::CvImage cv_bridge::CvImagePtr cv_bridge::CvImageConstPtr"),
     OutcomeRule(
         "boost::bind boost::mutex boost::recursive_mutex boost::shared_mutex boost::noncopyable"
@@ -136,6 +145,11 @@ THROWN = (
         "sensor_msgs::PointCloud2Iterator sensor_msgs::PointCloud2ConstIterator "
         "sensor_msgs::image_encodings::bitDepth sensor_msgs::image_encodings::numChannels",
         raises="std::runtime_error",
+    ),
+    OutcomeRule(
+        "get_parameter .get_parameter rclcpp::Node.get_parameter rclcpp_lifecycle::LifecycleNode.get_parameter",
+        raises="rclcpp::exceptions::ParameterNotDeclaredException",
+        when=Raises.UNDECLARED,
     ),
     OutcomeRule("locale", raises="std::runtime_error"),
     OutcomeRule("typeid", raises="std::bad_typeid"),

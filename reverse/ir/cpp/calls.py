@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -18,7 +17,6 @@ from rebsync.reverse.ir.cpp.context import (
     Value,
     lower_value,
     lowers_expression,
-    unsupported,
 )
 from rebsync.reverse.ir.cpp.functions_called import (
     argument_values,
@@ -28,6 +26,7 @@ from rebsync.reverse.ir.cpp.functions_called import (
 )
 from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
 from rebsync.reverse.ir.cpp.library import function_result, is_pure
+from rebsync.reverse.ir.cpp.macros import expanded
 from rebsync.reverse.ir.cpp.methods import library_method
 from rebsync.reverse.ir.cpp.names import field_of, object_of, this_object
 from rebsync.reverse.ir.cpp.objects import as_value, class_of, ended_later, locked, passed
@@ -184,7 +183,7 @@ def _free(
             context, found, values, lambda f: call_function(context, f, nodes, place), place
         )
     if name in symbols.code.macros:
-        return _expanded(context, function, name)
+        return expanded(context, name, nodes, place)
     if hides(name):
         raise Unlowered(f"a macro, {name}")
     symbol = symbols.type_named(name, context.scope, path)
@@ -195,14 +194,6 @@ def _free(
     if symbols.variable_named(name, context.scope, path) is not None:
         return call_value(context, lower_value(context, function), nodes, place)
     return _library(context, name, nodes, types, place)
-
-
-def _expanded(context: Context, function: Node, name: str) -> Value:
-    """A call of the program's own macro: the reader of bodies asks what its text does."""
-    node = function.parent or function
-    target = context.temporary(t.UNKNOWN, context.place(node))
-    context.emit(replace(unsupported(context, node, f"a macro, {name}", target), raises=False))
-    return Value(target, t.UNKNOWN)
 
 
 def _library(
