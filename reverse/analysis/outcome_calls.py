@@ -27,6 +27,7 @@ from rebsync.reverse.analysis.problems import Called, ProblemNotes
 from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import ImplicitCall
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS, PLAIN_CLASSES, UNKNOWN_CLASS
 from rebsync.reverse.libraries.outcomes import CallOutcome
@@ -62,6 +63,12 @@ _UNKNOWN = "what is called is not known"
 def _is_constant(name: str) -> bool:
     """Whether a name of a library is written as those of constants are."""
     return name.rpartition(".")[2].isupper()
+
+
+def _is_standard(value: e.Expression) -> bool:
+    """Whether a value in C++ is an object of the standard library, by its type."""
+    type_ = getattr(value, "type", None)
+    return isinstance(type_, t.Record) and type_.name.startswith("std::")
 
 
 class OutcomeCalls:
@@ -242,6 +249,8 @@ class OutcomeCalls:
                     self._enters(node, method)
             case LibraryOrigin(name, False):
                 self._library(node, name, self.notes.table.function(name), None, facts)
+            case _ if _is_standard(value):
+                pass  # a distribution, a comparison: it gives a value
             case _ if (of := self.expressions.library_class(value)) is not None:
                 outcome = self.notes.table.method(of, "operator()")
                 self._library(node, of, outcome, value, facts)

@@ -28,6 +28,8 @@ _COMPUTED = re.compile(
 )
 
 
+# Parts of boost that are functions of values.
+_QUIET = ("boost::algorithm::", "boost::ignore_unused", "boost::math::", "boost::posix_time::")
 # What the functions of other libraries throw, by the namespace, where that is known.
 _THROWN = {
     "cv": "cv::Exception",
@@ -55,6 +57,10 @@ def is_looked_through(name: str) -> bool:
     scope, _, last = name.partition("::")
     if _COMPUTED.match(name):  # but to declare one, or to ask it
         return not last.partition("::")[2] or name.rpartition("::")[2] in _ASKING
-    if name.rpartition("::")[2] in ("what", "c_str") or name.endswith("Ptr"):
+    if name.rpartition("::")[2] in ("what", "c_str"):
+        return True
+    if any(each.endswith("Ptr") for each in name.split("::")):  # smart pointers, by custom
+        return True
+    if name.startswith(_QUIET):
         return True
     return not last or scope in _SCOPES or _MESSAGES.match(name) is not None

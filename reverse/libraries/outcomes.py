@@ -66,12 +66,14 @@ class LibraryOutcomes:
 
     `opaque` are names of the program itself that no lowering sees through: macros, and modules of
     which it is not known where they are. Where it `trusts_others`, methods of what a library made
-    that no table knows raise nothing by their names alone.
+    that no table knows raise nothing by their names alone. `messages` are classes in C++ of which
+    headers are included that hold nothing but a message.
     """
 
     language: Language
     opaque: frozenset[str] = frozenset()
     trusts_others: bool = False
+    messages: frozenset[str] = frozenset()
 
     @property
     def _named(self) -> Mapping[str, CallOutcome]:
@@ -122,7 +124,9 @@ class LibraryOutcomes:
         acts = _UNKNOWN if self.is_standard(name) else ""
         if self.language is Language.CPP:
             thrown = {looked_through.thrown_by(name)}
-            quiet = looked_through.is_looked_through(name)
+            is_client = bool(acts) and not name.startswith("std::")
+            is_client |= name.removeprefix("new ") in self.messages
+            quiet = is_client or looked_through.is_looked_through(name)
             return CallOutcome(frozenset() if quiet else frozenset(thrown), acts=acts)
         is_quiet = not acts or python.is_of_client(name)
         return CallOutcome(frozenset() if is_quiet else _ANY_EXCEPTION, acts=acts)

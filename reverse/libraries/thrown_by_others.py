@@ -10,6 +10,11 @@ from rebsync.reverse.libraries.outcome_rules import OutcomeRule, Raises
 
 _QUIET = (
     OutcomeRule("nlohmann::json nlohmann::ordered_json YAML::Node Json::Value"),
+    OutcomeRule(
+        "nlohmann::json.size nlohmann::json.empty nlohmann::json.find nlohmann::json.count"
+    ),
+    OutcomeRule("lock try_lock binary_semaphore counting_semaphore latch barrier"),
+    OutcomeRule("std::binary_semaphore.release std::counting_semaphore.release"),
     OutcomeRule("nlohmann::json.contains nlohmann::json.is_null nlohmann::json.is_object"),
     OutcomeRule("nlohmann::json.is_number nlohmann::json.is_string nlohmann::json.is_array"),
     OutcomeRule("YAML::Node.IsDefined YAML::Node.IsNull YAML::Node.IsMap YAML::Node.IsSequence"),
@@ -23,11 +28,18 @@ _QUIET = (
     OutcomeRule("image_geometry::PinholeCameraModel.fy image_geometry::PinholeCameraModel.cx"),
     OutcomeRule("image_geometry::PinholeCameraModel.cy image_geometry::PinholeCameraModel.Tx"),
     OutcomeRule("image_geometry::PinholeCameraModel.Ty cv_bridge::CvImage.toImageMsg"),
-    OutcomeRule("bind filesystem::path.stem filesystem::path.string filesystem::path.filename"),
     OutcomeRule(
-        "filesystem::path.extension filesystem::path.parent_path filesystem::path.u8string"
+        "bind std::filesystem::path.stem std::filesystem::path.string "
+        "std::filesystem::path.filename"
     ),
-    OutcomeRule("filesystem::path.operator/ filesystem::path.empty filesystem::path.has_filename"),
+    OutcomeRule(
+        "std::filesystem::path.extension std::filesystem::path.parent_path "
+        "std::filesystem::path.u8string"
+    ),
+    OutcomeRule(
+        "std::filesystem::path.operator/ std::filesystem::path.empty "
+        "std::filesystem::path.has_filename"
+    ),
     OutcomeRule("cv_bridge::CvImage cv_bridge::CvImagePtr cv_bridge::CvImageConstPtr"),
     OutcomeRule(
         "boost::bind boost::mutex boost::recursive_mutex boost::shared_mutex boost::noncopyable"
@@ -147,7 +159,8 @@ THROWN = (
         raises="std::runtime_error",
     ),
     OutcomeRule(
-        "get_parameter .get_parameter rclcpp::Node.get_parameter rclcpp_lifecycle::LifecycleNode.get_parameter",
+        "get_parameter .get_parameter rclcpp::Node.get_parameter "
+        "rclcpp_lifecycle::LifecycleNode.get_parameter",
         raises="rclcpp::exceptions::ParameterNotDeclaredException",
         when=Raises.UNDECLARED,
     ),

@@ -200,7 +200,8 @@ def _library(
     context: Context, name: str, nodes: Sequence[Node], types: Sequence[Node], place: Span
 ) -> Value:
     """A function or class of a library."""
-    full = context.world.types.imported(context.cpp, name)
+    full = context.world.types.without_alias(context.cpp, context.scope, name)
+    full = context.world.types.imported(context.cpp, full)
     known = STANDARD.get(full.removeprefix("boost::").removeprefix("std::"))
     if known is not None and full.startswith(("std::", "boost::")):
         result = known(context, nodes, types, place)

@@ -179,7 +179,17 @@ class TypeReader:
                 return t.Enumeration(symbol.name, self.underlying(symbol))
             case AliasSymbol():
                 return self.declared(symbol.cpp, symbol.scope, symbol.type, symbol.declarator).type
-        return self._of_library(cpp, name)
+        return self._of_library(cpp, self.without_alias(cpp, scope, name))
+
+    def without_alias(self, cpp: Cpp, scope: str, name: str) -> str:
+        """`Clock::now` by the class of a library that `Clock` is another name of."""
+        outer, _, last = name.rpartition("::")
+        found = self.symbols.type_named(outer, scope, cpp.source.path) if outer else None
+        if isinstance(found, AliasSymbol):
+            type_ = self.named(cpp, scope, outer)
+            if isinstance(type_, t.Record):
+                return f"{type_.name}::{last}"
+        return name
 
     def underlying(self, symbol: EnumSymbol) -> t.Integer:
         """The integers that an enumeration's values are."""
