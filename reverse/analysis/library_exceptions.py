@@ -133,7 +133,7 @@ class LibraryExceptions:
     def _are_declared(self, name: e.Expression) -> bool:
         """Whether parameters are declared under all names that a text may be."""
         names = self.expressions.texts(name)
-        return bool(names) and self.origins.declared_parameters.issuperset(names)
+        return bool(names) and self.origins.of_cpp.declared_parameters.issuperset(names)
 
     def _is_number(self, value: e.Expression) -> bool:
         """Whether a value is a number by how it is computed."""

@@ -12,6 +12,7 @@ from typing import TypeAlias
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
+from rebsync.reverse.analysis.cpp_facts import CppFacts
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
 from rebsync.reverse.analysis.stores import (
     AnyValue,
@@ -27,7 +28,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
-from rebsync.reverse.ir.program import FunctionKind, Program
+from rebsync.reverse.ir.program import Program
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 
@@ -282,34 +283,9 @@ class Origins:
         return self.graph.implicit(asked - {ImplicitCall.CONSTRUCT, ImplicitCall.CALL})
 
     @cached_property
-    def constructing(self) -> frozenset[str]:
-        """The constructors of C++, and what these call at once."""
-        program = self.graph.program
-        kinds = {f: program.function(f).kind for f in program.functions}
-        found = {f for f, kind in kinds.items() if kind is FunctionKind.CONSTRUCTOR}
-        waiting = [*found]
-        while waiting:
-            body = program.function(waiting.pop()).body
-            calls = (n.callee for n in walk(body) if isinstance(n, s.Call))
-            called = {c.name for c in calls if isinstance(c, s.FunctionCallee)}
-            waiting += [name for name in called - found if name in program]
-            found |= called
-        return frozenset(found)
-
-    @cached_property
-    def declared_parameters(self) -> frozenset[str]:
-        """The names that stand in calls which declare a parameter of a node in C++."""
-        every = (self.graph.program.function(name) for name in self.graph.program.functions)
-        calls = (n for f in every for n in walk(f) if isinstance(n, s.Call))
-        declaring = (c for c in calls if "declare_parameter" in getattr(c.callee, "name", ""))
-        texts = (
-            n.value
-            for c in declaring
-            for a in c.arguments
-            for n in walk(a.value)
-            if isinstance(n, e.Literal)
-        )
-        return frozenset(text for text in texts if isinstance(text, str))
+    def of_cpp(self) -> CppFacts:
+        """What the program says as a whole, if it is of C++."""
+        return CppFacts(self.graph.program)
 
     @cached_property
     def read_attributes(self) -> frozenset[str]:

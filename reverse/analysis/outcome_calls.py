@@ -13,6 +13,7 @@ from rebsync.reverse.analysis.facts import (
 from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.given_arguments import GivenArguments
 from rebsync.reverse.analysis.library_exceptions import LibraryExceptions
+from rebsync.reverse.analysis.library_operators import is_standard
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
     ClassOrigin,
@@ -27,7 +28,6 @@ from rebsync.reverse.analysis.problems import Called, ProblemNotes
 from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import ImplicitCall
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS, PLAIN_CLASSES, UNKNOWN_CLASS
 from rebsync.reverse.libraries.outcomes import CallOutcome
@@ -36,39 +36,15 @@ from rebsync.reverse.libraries.routines import Language
 _PARAMETERS = re.compile(r"<[^<>]*>")
 _WAITING_ALONE = frozenset({"get", "join"})
 # What takes numbers, or elements, and so no None.
-_OF_NUMBERS = frozenset(
-    f"builtins.{name}"
-    for name in [
-        "len",
-        "int",
-        "float",
-        "abs",
-        "sum",
-        "min",
-        "max",
-        "sorted",
-        "list",
-        "tuple",
-        "set",
-        "enumerate",
-        "zip",
-        "round",
-    ]
-)
-# What throws until a pointer owns the object, as none does while it is made.
-_SHARING = frozenset({"shared_from_this"})
+_NUMERIC = ("len", "int", "float", "abs", "sum", "min", "max", "round")
+_ELEMENTS = ("sorted", "list", "tuple", "set", "enumerate", "zip")
+_OF_NUMBERS = frozenset(f"builtins.{name}" for name in (*_NUMERIC, *_ELEMENTS))
 _UNKNOWN = "what is called is not known"
 
 
 def _is_constant(name: str) -> bool:
     """Whether a name of a library is written as those of constants are."""
     return name.rpartition(".")[2].isupper()
-
-
-def _is_standard(value: e.Expression) -> bool:
-    """Whether a value in C++ is an object of the standard library, by its type."""
-    type_ = getattr(value, "type", None)
-    return isinstance(type_, t.Record) and type_.name.startswith("std::")
 
 
 class OutcomeCalls:
@@ -249,9 +225,9 @@ class OutcomeCalls:
                     self._enters(node, method)
             case LibraryOrigin(name, False):
                 self._library(node, name, self.notes.table.function(name), None, facts)
-            case _ if _is_standard(value):
+            case _ if is_standard(value):
                 pass  # a distribution, a comparison: it gives a value
-            case _ if (of := self.expressions.library_class(value)) is not None:
+            case _ if (of := self.expressions.operators.class_of(value)) is not None:
                 outcome = self.notes.table.method(of, "operator()")
                 self._library(node, of, outcome, value, facts)
             case LibraryOrigin(name) if not self.notes.table.is_standard(name):
@@ -392,7 +368,7 @@ class OutcomeCalls:
             self.notes.fails(node, "lacks the argument")
         if outcome.acts:
             self.notes.problem(node, f'"{name}": {outcome.acts}')
-        if name.rpartition("::")[2] in _SHARING and self.function in self.origins.constructing:
+        if name.endswith("shared_from_this") and self.function in self.origins.of_cpp.constructing:
             self.notes.problem(node, f'"{name}" may raise an exception', "std::bad_weak_ptr")
         if any(map(self._is_own_iterator, node.arguments)):
             self.notes.problem(node, f'"{name}" may never come to the end')

@@ -17,6 +17,7 @@ from rebsync.reverse.analysis.facts import (
 from rebsync.reverse.analysis.foreign_values import ForeignValues
 from rebsync.reverse.analysis.held_values import held_by
 from rebsync.reverse.analysis.least_numbers import LeastNumbers
+from rebsync.reverse.analysis.library_operators import LibraryOperators
 from rebsync.reverse.analysis.none_values import NoneValues
 from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origin
 from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
@@ -58,6 +59,7 @@ class OutcomeExpressions:
         self.none = NoneValues(notes)
         self._unset = UnsetNames(notes)
         self.foreign = ForeignValues(notes.origins)
+        self.operators = LibraryOperators(notes)
 
     def check(self, value: e.Expression, facts: Facts) -> None:
         """Notes what evaluating an expression may do."""
@@ -103,7 +105,7 @@ class OutcomeExpressions:
                 self.none.check(right, value, facts)
             case _:
                 pass
-        self._operates(value)
+        self.operators.check(value)
         match value:
             case e.Binary(operator, left, right) if operator in _DIVIDING:
                 self._divides(value, left, right, facts)
@@ -134,36 +136,6 @@ class OutcomeExpressions:
     def _names(self, value: e.Expression, name: str) -> None:
         if self.notes.is_model(name):
             self.notes.problem(value, f'"{name.rpartition("/")[2]}" is the model\'s')
-
-    # --- operators of libraries ------------------------------------------------------------------
-
-    def library_class(self, value: object) -> str | None:
-        """The class of a library that an object in C++ is of, by its type."""
-        type_ = getattr(value, "type", None)
-        if self.notes.table.language is not Language.CPP or not isinstance(type_, t.Record):
-            return None
-        plain = type_.name.partition("<")[0]
-        is_own = type_.name in self.origins.graph.program.classes
-        return None if is_own or plain.startswith("std::") else type_.name
-
-    def _operates(self, value: e.Expression) -> None:
-        """Operators and conversion functions that classes of libraries have."""
-        match value:
-            case e.Binary(operator, left, right):
-                found = [(left, operator.value), (right, operator.value)]
-            case e.Unary(operator, operand):
-                found = [(operand, operator.value)]
-            case e.Index(operand):
-                found = [(operand, "[]")]
-            case e.Convert(_, operand, type_) if not isinstance(type_, t.Record):
-                found = [(operand, " conversion")]
-            case _:
-                return
-        for operand, sign in found:
-            if (of := self.library_class(operand)) is None:
-                continue
-            for raised in self.notes.table.method(of, f"operator{sign}").raises:
-                self.notes.problem(value, f'"{of}" may raise an exception', raised)
 
     # --- division --------------------------------------------------------------------------------
 
