@@ -102,6 +102,8 @@ class LibraryExceptions:
                 return not all(map(self.expressions.texts, values[:1]))
             case Raises.UNDECLARED | Raises.REPEATED:
                 return self._is_odd_parameter(node, when, facts)
+            case Raises.UNDECLARED_ALONE:
+                return len(values) == 1 and not self._are_declared(values[0])
             case Raises.UNORDERED:
                 return not self._are_ordered(values, facts)
             case _:
@@ -138,6 +140,11 @@ class LibraryExceptions:
                 return HasKey(value, value) in facts
             case _:
                 return False
+
+    def _are_declared(self, name: e.Expression) -> bool:
+        """Whether parameters are declared under all names that a text may be."""
+        names = self.expressions.texts(name)
+        return bool(names) and self.origins.of_cpp.declared_parameters.issuperset(names)
 
     def _is_number(self, value: e.Expression) -> bool:
         """Whether a value is a number by how it is computed."""

@@ -12,6 +12,7 @@ from typing import TypeAlias
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
+from rebsync.reverse.analysis.cpp_facts import CppFacts
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
 from rebsync.reverse.analysis.stores import (
     AnyValue,
@@ -297,6 +298,11 @@ class Origins:
         classes = self.graph.program.classes.values()
         asked = {o for c in classes for o, _ in c.operators}
         return self.graph.implicit(asked - {ImplicitCall.CONSTRUCT, ImplicitCall.CALL})
+
+    @cached_property
+    def of_cpp(self) -> CppFacts:
+        """What the program says as a whole, if it is of C++."""
+        return CppFacts(self.graph.program)
 
     @cached_property
     def read_attributes(self) -> frozenset[str]:

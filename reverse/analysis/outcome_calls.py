@@ -9,6 +9,7 @@ from rebsync.reverse.analysis.facts import Facts, IsThere, stored, without_share
 from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.given_arguments import GivenArguments
 from rebsync.reverse.analysis.library_exceptions import LibraryExceptions
+from rebsync.reverse.analysis.library_operators import is_standard
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
     ClassOrigin,
@@ -31,13 +32,9 @@ from rebsync.reverse.libraries.routines import Language
 _PARAMETERS = re.compile(r"<[^<>]*>")
 _WAITING_ALONE = frozenset({"get", "join"})
 # What takes numbers, or elements, and so no None.
-_OF_NUMBERS = frozenset(
-    f"builtins.{name}"
-    for name in (
-        *("len", "int", "float", "abs", "sum", "min", "max", "sorted", "list", "tuple", "set"),
-        *("enumerate", "zip", "round"),
-    )
-)
+_NUMERIC = ("len", "int", "float", "abs", "sum", "min", "max", "round")
+_ELEMENTS = ("sorted", "list", "tuple", "set", "enumerate", "zip")
+_OF_NUMBERS = frozenset(f"builtins.{name}" for name in (*_NUMERIC, *_ELEMENTS))
 _UNKNOWN = "what is called is not known"
 
 
@@ -75,14 +72,14 @@ class OutcomeCalls:
             case s.FunctionCallee(name):
                 self._enters(node, name)
             case s.LibraryCallee(name, receiver):
+                is_own = receiver is None and self._of_template(node, name)
                 if receiver is not None:
                     self.expressions.check(receiver, facts)
-                else:
-                    self._of_template(node, name)
                 if name in _OF_NUMBERS:
                     for argument in node.arguments:
                         self.expressions.none.check(argument.value, node, facts)
-                self._library(node, name, self.notes.table.function(name), receiver, facts)
+                outcome = CallOutcome() if is_own else self.notes.table.function(name)
+                self._library(node, name, outcome, receiver, facts)
             case s.ValueCallee(value):
                 self.expressions.check(value, facts)
                 self.expressions.none.check(value, node, facts)
@@ -156,8 +153,11 @@ class OutcomeCalls:
         else:
             self.notes.take({Called(name)})
 
-    def _of_template(self, node: s.Call, name: str) -> None:
-        """A function of a parameter of a template, or of a class that one gives: of any class."""
+    def _of_template(self, node: s.Call, name: str) -> bool:
+        """A function of a parameter of a template, or of a class that one gives: of any class.
+
+        Whether it is one of the program's templates, which has it.
+        """
         before = ""
         while before != name:
             before, name = name, _PARAMETERS.sub("", name)
@@ -166,6 +166,8 @@ class OutcomeCalls:
             for method in sorted(self.origins.methods_of_any(last)):
                 if not self.notes.is_model(method):
                     self._enters(node, method)
+        classes = self.origins.graph.program.classes
+        return any(c == scope or c.endswith(f"::{scope}") for c in classes)
 
     def _arguments(self, node: s.Call, facts: Facts) -> None:
         keeps = self._keeps_types(node)
@@ -185,11 +187,20 @@ class OutcomeCalls:
                         self._hands(node, name)
                     case ClassOrigin(name, False) if not keeps:
                         self._makes(node, name)
-                    case LibraryOrigin(name, False) if not keeps and not _is_constant(name):
+                    case LibraryOrigin(name, False) if not keeps and self._is_handed(name):
                         outcome = self.notes.table.function(name)
                         self._library(node, name, outcome, None, facts)
                     case _:
                         pass
+
+    def _is_handed(self, name: str) -> bool:
+        """Whether what a library has under a name is perhaps a function, that is called then.
+
+        In C++ a name that no table has is taken for that of a constant.
+        """
+        if self.notes.table.language is Language.CPP:
+            return self.notes.table.is_known(name)
+        return not _is_constant(name)
 
     def _asks_a_node(self, node: s.Call) -> bool:
         """Whether a method is one that asks a node for something, as to call back."""
@@ -227,6 +238,11 @@ class OutcomeCalls:
                     self._enters(node, method)
             case LibraryOrigin(name, False):
                 self._library(node, name, self.notes.table.function(name), None, facts)
+            case _ if is_standard(value):
+                pass  # a distribution, a comparison: it gives a value
+            case _ if (of := self.expressions.operators.class_of(value)) is not None:
+                outcome = self.notes.table.method(of, "operator()")
+                self._library(node, of, outcome, value, facts)
             case LibraryOrigin(name) if not self.notes.table.is_standard(name):
                 pass
             case LibraryOrigin(name) if self.notes.table.has_methods_of(name):
@@ -235,7 +251,9 @@ class OutcomeCalls:
             case _:
                 # What a function gets was looked at where it was handed over.
                 if not self.notes.is_parameter(value):
-                    self.notes.problem(node, _UNKNOWN)
+                    is_cpp = self.notes.table.language is Language.CPP
+                    raises = self.notes.table.of_anything if is_cpp else ""
+                    self.notes.problem(node, _UNKNOWN, raises)
 
     def _makes(self, node: s.Statement, name: str) -> None:
         if self.notes.is_model(name):
@@ -323,6 +341,8 @@ class OutcomeCalls:
             case LibraryOrigin(of, False):
                 full = f"{of}.{name}"
                 self._library(node, full, self.notes.table.function(full), receiver, facts)
+            case LibraryOrigin(of) if self.notes.table.is_function(of):
+                self._of_object(node, callee, AnyOrigin(), facts)  # which class it gives is open
             case LibraryOrigin(of):
                 if of == UNKNOWN_CLASS:
                     for method in sorted(self.origins.methods_of_any(name)):
@@ -368,6 +388,8 @@ class OutcomeCalls:
             self.notes.fails(node, "lacks the argument")
         if outcome.acts:
             self.notes.problem(node, f'"{name}": {outcome.acts}')
+        if name.endswith("shared_from_this") and self.function in self.origins.of_cpp.constructing:
+            self.notes.problem(node, f'"{name}" may raise an exception', "std::bad_weak_ptr")
         if any(map(self._is_own_iterator, node.arguments)):
             self.notes.problem(node, f'"{name}" may never come to the end')
         for raised in self._exceptions.of(node, outcome, receiver, facts):

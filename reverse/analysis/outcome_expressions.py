@@ -17,6 +17,7 @@ from rebsync.reverse.analysis.facts import (
 from rebsync.reverse.analysis.foreign_values import ForeignValues
 from rebsync.reverse.analysis.held_values import held_by
 from rebsync.reverse.analysis.least_numbers import LeastNumbers
+from rebsync.reverse.analysis.library_operators import LibraryOperators
 from rebsync.reverse.analysis.none_values import NoneValues
 from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origin
 from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
@@ -60,6 +61,7 @@ class OutcomeExpressions:
         self.types = TypeErrors(notes)
         self._unset = UnsetNames(notes)
         self.foreign = ForeignValues(notes.origins)
+        self.operators = LibraryOperators(notes)
 
     def check(self, value: e.Expression, facts: Facts) -> None:
         """Notes what evaluating an expression may do."""
@@ -106,6 +108,7 @@ class OutcomeExpressions:
                 self.none.check(right, value, facts)
             case _:
                 pass
+        self.operators.check(value)
         match value:
             case e.Binary(operator, left, right) if operator in _DIVIDING:
                 self._divides(value, left, right, facts)

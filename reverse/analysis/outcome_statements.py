@@ -164,8 +164,9 @@ class OutcomeWalk:
                 self.value(value, facts)
                 facts = without_sizes(without_shared(facts))
                 return facts if target is None else stored(facts, target)
-            case s.Unsupported(reason):
-                self.notes.problem(node, f"this may do anything: {reason}")
+            case s.Unsupported(reason, raises=raises):
+                raised = self.notes.table.of_anything if raises else ""
+                self.notes.problem(node, f"this may do anything: {reason}", raised)
                 return NO_FACTS
             case _:
                 self.notes.problem(node, "this waits")

@@ -109,7 +109,8 @@ class OutcomeAnalysis:
             return leaving
         key = function.name, span
         if key not in self._raised:
-            self._raised[key] = leaving & self.of_statements(function, span)
+            own = {p for p in leaving if p.function == function.name and _is_in(p.place, span)}
+            self._raised[key] = leaving & self.of_statements(function, span) | own
         return self._raised[key]
 
     def _of_body(self, function: Function, running: frozenset[str]) -> Equation[Problem]:
@@ -218,7 +219,7 @@ def _within(nested: Iterable[_Nested], span: Span) -> Iterator[s.Statement]:
     of that only the destruction is the local's own.
     """
     for node in nested:
-        is_there = span.start <= node.place.start and node.place.end <= span.end
+        is_there = _is_in(node.place, span)
         match node.statement:
             case s.Try(final=final) if any(isinstance(n, s.Destroy) for n in final):
                 ends = set(map(id, final))
@@ -234,6 +235,10 @@ def _within(nested: Iterable[_Nested], span: Span) -> Iterator[s.Statement]:
                     yield from _head(statement)
 
 
+def _is_in(place: Span, span: Span) -> bool:
+    return span.start <= place.start and place.end <= span.end
+
+
 def _meets(place: Span, span: Span) -> bool:
     return place.start < span.end and span.start < place.end
 
@@ -247,5 +252,7 @@ def _head(statement: s.Statement) -> Iterator[s.Statement]:
             yield s.If(statement.test, (), (), statement.dynamic, statement.place)
         case s.ForEach() | s.With():
             yield replace(statement, body=())
+        case s.Switch():
+            yield replace(statement, cases=())
         case _:
             pass

@@ -20,14 +20,8 @@ def branches(
     reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]
 ) -> Iterator[m.Statement]:
     """`if`, with what its head declares before it."""
-    outside, clause = reader.scope, part(node, "condition")
-    initial = clause.child_by_field_name("initializer")
-    inner = named(initial) if initial is not None else []
-    declared = [s for n in inner for s in reader.declaration(n, (), False)]
-    tested = part(clause, "value")
-    if tested.type == "declaration":
-        declared += cpp_locals.tested(reader, tested)
-        tested = part(tested, "declarator")
+    outside = reader.scope
+    declared, tested = _head(reader, part(node, "condition"))
     condition = reader.expressions.condition(tested)
     then = reader.branch(part(node, "consequence"))
     otherwise: m.Statement | None = None
@@ -41,6 +35,26 @@ def branches(
         yield m.Block((*declared, read))
     else:
         yield read
+
+
+def _head(reader: CppStatementReader, clause: Node) -> tuple[list[m.Statement], Node]:
+    """What the head of a branch or switch declares, and what it looks at."""
+    initial = clause.child_by_field_name("initializer")
+    inner = named(initial) if initial is not None else []
+    declared: list[m.Statement] = []
+    for each in inner:
+        read = list(reader.declaration(each, (), False))
+        if not read:
+            reader.check_comes_back(each)
+        declared += read
+    looked_at = part(clause, "value")
+    if looked_at.type == "declaration":
+        read = list(cpp_locals.tested(reader, looked_at))
+        if not read:
+            reader.check_comes_back(looked_at)
+        declared += read
+        looked_at = part(looked_at, "declarator")
+    return declared, looked_at
 
 
 def _else(reader: CppStatementReader, body: Node) -> m.Statement:
@@ -95,15 +109,16 @@ def _listed(reader: CppStatementReader, node: Node) -> Iterator[m.Expression]:
 
 def switched(
     reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]
-) -> m.Switch:
-    """`switch`."""
-    clause = part(node, "condition")
-    subject = cpp_special.subject(reader, part(clause, "value"), part(node, "body"))
+) -> m.Switch | m.Block:
+    """`switch`, with what its head declares before it."""
     outside = reader.scope
+    declared, looked_at = _head(reader, part(node, "condition"))
+    subject = cpp_special.subject(reader, looked_at, part(node, "body"))
     cases = list(_cases(reader, part(node, "body")))
     reader.scope = outside
     cases = _default_last(reader, node, cases)
-    return m.Switch(subject, tuple(cases), annotations, reader.cpp.span(node))
+    read = m.Switch(subject, tuple(cases), annotations, reader.cpp.span(node))
+    return m.Block((*declared, read)) if declared else read
 
 
 def _default_last(reader: CppStatementReader, node: Node, cases: list[m.Case]) -> list[m.Case]:

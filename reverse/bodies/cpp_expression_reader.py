@@ -104,6 +104,13 @@ class CppExpressionReader(ABC):
     def stored(self, node: Node, place: Variable) -> m.Expression:
         """A value as `place` holds it; where a hint says what it can be, a choice of that."""
 
+    def check_comes_back(self, node: Node) -> None:
+        """Raises `Unread` where an expression of which the model has nothing may throw."""
+        form = self.scope.form
+        why = form.raises(self.cpp, node) if form is not None else None
+        if why is not None:
+            raise Unread(self.cpp.span(node), why, "catch what it throws, or look before")
+
     @abstractmethod
     def approximate(self, node: Node, unread: Unread) -> None:
         """Lists that a choice stands for an expression, which must touch nothing of the model."""

@@ -57,8 +57,7 @@ from rebsync.static.types import BOOLEAN, converts, is_boolean, is_floating
 
 _PREFIX = frozenset({"+", "-", "!", "~"})
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!=", "bitand": "&", "bitor": "|"}
-_TRUTH = Variable("", BOOLEAN)
-_EITHER = (m.BoolLiteral(True), m.BoolLiteral(False))  # of what is not known
+_TRUTH, _EITHER = Variable("", BOOLEAN), (m.BoolLiteral(True), m.BoolLiteral(False))
 _ONE_OF = "it is one of the values in the comment"
 _STANDS = "stands for all that comparisons do not tell apart"
 MOVE = cpp_mailbox.MOVE
@@ -170,11 +169,12 @@ class CppExpressions(CppExpressionReader):
         if self.findings is None:
             raise Unread(unread.span, f"how often this is done again is not known: {unread.why}")
         if not self.scope.chooses:
-            why = f"{unread.why}, and only a message server can choose"
-            raise Unread(unread.span, why, unread.hint)
+            why = ", and only a message server can choose"
+            raise Unread(unread.span, unread.why + why, unread.hint)
         Effects(self.cpp, self.scope).check(node)
-        source = self.cpp.source
-        self.findings.approximated(source, unread.span, unread.why, unread.hint, self.within)
+        self.check_comes_back(node)
+        told = unread.span, unread.why, unread.hint, self.within
+        self.findings.approximated(self.cpp.source, *told)
 
     # --- names ----------------------------------------------------------------------------------
 

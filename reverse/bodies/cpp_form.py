@@ -42,6 +42,8 @@ _ALIAS = re.compile(rb"\busing\s+(\w+)\s*=([^;]*);|\btypedef\b([^;]*?)(\w+)\s*;"
 _WORD = re.compile(rb"\w+")
 _ACTING = ("call_expression", "assignment_expression", "update_expression", "new_expression")
 _UNKNOWN = "what this locks is not known"
+# Headers of messages of ROS 1, which are named as these are.
+_MESSAGE = re.compile(rb"#\s*include\s*[<\"](\w+)/([A-Z]\w*)\.h[>\"]")
 _FUNCTIONS = frozenset({"function_definition", "lambda_expression"})
 
 
@@ -86,7 +88,10 @@ class CppForm:
 
     @cached_property
     def _outcomes(self) -> OutcomeAnalysis:
-        table = LibraryOutcomes(Language.CPP, frozenset(self._code.macros))
+        headers = (m for cpp in self._code.files for m in _MESSAGE.finditer(cpp.data))
+        messages = frozenset(f"{m[1].decode()}::{m[2].decode()}" for m in headers)
+        macros = frozenset(self._code.macros)
+        table = LibraryOutcomes(Language.CPP, macros, messages=messages)
         return OutcomeAnalysis(self._program, table, lambda name: False)
 
     @cached_property

@@ -54,6 +54,12 @@ class CppStatementReader(ABC):
         """What to raise where a node has no meaning in the model."""
         return Unread(self.cpp.span(node), why, hint)
 
+    def check_comes_back(self, node: Node) -> None:
+        """Raises `Unread` where a statement of which the model has nothing may throw."""
+        why = self.scope.form.raises(self.cpp, node) if self.scope.form is not None else None
+        if why is not None:
+            raise self.unread(node, why, "catch what it throws, or look before")
+
     @property
     def expressions(self) -> CppExpressions:
         """The reader of expressions with the names of this place."""

@@ -147,7 +147,7 @@ class CppStatements(CppStatementReader):
                 read = self._one(node, annotations, local)
             if not read:
                 self._check_names(node)
-                self._check_comes_back(node)
+                self.check_comes_back(node)
             return read
         except Unread as unread:
             return self._listed(node, unread)
@@ -198,12 +198,6 @@ class CppStatements(CppStatementReader):
         unknown = next(UnknownNames.of(self.scope, node).uses(node), None)
         if unknown is not None:
             raise self.unread(unknown, f'nobody here knows what "{text_of(unknown)}" does')
-
-    def _check_comes_back(self, node: Node) -> None:
-        """Raises `Unread` where a statement of which the model has nothing may throw."""
-        why = self.scope.form.raises(self.cpp, node) if self.scope.form is not None else None
-        if why is not None:
-            raise self.unread(node, why, "catch what it throws, or look before")
 
     def _unreadable(self, node: Node, unread: Unread) -> Iterator[m.Statement]:
         """What stands in the model for a statement that it lacks; nothing for what is outside.

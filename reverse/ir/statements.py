@@ -172,7 +172,8 @@ class Unsupported:
     """What has no lowering: it may do anything to what it can reach, and end in any way.
 
     `reads` and `writes` are what the text names, for those who tell about it; what can be reached
-    from there, and from what is global, is more.
+    from there, and from what is global, is more. `raises` is not set for the end of an object, nor
+    where the reader of bodies asks what is called there, and whether that raises.
     """
 
     reason: str
@@ -180,6 +181,7 @@ class Unsupported:
     writes: tuple[Lvalue, ...] = ()
     target: Lvalue | None = None
     place: Span = place_field()
+    raises: bool = True
 
 
 # --- leaving -------------------------------------------------------------------------------------

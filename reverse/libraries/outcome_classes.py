@@ -49,6 +49,10 @@ EXCEPTIONS: Mapping[str, str] = {
     "std::filesystem::filesystem_error": "std::system_error",
     "nlohmann::json::exception": "nlohmann::detail::exception",
     **dict.fromkeys(("nlohmann::detail::exception", "boost::bad_get"), "std::exception"),
+    **dict.fromkeys(("cv::Exception", "image_geometry::Exception"), "std::runtime_error"),
+    **dict.fromkeys(("std::bad_typeid",), "std::exception"),
+    "rclcpp::exceptions::ParameterNotDeclaredException": "std::runtime_error",
+    **dict.fromkeys(("std::ios_base::failure", "pcl::PCLException"), "std::runtime_error"),
     # One of these names stands for the other.
     "tf2::TransformException": "tf::TransformException",
     **dict.fromkeys(("tf::TransformException", "YAML::Exception"), "std::runtime_error"),

@@ -57,6 +57,7 @@ class Raises(Enum):
     UNWRITTEN = "a first one that is no text in the source"
     UNDECLARED = "the name of a parameter that the node may not have declared"
     REPEATED = "any, where the call may not be the first one"
+    UNDECLARED_ALONE = "the name alone of a parameter that nobody declares in the source"
     UNORDERED = "two of which the second may be the smaller one"
 
 

@@ -15,12 +15,14 @@ from dataclasses import replace
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import (
     cpp,
+    looked_through,
     outcome_classes,
     outcome_rules,
     python,
     python_outcomes,
 )
 from rebsync.reverse.libraries.effects import of_function
+from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
 from rebsync.reverse.libraries.outcome_rules import Raises, Size, Tells
 from rebsync.reverse.libraries.registry import derived
 from rebsync.reverse.libraries.routines import Effect, Language
@@ -65,12 +67,14 @@ class LibraryOutcomes:
 
     `opaque` are names of the program itself that no lowering sees through: macros, and modules of
     which it is not known where they are. Where it `trusts_others`, methods of what a library made
-    that no table knows raise nothing by their names alone.
+    that no table knows raise nothing by their names alone. `messages` are classes in C++ of which
+    headers are included that hold nothing but a message.
     """
 
     language: Language
     opaque: frozenset[str] = frozenset()
     trusts_others: bool = False
+    messages: frozenset[str] = frozenset()
 
     @property
     def _named(self) -> Mapping[str, CallOutcome]:
@@ -85,7 +89,8 @@ class LibraryOutcomes:
             return CallOutcome(frozenset({"an exception"}), when=Raises.COUNT)
         known = self._named.get(name)
         if known is None and self.language is Language.CPP:
-            known = self._named.get(name.partition("<")[0].removeprefix("std::"))
+            plain = name.partition("<")[0].removeprefix("new ")
+            known = self._named.get(plain.removeprefix("std::").removeprefix("boost::"))
         if known is not None:
             return known
         of, _, last = name.rpartition("::" if self.language is Language.CPP else ".")
@@ -96,7 +101,7 @@ class LibraryOutcomes:
             return CallOutcome()
         if effect is not Effect.UNKNOWN:
             return CallOutcome(acts=effect.value)
-        return self._unknown(name) if self.is_standard(name) else CallOutcome()
+        return self._unknown(name)
 
     def method(self, of: str | None, name: str) -> CallOutcome:
         """How a call of a method may end, by its object's class, if that is known."""
@@ -112,12 +117,40 @@ class LibraryOutcomes:
             return replace(known, acts="acts on a node")
         if of is not None and self.is_standard(of):
             return self._unknown(of)
-        return self._named.get(f".{name}", CallOutcome())
+        if of is None or self.language is Language.PYTHON or name in cpp.looking():
+            return self._named.get(f".{name}", CallOutcome())
+        return self._named.get(f".{name}") or self._unknown(f"{of}::{name}")
 
     def _unknown(self, name: str) -> CallOutcome:
-        """How what no table knows of a standard library may end; client libraries raise nothing."""
-        is_quiet = self.language is Language.CPP or python.is_of_client(name)
-        return CallOutcome(frozenset() if is_quiet else _ANY_EXCEPTION, acts=_UNKNOWN)
+        """How what no table knows may end: as anything, but of what was looked through.
+
+        In Python what is of none of the standard libraries gets values, and gives one.
+        """
+        acts = _UNKNOWN if self.is_standard(name) else ""
+        if self.language is Language.CPP:
+            thrown = {looked_through.thrown_by(name)}
+            is_client = bool(acts) and not name.startswith("std::")
+            is_client |= name.removeprefix("new ") in self.messages
+            quiet = is_client or looked_through.is_looked_through(name)
+            return CallOutcome(frozenset() if quiet else frozenset(thrown), acts=acts)
+        is_quiet = not acts or python.is_of_client(name)
+        return CallOutcome(frozenset() if is_quiet else _ANY_EXCEPTION, acts=acts)
+
+    def is_function(self, name: str) -> bool:
+        """Whether a full name in C++ is written as functions are, and no table has such a class."""
+        last = name.partition("<")[0].rpartition("::")[2]
+        is_class = name in outcome_classes.CLASSES or self.has_methods_of(name)
+        is_cpp = self.language is Language.CPP
+        return is_cpp and not is_class and not last[:1].isupper() and name not in PLAIN_CLASSES
+
+    def is_known(self, name: str) -> bool:
+        """Whether a table has a function or class by its full name."""
+        return name in self._named
+
+    @property
+    def of_anything(self) -> str:
+        """The exception that code raises of which nothing is known."""
+        return "an exception" if self.language is Language.CPP else "builtins.Exception"
 
     def of_failure(self, failure: str) -> str:
         """The exception that an operation raises; empty where none can be caught."""
@@ -133,6 +166,8 @@ class LibraryOutcomes:
     def _of_class(self, of: str, name: str) -> CallOutcome | None:
         """A method of a class of the table; classes that do the same are one."""
         plain = of.partition("<")[0]
+        if plain.startswith("boost::") and f"{plain}.{name}" not in self._named:
+            plain = plain.replace("boost::", "std::", 1)
         of = outcome_classes.CLASSES.get(plain, plain)
         found = self._named.get(f"{of}.{name}")
         if found is None and of in outcome_classes.PLAIN_CLASSES:

@@ -7,7 +7,6 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.classes import copies_trivially
 from rebsync.reverse.ir.cpp.context import (
     Context,
     Unlowered,
@@ -42,7 +41,7 @@ def assignment(context: Context, node: Node) -> Value:
     def assigned() -> Value:
         target.append(lower_value(context, left))
         if not target[0].is_lvalue:
-            raise Unlowered("an assignment to no object that is known")
+            target[0] = _given(target[0], place)
         return Value(address(context, target[0], place), t.Reference(target[0].type))
 
     def value() -> Value:
@@ -66,6 +65,13 @@ def assignment(context: Context, node: Node) -> Value:
     return compound(context, sign.removesuffix("="), to, from_, place)
 
 
+def _given(value: Value, place: Span) -> Value:
+    """The object that a call of a library gives a reference to, as `m(0)` of a matrix."""
+    if value.type != t.UNKNOWN:
+        raise Unlowered("an assignment to no object that is known")
+    return dereferenced(value.expression, t.UNKNOWN, place)
+
+
 def assign(context: Context, to: Value, value: Value, place: Span) -> Value:
     """Stores a value in an object, as its class does that."""
     owner = class_of(context, to.type)
@@ -73,10 +79,8 @@ def assign(context: Context, to: Value, value: Value, place: Span) -> Value:
         called = context.world.operator(context, "operator=", [to, value], place)
         if called is not None:
             return called
-        if not copies_trivially(context.world, to.type):
-            raise Unlowered("an assignment that a class makes by itself for its parts")
         value = implicitly(context, value, to.type, place)
-        assigned_memberwise(context, owner, to.expression, value.expression, place)
+        assigned_memberwise(context, owner, to.expression, value, place)
         return to
     target = to.expression
     if not isinstance(target, e.Lvalue):
@@ -121,8 +125,8 @@ def update(context: Context, node: Node) -> Value:
     if called is not None:
         return called
     if not to.is_lvalue:
-        raise Unlowered("an increment of no object")
-    if not isinstance(to.type, t.Integer | t.Float):
+        to = _given(to, place)
+    if not isinstance(to.type, t.Integer | t.Float | t.Reference):
         return _of_library(context, sign, to, is_prefix, place)
     before = None
     if not is_prefix and not _is_discarded(node):
@@ -145,8 +149,6 @@ def _is_discarded(node: Node) -> bool:
 
 def _of_library(context: Context, sign: str, to: Value, is_prefix: bool, place: Span) -> Value:
     """An iterator, or what is not known."""
-    if isinstance(to.type, t.Reference):
-        raise Unlowered("arithmetic of pointers")
     target = context.temporary(t.UNKNOWN, place)
     argument = s.CallArgument(address(context, to, place))
     callee = s.LibraryCallee(f"operator{sign}")

@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.alternatives import call_chosen
 from rebsync.reverse.ir.cpp.casts import NAMED_CASTS, cast, named_cast
 from rebsync.reverse.ir.cpp.classes import find_member, methods_named
 from rebsync.reverse.ir.cpp.context import (
@@ -26,13 +26,13 @@ from rebsync.reverse.ir.cpp.functions_called import (
 )
 from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
 from rebsync.reverse.ir.cpp.library import function_result, is_pure
+from rebsync.reverse.ir.cpp.macros import expanded
 from rebsync.reverse.ir.cpp.methods import library_method
 from rebsync.reverse.ir.cpp.names import field_of, object_of, this_object
 from rebsync.reverse.ir.cpp.objects import as_value, class_of, ended_later, locked, passed
-from rebsync.reverse.ir.cpp.overloads import resolve
 from rebsync.reverse.ir.cpp.sequencing import in_any_order
 from rebsync.reverse.ir.cpp.standard_functions import STANDARD
-from rebsync.reverse.ir.cpp.symbols import ClassSymbol
+from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
 from rebsync.reverse.ir.cpp.types import AUTO, Declared, ReferenceKind
 from rebsync.reverse.ir.dump_types import dump_type
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -77,9 +77,7 @@ def _functional_cast(
 
 
 def _construction(context: Context, type_: t.Type, nodes: Sequence[Node], place: Span) -> Value:
-    if type_ == t.UNKNOWN:
-        raise Unlowered("a construction of an object of a type that is not known")
-    is_object = isinstance(type_, t.Container | t.Record | t.RosMessage)
+    is_object = isinstance(type_, t.Container | t.Record | t.RosMessage | t.Unknown)
     if len(nodes) == 1 and not is_object:
         return cast(context, lower_value(context, nodes[0]), Declared(type_), place)
     return _made(context, type_, nodes, place, in_braces=False)
@@ -161,9 +159,12 @@ def _own_method(
 ) -> Value:
     """A member function without an object before it: of `this`, or a static one."""
     candidates = methods_named(context.world, owner.name, name)
-    function = resolve(context, candidates, argument_values(context, nodes))
-    receiver = None if function.is_static else this_object(context)
-    return call_function(context, function, nodes, place, receiver, is_qualified)
+
+    def call(function: FunctionSymbol) -> Value:
+        receiver = None if function.is_static else this_object(context)
+        return call_function(context, function, nodes, place, receiver, is_qualified)
+
+    return call_chosen(context, candidates, argument_values(context, nodes), call, place)
 
 
 def _free(
@@ -177,9 +178,13 @@ def _free(
     symbols, path = context.world.symbols, context.cpp.source.path
     found = symbols.functions_named(name, context.scope, path)
     if found:
-        chosen = resolve(context, found, argument_values(context, nodes))
-        return call_function(context, chosen, nodes, place)
-    if name in symbols.code.macros or hides(name):
+        values = argument_values(context, nodes)
+        return call_chosen(
+            context, found, values, lambda f: call_function(context, f, nodes, place), place
+        )
+    if name in symbols.code.macros:
+        return expanded(context, name, nodes, place)
+    if hides(name):
         raise Unlowered(f"a macro, {name}")
     symbol = symbols.type_named(name, context.scope, path)
     type_ = context.world.types.of(context.cpp, context.scope, function) if types else t.UNKNOWN
@@ -195,7 +200,8 @@ def _library(
     context: Context, name: str, nodes: Sequence[Node], types: Sequence[Node], place: Span
 ) -> Value:
     """A function or class of a library."""
-    full = context.world.types.imported(context.cpp, name)
+    full = context.world.types.without_alias(context.cpp, context.scope, name)
+    full = context.world.types.imported(context.cpp, full)
     known = STANDARD.get(full.removeprefix("boost::").removeprefix("std::"))
     if known is not None and full.startswith(("std::", "boost::")):
         result = known(context, nodes, types, place)
@@ -232,8 +238,15 @@ def _method(context: Context, function: Node, nodes: Sequence[Node], place: Span
         return library_method(context, receiver, name, nodes, place)
     candidates = methods_named(context.world, owner.name, name)
     if candidates:
-        chosen = resolve(context, candidates, argument_values(context, nodes))
-        return call_function(context, chosen, nodes, place, receiver, "::" in qualified)
+        values = argument_values(context, nodes)
+        is_qualified = "::" in qualified
+        return call_chosen(
+            context,
+            candidates,
+            values,
+            lambda f: call_function(context, f, nodes, place, receiver, is_qualified),
+            place,
+        )
     if find_member(context.world, owner.name, name) is not None:
         return call_value(context, field_of(context, receiver, name, place), nodes, place)
     return library_method(context, receiver, name, nodes, place)
@@ -246,12 +259,16 @@ def call_value(context: Context, value: Value, nodes: Sequence[Node], place: Spa
         candidates = methods_named(context.world, owner.name, "operator()")
         if not candidates:
             raise Unlowered("a call of an object without a call operator")
-        chosen = resolve(context, candidates, argument_values(context, nodes))
-        return call_function(context, chosen, nodes, place, value)
+        values = argument_values(context, nodes)
+        return call_chosen(
+            context,
+            candidates,
+            values,
+            lambda f: call_function(context, f, nodes, place, value),
+            place,
+        )
     callee = s.ValueCallee(value.expression)
     if not isinstance(value.type, t.FunctionType) or value.type.parameters is None:
-        if nodes and not isinstance(value.expression, e.LibraryReference):
-            raise Unlowered("a call of a value that takes its arguments by value or by reference")
         arguments = library_arguments(context, nodes, place, is_pure=False)
         return stored_result(context, callee, arguments, AUTO, place)
     declared = [_declared(p) for p in value.type.parameters]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -16,10 +17,16 @@ from rebsync.reverse.ir.cpp.context import (
     Value,
     lower_value,
     lowers_expression,
+    unsupported,
 )
 from rebsync.reverse.ir.cpp.conversions import converted
 from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
-from rebsync.reverse.ir.cpp.objects import address, class_of, implicitly
+from rebsync.reverse.ir.cpp.objects import (
+    UNKNOWN_CONSTRUCTOR,
+    address,
+    class_of,
+    implicitly,
+)
 from rebsync.reverse.ir.cpp.types import SIZE, Declared, ReferenceKind
 from rebsync.reverse.ir.dump_types import dump_type
 from rebsync.reverse.ir.operators import Conversion
@@ -69,12 +76,16 @@ def c_cast(context: Context, node: Node) -> Value:
 def cast(context: Context, value: Value, declared: Declared, place: Span) -> Value:
     """What a static cast gives: implicit conversions, and those to enumerations and void."""
     to = declared.type
-    if to == t.UNKNOWN:
-        raise Unlowered("a cast to a type that is not known")
     if declared.reference is not ReferenceKind.NONE:
         is_lvalue = value.is_lvalue and declared.reference is not ReferenceKind.RVALUE
         return Value(value.expression, to, is_lvalue)
     match to:
+        case t.Unknown():  # perhaps of a class, that has a constructor
+            target = context.temporary(to, place)
+            argument = s.CallArgument(value.expression)
+            callee = s.LibraryCallee(UNKNOWN_CONSTRUCTOR)
+            context.emit(s.Call(target, callee, (argument,), place))
+            return Value(target, to)
         case t.UnitType():
             context.emit(s.Evaluate(value.expression, place))
             return Value(e.Literal(None, t.NOTHING, place=place), t.NOTHING)
@@ -194,15 +205,21 @@ def delete(context: Context, node: Node) -> Value:
     if any(child.type == "[" for child in node.children):
         of = value.type.to if isinstance(value.type, t.Reference) else t.UNKNOWN
         if not ends_silently(context.world, of):
-            raise Unlowered("an array of objects that end")
+            return _ends_somehow(context, node, "an array of objects that end")
         argument = s.CallArgument(value.expression)
         context.emit(s.Call(None, s.LibraryCallee("delete[]"), (argument,), place))
         return nothing
     if not isinstance(value.type, t.Reference):
-        raise Unlowered("the end of what is not known")
+        return _ends_somehow(context, node, "the end of what is not known")
     pointer = value.expression
     object_ = e.Dereference(pointer, value.type.to, value.type.to == t.UNKNOWN, place)
     name = value.type.to.name if isinstance(value.type.to, t.Record) else None
     test = e.Convert(Conversion.TRUTH, pointer, t.TRUTH, False, place)
     context.emit(s.If(test, (s.Destroy(object_, name, place),), (), False, place))
     return nothing
+
+
+def _ends_somehow(context: Context, node: Node, what: str) -> Value:
+    """Destructors of which nothing is known, but that they do not raise ([class.dtor])."""
+    context.emit(replace(unsupported(context, node, what), raises=False))
+    return Value(e.Literal(None, t.NOTHING, place=context.place(node)), t.NOTHING)

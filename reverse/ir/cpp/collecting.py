@@ -25,7 +25,7 @@ from rebsync.reverse.syntax.cpp_declarations import (
     function_of,
     with_values,
 )
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 
 _CLASSES = frozenset({"class_specifier", "struct_specifier", "union_specifier"})
 _WRAPPERS = frozenset(
@@ -60,10 +60,16 @@ class Collected:
     functions: list[Declaration] = field(default_factory=list)
     imports: dict[str, list[str]] = field(default_factory=dict)  # using directives by path
     names: dict[str, dict[str, str]] = field(default_factory=dict)  # using declarations by path
+    spaces: dict[str, str] = field(default_factory=dict)  # namespaces by other names, of all files
+    own_spaces: set[str] = field(default_factory=set)
 
     def add(self, cpp: Cpp) -> None:
         """The declarations of one more file."""
         self._within(cpp, cpp.root, "", False)
+        for node in inside(cpp.root, "namespace_alias_definition"):
+            names = ["".join(text_of(each).split()) for each in named(node)]
+            if len(names) == 2:
+                self.spaces[names[0]] = names[1]
 
     def _within(self, cpp: Cpp, node: Node, scope: str, is_template: bool) -> None:
         for child in named(node):
@@ -76,6 +82,7 @@ class Collected:
             case "namespace_definition":
                 name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
                 inner = scope if name is None else joined(scope, "".join(text_of(name).split()))
+                self.own_spaces |= {inner, inner.rpartition("::")[2]}
                 if body is not None:
                     self._within(cpp, body, inner, is_template)
             case "template_declaration":
@@ -136,6 +143,8 @@ class Collected:
                 self._members(cpp, member, full, is_template, fields)
             elif member.type == "template_declaration":
                 self._members(cpp, member, full, True, fields)
+            elif member.type == "friend_declaration":  # of the namespace around ([class.friend])
+                self._within(cpp, member, full.rpartition("::")[0], is_template)
             else:
                 self._declared(cpp, member, full, is_template, full)
                 fields += _fields(cpp, member)

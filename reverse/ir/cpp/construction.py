@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from tree_sitter import Node
 
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.alternatives import call_chosen, one_of
 from rebsync.reverse.ir.cpp.classes import (
     copies_trivially,
     implicit_constructor,
     is_base,
     is_copy,
+    members,
     needs_constructor,
 )
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value
@@ -22,10 +25,12 @@ from rebsync.reverse.ir.cpp.objects import (
     UNKNOWN_CONSTRUCTOR,
     as_value,
     assigned_memberwise,
+    class_of,
     implicitly,
     passed,
 )
 from rebsync.reverse.ir.cpp.overloads import (
+    Ambiguous,
     conversion_function,
     resolve,
     signature,
@@ -54,7 +59,27 @@ def construct(
             constructor = implicit_constructor(owner)
         context.emit(s.Construct(target, owner.name, (), constructor, place))
         return
-    function = resolve(context, constructors, list(values))
+    try:
+        found: Sequence[FunctionSymbol] = [resolve(context, constructors, list(values))]
+    except Ambiguous as error:
+        found = error.functions
+    bodies = []
+    for function in found:
+        with context.body() as body:
+            _constructed_by(context, target, owner, function, values, place)
+        bodies.append(tuple(body))
+    one_of(context, bodies, place)
+
+
+def _constructed_by(
+    context: Context,
+    target: e.Lvalue,
+    owner: ClassSymbol,
+    function: FunctionSymbol,
+    values: list[Value],
+    place: Span,
+) -> None:
+    """An object made by one of its class's constructors."""
     if function.is_default and not values:
         name = implicit_constructor(owner)
         context.emit(s.Construct(target, owner.name, (), name, place))
@@ -84,9 +109,53 @@ def _copy_constructed(
             context.emit(s.Assign(target, as_value(context, value, place), place))
             return
         context.emit(s.Construct(target, owner.name, (), None, place))
-        assigned_memberwise(context, owner, target, value.expression, place)
+        assigned_memberwise(context, owner, target, value, place)
         return
-    raise Unlowered("a copy that a class makes by itself of parts that do more")
+    context.emit(s.Construct(target, owner.name, (), None, place))
+    _copied_parts(context, target, owner, value, place)
+
+
+def _copied_parts(
+    context: Context, target: e.Lvalue, owner: ClassSymbol, value: Value, place: Span
+) -> None:
+    """Bases and fields of a new object, each as its class is copied, or moved."""
+    for name, base in context.world.symbols.bases(owner):
+        if base is not None:
+            _copied_base(context, target, base, value, place)
+        else:
+            full = context.world.types.imported(owner.cpp, name)
+            argument = s.CallArgument(value.expression)
+            context.emit(s.Call(None, s.LibraryCallee(full, target), (argument,), place))
+    for member in members(context.world, owner):
+        type_ = member.declared.form
+        to = e.Attribute(target, member.key, type_, False, place)
+        from_ = Value(
+            e.Attribute(value.expression, member.key, type_, False, place), type_, value.is_lvalue
+        )
+        inner = class_of(context, type_)
+        if inner is not None:
+            construct(context, to, inner, [from_], place)
+        else:
+            copy = as_value(context, replace(from_, is_lvalue=True), place)
+            context.emit(s.Assign(to, copy, place))
+
+
+def _copied_base(
+    context: Context, target: e.Lvalue, base: ClassSymbol, value: Value, place: Span
+) -> None:
+    value = replace(value, type=t.Record(base.name))
+    written = [f for f in base.constructors if is_copy(base, f) and not _is_implicit(base, f)]
+    if not written:
+        _copied_parts(context, target, base, value, place)
+        return
+    this = Value(target, t.Record(base.name), is_lvalue=True)
+
+    def call_of(function: FunctionSymbol) -> Value:
+        declared = signature(context.world, function).parameters[0].declared
+        argument = passed(context, value, declared, place)
+        return call(context, function, [argument], place, this, True)
+
+    call_chosen(context, written, [value], call_of, place)
 
 
 def conversion(

@@ -104,6 +104,7 @@ class Context:
     aliases: set[str] = field(default_factory=set)
     returned: list[t.Type] = field(default_factory=list)
     temporaries: int = 0
+    expanding: set[str] = field(default_factory=set)  # macros whose text is being lowered
 
     # --- places and emission --------------------------------------------------------------------
 

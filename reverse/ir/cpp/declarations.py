@@ -18,7 +18,8 @@ from rebsync.reverse.ir.cpp.context import (
     lowers_statement,
     unsupported,
 )
-from rebsync.reverse.ir.cpp.initialisation import by_arguments, by_value, initialised
+from rebsync.reverse.ir.cpp.elision import by_value
+from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
 from rebsync.reverse.ir.cpp.names import field_of
 from rebsync.reverse.ir.cpp.objects import (
     address,
@@ -29,7 +30,7 @@ from rebsync.reverse.ir.cpp.objects import (
     implicitly,
 )
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
-from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.ir.operators import Conversion, Operator
 from rebsync.reverse.syntax.cpp_declarations import declared_name
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
@@ -75,7 +76,8 @@ def declare(context: Context, node: Node, declarator: Node) -> None:
         _bindings(context, declarator, value)
         return
     name = declared_name(declarator)
-    if name is None or type_node.type in ("class_specifier", "struct_specifier"):
+    is_class = type_node.type in ("class_specifier", "struct_specifier")
+    if name is None or (is_class and type_node.child_by_field_name("body") is not None):
         _no_variable(context, node, declarator)
         return
     declared = context.world.types.declared(context.cpp, context.scope, type_node, declarator)
@@ -100,7 +102,8 @@ def _no_variable(context: Context, node: Node, declarator: Node) -> None:
     except Unlowered as error:
         del context.out[mark:]
         context.emit(s.Declare(local, type_, None, place))
-        context.emit(unsupported(context, node, str(error), local))
+        unread = unsupported(context, node, str(error), local)
+        context.emit(replace(unread, raises=not all(map(_looks_called, list_))))
     context.bind(name, Value(local, type_, is_lvalue=True))
     _begin(context, mark, local, type_, place)
 
@@ -116,6 +119,12 @@ def _argument(context: Context, node: Node) -> Node:
     if not is_name or context.world.symbols.type_named(text, context.scope, path) is not None:
         raise Unlowered("a declaration of a function in a body")
     return type_
+
+
+def _looks_called(node: Node) -> bool:
+    """Whether what looks like a parameter, a function without a name, is a call: `T x(f());`."""
+    declarator = node.child_by_field_name("declarator")
+    return declarator is not None and declarator.type == "abstract_function_declarator"
 
 
 def _is_static(node: Node) -> bool:
@@ -224,7 +233,12 @@ def _refer(
         to = address(context, found, place)
     else:
         if declared.reference is ReferenceKind.LVALUE:
-            raise Unlowered("a reference to what is not known as an object")
+            if found.type not in (declared.type, t.UNKNOWN):
+                raise Unlowered("a reference to what is not known as an object")
+            to = e.Convert(Conversion.CAST, found.expression, form, True, place)
+            context.emit(s.Declare(local, form, to, place))
+            context.bind(name, dereferenced(local, declared.type, place))
+            return
         extended = e.Local(context.unique(f"{name}~value"), found.type, place)
         mark = len(context.out)
         by_value(context, extended, found.type, found, place)

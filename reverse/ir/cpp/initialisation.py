@@ -10,9 +10,16 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.classes import DataMember, is_aggregate, members
+from rebsync.reverse.ir.cpp.classes import (
+    DataMember,
+    is_aggregate,
+    members,
+)
+from rebsync.reverse.ir.cpp.containers import filled, text_of_parts
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value, lower_value
+from rebsync.reverse.ir.cpp.elision import by_value
 from rebsync.reverse.ir.cpp.objects import (
+    address,
     as_value,
     class_of,
     default_constructed,
@@ -23,7 +30,7 @@ from rebsync.reverse.ir.cpp.objects import (
 from rebsync.reverse.ir.cpp.sequencing import in_order
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol
 from rebsync.reverse.ir.cpp.types import ReferenceKind
-from rebsync.reverse.syntax.cpp_tree import named
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 
 # What may be a text of which a part is taken, and no letter of one that is listed.
@@ -43,50 +50,6 @@ def initialised(context: Context, target: e.Lvalue, type_: t.Type, node: Node) -
     by_value(context, target, type_, value, place)
 
 
-def by_value(context: Context, target: e.Lvalue, type_: t.Type, value: Value, place: Span) -> None:
-    """Copy-initialisation by a value; one that a call or constructor made is the object itself."""
-    owner = class_of(context, type_)
-    is_made = owner is not None and value.type == type_ and not value.is_lvalue
-    if is_made and _elided(context, target, value.expression):
-        return
-    if owner is not None and value.type != t.UNKNOWN:
-        context.world.construct(context, target, owner, [value], place)
-        return
-    converted = implicitly(context, value, type_, place)
-    if not converted.is_lvalue and _elided(context, target, converted.expression):
-        return
-    context.emit(s.Assign(target, as_value(context, converted, place), place))
-
-
-def _elided(context: Context, target: e.Lvalue, value: e.Expression) -> bool:
-    """Copy elision ([class.copy.elision]): the temporary is made in the variable at once."""
-    last = context.out[-1] if context.out else None
-    if not isinstance(value, e.Temporary) or not isinstance(last, s.Call | s.Construct):
-        return False
-    if last.target != value:
-        return False
-    context.out[-1] = _with_target(last, target)
-    context.pending = [
-        p
-        for p in context.pending
-        if p.anchor is not last
-        and not (isinstance(p.ending, s.Destroy) and p.ending.target == value)
-    ]
-    return True
-
-
-def _with_target(statement: s.Call | s.Construct, target: e.Lvalue) -> s.Call | s.Construct:
-    if isinstance(statement, s.Call):
-        return s.Call(target, statement.callee, statement.arguments, statement.place)
-    return s.Construct(
-        target,
-        statement.class_name,
-        statement.arguments,
-        statement.constructor,
-        statement.place,
-    )
-
-
 def by_arguments(
     context: Context, target: e.Lvalue, type_: t.Type, nodes: Sequence[Node], place: Span
 ) -> None:
@@ -100,7 +63,7 @@ def by_arguments(
         value_initialised(context, target, type_, place)
         return
     if isinstance(type_, t.Container) and type_.kind is t.ContainerKind.SEQUENCE:
-        _filled(context, target, type_, nodes, place)
+        filled(context, target, type_, nodes, place)
         return
     if isinstance(type_, t.Record) and type_.name in context.world.types.tuples:
         _record(context, target, type_, context.world.types.tuples[type_.name], nodes, place)
@@ -109,7 +72,7 @@ def by_arguments(
         context.world.call_library(context, target, type_, nodes, place)
         return
     if isinstance(type_, t.Text) and len(nodes) > 1:
-        _text(context, target, nodes, place)
+        text_of_parts(context, target, nodes, place)
         return
     if len(nodes) != 1:
         raise Unlowered("a construction by arguments that is not known")
@@ -134,51 +97,6 @@ def value_initialised(context: Context, target: e.Lvalue, type_: t.Type, place: 
         context.emit(s.Assign(target, value, place))
     else:
         default_constructed(context, target, type_, place)
-
-
-def _filled(
-    context: Context, target: e.Lvalue, type_: t.Container, nodes: Sequence[Node], place: Span
-) -> None:
-    """`std::vector<T> v(count, value);`."""
-    element = type_.elements[0] if type_.elements else t.UNKNOWN
-    values = [lower_value(context, node) for node in nodes]
-    if len(values) == 1 and values[0].type == type_:
-        by_value(context, target, type_, values[0], place)
-        return
-    if len(values) <= 2 and values[0].type == t.UNKNOWN:  # a count, perhaps
-        arguments = tuple(s.CallArgument(v.expression) for v in values)
-        context.emit(s.Call(target, s.LibraryCallee("std::vector"), arguments, place))
-        return
-    if not isinstance(values[0].type, t.Integer) or len(values) > 2:
-        raise Unlowered("a container made of a range")
-    count = implicitly(context, values[0], t.Integer(64, False), place).expression
-    if len(values) == 2:
-        fill = as_value(context, implicitly(context, values[1], element, place), place)
-    else:
-        found = default_value(context, element, place)
-        if found is None:
-            raise Unlowered("a container of objects that are constructed")
-        fill = found
-    arguments = (s.CallArgument(count), s.CallArgument(fill))
-    context.emit(s.Call(target, s.LibraryCallee("std::vector"), arguments, place))
-
-
-def _text(context: Context, target: e.Lvalue, nodes: Sequence[Node], place: Span) -> None:
-    """`std::string s(count, 'x');` and `std::string s(other, position, count);`."""
-    values = [lower_value(context, node) for node in nodes]
-    numbers = [isinstance(value.type, t.Integer) for value in values]
-    is_part = isinstance(values[0].type, t.Text) and all(numbers[1:]) and len(values) <= 3
-    is_unknown = values[0].type == t.UNKNOWN and numbers == [False, True]
-    if not is_part and not is_unknown and numbers != [True, True]:
-        raise Unlowered("a construction by arguments that is not known")
-    found = [
-        implicitly(context, v, t.Integer(64, False), place).expression
-        if is_number and not (number == 1 and not is_part)
-        else as_value(context, v, place)
-        for number, (v, is_number) in enumerate(zip(values, numbers, strict=True))
-    ]
-    arguments = tuple(map(s.CallArgument, found))
-    context.emit(s.Call(target, s.LibraryCallee("std::string"), arguments, place))
 
 
 # --- lists in braces ([dcl.init.list]) ------------------------------------------------------------
@@ -218,7 +136,7 @@ def _only(
     context: Context, target: e.Lvalue, type_: t.Type, nodes: Sequence[Node], place: Span
 ) -> None:
     if isinstance(type_, t.Text) and len(nodes) > 1 and nodes[0].type in _PLACES:
-        _text(context, target, nodes, place)
+        text_of_parts(context, target, nodes, place)
         return
     if len(nodes) != 1:
         raise Unlowered("a list in braces for one value")
@@ -339,20 +257,47 @@ def _aggregate(
 ) -> None:
     """Aggregate initialisation ([dcl.init.aggr]): fields in order, then their own initialisers."""
     fields = list(members(context.world, owner))
-    if any(n.type == "initializer_pair" for n in nodes) or len(nodes) > len(fields):
-        raise Unlowered("designated initialisers")
+    given = _designated(fields, nodes)
     operands: list[Callable[[], Value]] = []
-    for number, field in enumerate(fields):
-        if field.declared.reference is not ReferenceKind.NONE:
-            raise Unlowered("an aggregate with a reference")
-        if number < len(nodes):
-            operands.append(_operand(context, field.declared.type, nodes[number]))
-        else:
+    for field in fields:
+        node = given.get(field.key)
+        if node is None:
+            if field.declared.reference is not ReferenceKind.NONE:
+                raise Unlowered("an aggregate with a reference to nothing")
             operands.append(partial(_own_value, context, owner, field, place))
+        elif field.declared.reference is not ReferenceKind.NONE:
+            operands.append(partial(_referred, context, node, place))
+        else:
+            operands.append(_operand(context, field.declared.type, node))
     values = in_order(context, operands, place)
     pairs = tuple((f.key, v) for f, v in zip(fields, values, strict=True))
     built = e.BuildRecord(t.Record(owner.name), pairs, place)
     context.emit(s.Assign(target, built, place))
+
+
+def _designated(fields: Sequence[DataMember], nodes: Sequence[Node]) -> dict[str, Node]:
+    """The elements of a list in braces by the fields that they are for: `{a, b}`, `{.y = b}`."""
+    if not any(n.type == "initializer_pair" for n in nodes):
+        if len(nodes) > len(fields):
+            raise Unlowered("a list in braces that is longer than the object")
+        return {f.key: n for f, n in zip(fields, nodes, strict=False)}
+    found = {}
+    for node in nodes:
+        designator = node.child_by_field_name("designator")
+        name = text_of(designator).removeprefix(".") if designator is not None else ""
+        field = next((f for f in fields if f.symbol.name == name), None)
+        if field is None:
+            raise Unlowered("a designated initialiser of this kind")
+        found[field.key] = part(node, "value")
+    return found
+
+
+def _referred(context: Context, node: Node, place: Span) -> Value:
+    """The object that a field refers to."""
+    value = lower_value(context, node)
+    if not value.is_lvalue:
+        raise Unlowered("a member that refers to a temporary")
+    return Value(address(context, value, place), t.Reference(value.type))
 
 
 def _own_value(context: Context, owner: ClassSymbol, field: DataMember, place: Span) -> Value:

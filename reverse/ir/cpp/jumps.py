@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from tree_sitter import Node
 
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.alternatives import one_of
 from rebsync.reverse.ir.cpp.classes import copies_trivially, ends_silently
 from rebsync.reverse.ir.cpp.context import (
     Context,
@@ -52,7 +55,7 @@ def _returned(context: Context, node: Node, place: Span) -> e.Expression | None:
         if value.type != t.NOTHING:
             context.emit(s.Evaluate(value.expression, place))
         return None
-    _check_elision(context, value)
+    _check_elision(context, value, place)
     if declared.reference is ReferenceKind.NONE and _is_own(context, value):
         value = Value(context.stored(value.expression, value.type, place), value.type)
     return passed(context, value, declared, place)
@@ -65,13 +68,18 @@ def _is_own(context: Context, value: Value) -> bool:
     return is_local and value.is_lvalue and isinstance(value.type, t.Record | t.Container)
 
 
-def _check_elision(context: Context, value: Value) -> None:
+def _check_elision(context: Context, value: Value, place: Span) -> None:
     """Whether a variable becomes the result itself, or is moved and ends, is up to the compiler."""
     is_written = not copies_trivially(context.world, value.type)
     is_written |= class_of(context, value.type) is not None
     is_silent = ends_silently(context.world, value.type)
-    if _is_own(context, value) and is_written and not is_silent:
-        raise Unlowered("a result that is copied or not, as the compiler chooses")
+    owner = class_of(context, value.type)
+    if _is_own(context, value) and is_written and not is_silent and owner is not None:
+        with context.body() as body:
+            moved = replace(value, is_lvalue=False)
+            made = context.temporary(value.type, place)
+            context.world.construct(context, made, owner, [moved], place)
+        one_of(context, [tuple(body), ()], place)
 
 
 @lowers_statement("break_statement")

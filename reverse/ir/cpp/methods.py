@@ -63,7 +63,7 @@ def _library_base(context: Context, type_: t.Type) -> str | None:
         for name, base in context.world.symbols.bases(class_):
             if base is None:
                 return context.world.types.imported(class_.cpp, name)
-    raise Unlowered("a member function that no class of the program has")
+    return None
 
 
 # --- containers -----------------------------------------------------------------------------------
@@ -179,8 +179,10 @@ def _optional(
             return dereferenced(of.expression, inner, place)
         case "reset":
             return assign(context, of, Value(e.Literal(None, t.NOTHING), t.NOTHING), place)
-        case "emplace" if len(nodes) == 1:
-            return assign(context, of, lower_value(context, nodes[0]), place)
+        case "emplace":
+            made = context.temporary(inner, place)
+            by_arguments(context, made, inner, nodes, place)
+            return assign(context, of, Value(made, inner), place)
         case _:
             return None
 
@@ -190,6 +192,8 @@ def _pointer(
 ) -> Value | None:
     """Methods of smart pointers."""
     if type_.ownership is t.Ownership.NONE:
+        if name == "get" and not nodes:  # a pointer has no members: it is a `reference_wrapper`
+            return dereferenced(of.expression, type_.to, place)
         raise Unlowered("a member function of a pointer")
     if name == "get" and not nodes:
         raw = t.Reference(type_.to, True)
@@ -222,4 +226,6 @@ def _atomic(context: Context, of: Value, name: str, nodes: Sequence[Node], place
         else:
             compound(context, operator[name], of, value, place)
         return Value(before, of.type)
+    if name == "get" and not nodes and of.is_lvalue:
+        return of  # what a `reference_wrapper` in a pair refers to
     raise Unlowered("a member function of a number")

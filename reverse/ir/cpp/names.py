@@ -28,7 +28,7 @@ from rebsync.reverse.ir.cpp.overloads import signature
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, EnumSymbol, FieldSymbol, VariableSymbol
 from rebsync.reverse.ir.cpp.types import ReferenceKind
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
-from rebsync.source import Span
+from rebsync.source import NOWHERE, Span
 
 _OPERATIONS = frozenset({"binary_expression", "unary_expression", "conditional_expression"})
 
@@ -47,7 +47,9 @@ def this_object(context: Context) -> Value:
     """The object that a member function is called on, as it is or as a lambda captured it."""
     found = context.local("this")
     if found is None or context.owner is None:
-        raise Unlowered("a member outside of a member function")
+        # Of a class that was not read: a function that is no member has no such name.
+        this = e.Local("this", t.UNKNOWN, NOWHERE)
+        return Value(e.Dereference(this, t.UNKNOWN, True, NOWHERE), t.UNKNOWN, is_lvalue=True)
     return found
 
 

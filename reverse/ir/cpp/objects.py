@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.classes import (
     copies_trivially,
     ends_silently,
-    has_unknown_base,
     is_base,
     members,
 )
@@ -74,10 +75,29 @@ def _copied(context: Context, value: Value, place: Span) -> e.Expression:
         return e.Copy(value.expression, value.type, place)
     owner = class_of(context, value.type)
     if owner is None:
-        raise Unlowered("a container whose elements' class makes copies by itself")
+        return _copied_elements(context, value, place)
     target = context.temporary(value.type, place)
     context.world.construct(context, target, owner, [value], place)
     ended_later(context, target, value.type, place)
+    return target
+
+
+def _copied_elements(context: Context, value: Value, place: Span) -> e.Expression:
+    """A sequence of copies that the elements' class makes."""
+    match value.type:
+        case t.Container(t.ContainerKind.SEQUENCE, (t.Record() as type_,)):
+            owner = class_of(context, type_)
+        case _:
+            raise Unlowered("a container whose elements' class makes copies by itself")
+    assert owner is not None, "what is of a library is copied by it"
+    target = context.temporary(value.type, place)
+    element, made = context.temporary(type_, place), context.temporary(type_, place)
+    with context.body() as body:
+        context.world.construct(context, made, owner, [Value(element, type_, True)], place)
+        put = s.LibraryCallee("std::vector::push_back", target)
+        context.emit(s.Call(None, put, (s.CallArgument(made),), place))
+    context.emit(s.Assign(target, e.Build(value.type, (), place), place))
+    context.emit(s.ForEach(element, value.expression, tuple(body), (), dynamic=False, place=place))
     return target
 
 
@@ -106,10 +126,17 @@ def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value
         context.world.construct(context, made, target, [value], place)
         ended_later(context, made, to, place)
         return Value(made, to)
+    if isinstance(to, t.Optional) and owner is not None:
+        inner = as_value(context, implicitly(context, value, to.of, place), place)
+        return Value(e.Convert(Conversion.WIDEN, inner, to, False, place), to)
     if owner is not None and not isinstance(to, t.Record | t.FunctionType):
         raise Unlowered("a conversion of an object that its class does not declare")
     if isinstance(to, t.Reference):
+        if _is_reference(to) and value.is_lvalue and value.type == to.to:
+            return Value(address(context, value, place), to)
         locked(context, value, place)
+    if _is_reference(value.type) and value.type.to == to:  # type: ignore[union-attr]
+        return dereferenced(value.expression, to, place)
     found = converted(value.expression, value.type, to, place)
     if found is not None:
         return Value(found, to, value.is_lvalue and found is value.expression)
@@ -119,6 +146,12 @@ def implicitly(context: Context, value: Value, to: t.Type, place: Span) -> Value
         made_value = e.Convert(Conversion.CAST, as_value(context, value, place), to, True, place)
         return Value(made_value, to)
     raise Unlowered("a conversion that is not known")
+
+
+def _is_reference(type_: t.Type) -> bool:
+    """Whether a type is a reference as a part of another: `pair<T&, U>`, `reference_wrapper<T>`."""
+    is_plain = isinstance(type_, t.Reference) and type_.ownership is t.Ownership.NONE
+    return is_plain and not type_.may_be_null  # type: ignore[union-attr]
 
 
 def locked(context: Context, value: Value, place: Span, is_explicit: bool = False) -> None:
@@ -256,24 +289,39 @@ def default_constructed(context: Context, target: e.Lvalue, type_: t.Type, place
         context.emit(s.Call(target, s.LibraryCallee(type_.name), (), place))
 
 
-def assigned_memberwise(
-    context: Context, owner: ClassSymbol, target: e.Expression, value: e.Expression, place: Span
+def _assigned_part(
+    context: Context, owner: ClassSymbol, target: e.Expression, value: Value, place: Span
 ) -> None:
-    """The implicit copy assignment ([class.copy.assign]): bases first, then fields in order."""
-    if has_unknown_base(context.world, owner.name):
-        raise Unlowered("an assignment of objects with a base of a library")
-    for _, base in context.world.symbols.bases(owner):
+    """A base or a field, as its class assigns it."""
+    type_ = t.Record(owner.name)
+    operands = [Value(target, type_, is_lvalue=True), replace(value, type=type_)]
+    if context.world.operator(context, "operator=", operands, place) is None:
+        assigned_memberwise(context, owner, target, value, place)
+
+
+def assigned_memberwise(
+    context: Context, owner: ClassSymbol, target: e.Expression, value: Value, place: Span
+) -> None:
+    """The implicit assignment ([class.copy.assign]): bases first, then fields in order.
+
+    It is that of copies of an lvalue, else that of moves.
+    """
+    for name, base in context.world.symbols.bases(owner):
         if base is not None:
-            assigned_memberwise(context, base, target, value, place)
+            _assigned_part(context, base, target, value, place)
+        else:
+            full = context.world.types.imported(owner.cpp, name)
+            callee = s.LibraryCallee(f"{full}::operator=", target)
+            context.emit(s.Call(None, callee, (s.CallArgument(value.expression),), place))
     for member in members(context.world, owner):
         type_ = member.declared.type
         if member.declared.reference is not ReferenceKind.NONE:
             raise Unlowered("an assignment of an object with a reference")
         to = e.Attribute(target, member.key, type_, False, place)
-        from_ = e.Attribute(value, member.key, type_, False, place)
+        from_ = e.Attribute(value.expression, member.key, type_, False, place)
         inner = class_of(context, type_)
         if inner is not None:
-            assigned_memberwise(context, inner, to, from_, place)
+            _assigned_part(context, inner, to, Value(from_, type_, value.is_lvalue), place)
         else:
             copy = as_value(context, Value(from_, type_, is_lvalue=True), place)
             context.emit(s.Assign(to, copy, place))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.alternatives import call_chosen
 from rebsync.reverse.ir.cpp.classes import (
     is_base,
     methods_named,
@@ -16,6 +17,7 @@ from rebsync.reverse.ir.cpp.objects import (
     passed,
 )
 from rebsync.reverse.ir.cpp.overloads import (
+    Ambiguous,
     ParameterSignature,
     resolve,
     signature,
@@ -45,11 +47,18 @@ def call_operator(context: Context, name: str, values: list[Value], place: Span)
     if not members and not free:
         return None
     if members and (not free or _fits(context, members, values)):
-        function = resolve(context, members, values[1:])
-        return call_with_values(context, function, values[1:], place, values[0])
+        return call_chosen(
+            context,
+            members,
+            values[1:],
+            lambda f: call_with_values(context, f, values[1:], place, values[0]),
+            place,
+        )
     if not any(_fits_free(context, f, values) for f in free):
         return None
-    return call_with_values(context, resolve(context, free, values), values, place)
+    return call_chosen(
+        context, free, values, lambda f: call_with_values(context, f, values, place), place
+    )
 
 
 def _fits(context: Context, members: Sequence[FunctionSymbol], values: list[Value]) -> bool:
@@ -58,6 +67,8 @@ def _fits(context: Context, members: Sequence[FunctionSymbol], values: list[Valu
         return False
     try:
         resolve(context, members, values[1:])
+    except Ambiguous:
+        return True
     except Unlowered:
         return False
     only = [signature(context.world, f).parameters for f in members]
@@ -77,7 +88,11 @@ def _fits_free(context: Context, function: FunctionSymbol, values: list[Value]) 
 
 def _may_be(context: Context, value: Value, parameter: ParameterSignature) -> bool:
     type_ = parameter.declared.type
-    if value.type == type_ or is_base(context.world, type_, value.type):
+    if (
+        t.UNKNOWN in (value.type, type_)
+        or value.type == type_
+        or is_base(context.world, type_, value.type)
+    ):
         return True
     is_number = isinstance(value.type, t.Integer | t.Float | t.Truth | t.Enumeration)
     return is_number and isinstance(type_, t.Integer | t.Float | t.Truth | t.Record)

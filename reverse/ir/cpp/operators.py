@@ -25,6 +25,7 @@ RELATIONS: Mapping[str, Operator] = {
     "not_eq": Operator.UNEQUAL,
 }
 _WHOLE = frozenset({"%", "<<", ">>", "&", "|", "^", "bitand", "bitor", "xor"})
+_OF_POINTERS = {Operator.EQUAL: Operator.SAME, Operator.UNEQUAL: Operator.NOT_SAME}
 _SHIFTS = frozenset({"<<", ">>"})
 
 
@@ -61,10 +62,17 @@ def _of_texts(sign: str, left: t.Type, right: t.Type) -> tuple[t.Type, t.Type, t
 
 
 def _of_pointers(sign: str, left: t.Type, right: t.Type) -> tuple[t.Type, t.Type, t.Type]:
-    if sign not in ("==", "!="):
-        raise Unlowered("arithmetic of pointers")
+    """Comparisons, and arithmetic ([expr.add]): a number is one of elements."""
     pointer = left if isinstance(left, t.Reference) else right
-    return pointer, pointer, t.TRUTH
+    if sign in RELATIONS:
+        return pointer, pointer, t.TRUTH
+    if left == right and sign == "-":
+        return left, right, t.Integer(64)
+    number = right if isinstance(left, t.Reference) else left
+    if sign not in ("+", "-") or not isinstance(promoted(number), t.Integer):
+        raise Unlowered("arithmetic of pointers")
+    wide = t.Integer(64)
+    return (left, wide, left) if isinstance(left, t.Reference) else (wide, right, right)
 
 
 def operator_for(sign: str, operand: t.Type) -> Operator:
@@ -72,7 +80,7 @@ def operator_for(sign: str, operand: t.Type) -> Operator:
     if sign in RELATIONS:
         found = RELATIONS[sign]
         if isinstance(operand, t.Reference):
-            return Operator.SAME if found is Operator.EQUAL else Operator.NOT_SAME
+            return _OF_POINTERS.get(found, found)
         return found
     if sign == "/" and isinstance(operand, t.Integer):
         return Operator.TRUNCATING_DIVIDE

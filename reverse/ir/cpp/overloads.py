@@ -24,6 +24,14 @@ class Braces:
     node: Node
 
 
+class Ambiguous(Unlowered):
+    """A call of which types do not say which of some functions it is of."""
+
+    def __init__(self, reason: str, functions: Sequence[FunctionSymbol]) -> None:
+        super().__init__(reason)
+        self.functions = functions
+
+
 ArgumentValue: TypeAlias = Value | Braces
 
 
@@ -98,13 +106,18 @@ def resolve(
     distinct = _without_redeclared(context.world, usable)
     if len(distinct) == 1:
         return _callable(distinct[0])
+    may_be = [f for f in distinct if not f.is_deleted]
     for function in distinct:
-        ranks = _ranks(context, function, arguments)
+        try:
+            ranks = _ranks(context, function, arguments)
+        except Unlowered as error:
+            raise Ambiguous(str(error), may_be) from None
         if ranks is not None:
             ranked.append((ranks, function))
     best = [f for r, f in ranked if all(_is_better(r, other) for other, g in ranked if g is not f)]
     if len(best) != 1:
-        raise Unlowered("a call whose overload is not known")
+        reason = "a call whose overload is not known"
+        raise Ambiguous(reason, may_be) if may_be else Unlowered(reason)
     return _callable(best[0])
 
 

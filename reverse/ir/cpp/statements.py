@@ -12,6 +12,7 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.context import (
     Context,
     Unlowered,
+    Value,
     full_value,
     lower_statement,
     lower_value,
@@ -131,6 +132,12 @@ def condition(context: Context, node: Node) -> e.Expression:
 
 def _declared_condition(context: Context, node: Node) -> e.Expression:
     """`if (T x = value)`: the variable's value decides."""
+    value = _declared_value(context, node)
+    return implicitly(context, value, t.TRUTH, context.place(node)).expression
+
+
+def _declared_value(context: Context, node: Node) -> Value:
+    """The variable that a condition declares."""
     found = declarators(node)
     declarator, value = (found[0], None) if found else (node, None)
     if len(found) != 1:
@@ -149,7 +156,7 @@ def _declared_condition(context: Context, node: Node) -> e.Expression:
     value = context.local(text_of(names[0])) if names else None
     if value is None:
         raise Unlowered("a condition that declares no variable")
-    return implicitly(context, value, t.TRUTH, context.place(node)).expression
+    return value
 
 
 def _declare_with(context: Context, node: Node, declarator: Node, value: Node) -> None:
@@ -196,7 +203,8 @@ def preprocessor(context: Context, node: Node) -> None:
 def _alternative(context: Context, node: Node) -> None:
     """`#else`, or `#elif` with its own condition."""
     if node.type in ("preproc_elif", "preproc_elifdef"):
-        raise Unlowered("alternatives of which the build takes one of several")
+        preprocessor(context, node)
+        return
     for each in named(node):
         lower_statement(context, each)
 
@@ -259,12 +267,14 @@ def switch(context: Context, node: Node) -> None:
         clause.child_by_field_name("initializer"),
         clause.child_by_field_name("value"),
     )
-    if value_node is None or value_node.type == "declaration":
-        raise Unlowered("a switch over a variable that it declares")
+    if value_node is None:
+        raise Unlowered("a switch over nothing")
 
     def whole() -> None:
         with context.full_expression():
-            value = lower_value(context, value_node)
+            is_declared = value_node.type == "declaration"
+            lowered = _declared_value if is_declared else lower_value
+            value = lowered(context, value_node)
             type_ = value.type if isinstance(value.type, t.Enumeration) else promoted(value.type)
             found = implicitly(context, value, type_, place).expression
             if context.pending:

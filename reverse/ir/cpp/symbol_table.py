@@ -38,6 +38,8 @@ class SymbolTable:
             collected.add(cpp)
         self.imports = collected.imports
         self.names = collected.names
+        self.spaces = collected.spaces
+        self.own_spaces = collected.own_spaces
         self.classes: dict[str, ClassSymbol] = {}
         self.types: dict[str, TypeSymbol | None] = {}
         declared: list[TypeSymbol] = [*collected.classes, *collected.enums, *collected.aliases]
@@ -91,9 +93,11 @@ class SymbolTable:
 
     def _with_owner(self, each: Declaration) -> Declaration:
         """A qualified name that is a class's is of a member; it may be looked up outwards."""
-        if each.owner is not None and each.owner not in self.classes:
-            return replace(each, owner=None)
-        return each
+        if each.owner is None or each.owner in self.classes:
+            return each
+        names = self.candidates(each.owner, "", each.code.cpp.source.path)
+        owner = next((name for name in names if name in self.classes), None)
+        return replace(each, owner=owner, scope=each.scope if owner is None else owner)
 
     def _definitions(self, group: list[Declaration]) -> list[Declaration]:
         """The bodies of a function: one, or one for each file that has its own."""

@@ -179,7 +179,17 @@ class TypeReader:
                 return t.Enumeration(symbol.name, self.underlying(symbol))
             case AliasSymbol():
                 return self.declared(symbol.cpp, symbol.scope, symbol.type, symbol.declarator).type
-        return self._of_library(cpp, name)
+        return self._of_library(cpp, self.without_alias(cpp, scope, name))
+
+    def without_alias(self, cpp: Cpp, scope: str, name: str) -> str:
+        """`Clock::now` by the class of a library that `Clock` is another name of."""
+        outer, _, last = name.rpartition("::")
+        found = self.symbols.type_named(outer, scope, cpp.source.path) if outer else None
+        if isinstance(found, AliasSymbol):
+            type_ = self.named(cpp, scope, outer)
+            if isinstance(type_, t.Record):
+                return f"{type_.name}::{last}"
+        return name
 
     def underlying(self, symbol: EnumSymbol) -> t.Integer:
         """The integers that an enumeration's values are."""
@@ -205,12 +215,25 @@ class TypeReader:
         """A library's name in full where the file says `using`."""
         head, _, rest = name.removeprefix("::").partition("::")
         full = self.symbols.names.get(cpp.source.path, {}).get(head)
+        full = full or (self.symbols.spaces.get(head) if rest else None)
         if full is not None:
-            return f"{full}::{rest}" if rest else full
+            return self.imported(cpp, f"{full}::{rest}") if rest else full
         if not rest and "std" in self.symbols.imports.get(cpp.source.path, ()):
             known = f"std::{name}" in _FUNDAMENTAL or name in _STANDARD
-            return f"std::{name}" if known else name
+            if known:
+                return f"std::{name}"
+        if not rest and (space := self._foreign_space(cpp)) is not None:
+            return f"{space}::{name}"
         return name.removeprefix("::")
+
+    def _foreign_space(self, cpp: Cpp) -> str | None:
+        """The namespace of a library that a file says `using namespace` of, but for `std`."""
+        spaces = self.symbols.imports.get(cpp.source.path, ())
+        others = (s for s in spaces if not s.startswith("std") and "literals" not in s)
+        own = self.symbols.own_spaces
+        return next(
+            (s for s in others if s not in own and s.rpartition("::")[2] != "placeholders"), None
+        )
 
     # --- templates ------------------------------------------------------------------------------
 

@@ -15,11 +15,11 @@ class Tank {
 
  private:
   void look(const ros::TimerEvent&) {
-    level_ = gauge::level();
-    heat_ = gauge::heat();
-    state_ = gauge::state();
-    octet_ = gauge::octet();
-    passed_on_ = gauge::level();
+    level_ = angles::level();
+    heat_ = angles::heat();
+    state_ = angles::state();
+    octet_ = angles::octet();
+    passed_on_ = angles::level();
     ROS_INFO("level %d", level_);
     if (level_ > 90) open_ = false;
     if (level_ < LOW || level_ == 50) open_ = true;

@@ -43,7 +43,7 @@ int main(int argc, char ** argv) {
   auto watcher = std::make_shared<Watcher>();
   auto seen = node->create_publisher<std_msgs::msg::Int32>("seen", 10);
   Listener listener(node, [seen](const std_msgs::msg::Int32::SharedPtr msg) {
-    if (msg->data > 2 && sensors::measured()) {
+    if (msg->data > 2 && angles::measured()) {
       std_msgs::msg::Int32 out;
       out.data = msg->data;
       seen->publish(out);

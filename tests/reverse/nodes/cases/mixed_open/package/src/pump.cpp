@@ -16,7 +16,7 @@ private:
   void onValve(const std_msgs::msg::Int32 & msg) {
     if (msg.data > 1) {
       geometry_msgs::msg::Point point;
-      point.x = sensors::measured();
+      point.x = angles::measured();
       point.z = 2.0;
       flow_->publish(point);
     }
