@@ -175,6 +175,10 @@ def _end(node: Node, names: Sequence[str]) -> Node | None:
     return None
 
 
+# What these give is no place in the array.
+_VALUES = frozenset(f"std::{n}" for n in ("count", "count_if", "all_of", "any_of", "none_of"))
+
+
 def looked_at(call: CppCall) -> bool:
     """Whether `*std::max_element(a.begin(), a.end())` is only looked at where it stands."""
     pointer = call.node.parent
@@ -188,4 +192,10 @@ def looked_at(call: CppCall) -> bool:
     else:
         is_looked_at = above.type == "binary_expression" and ">>" not in text_of(above)
     array = whole_array(call.arguments) if is_looked_at else None
+    return array is not None and array.type == "identifier"
+
+
+def only_counts(call: CppCall) -> bool:
+    """Whether a call is of an algorithm that gives a value, and only looks at a whole array."""
+    array = whole_array(call.arguments[:2]) if call.name in _VALUES else None
     return array is not None and array.type == "identifier"

@@ -9,7 +9,7 @@ from functools import partial
 from tree_sitter import Node
 
 from rebsync.reverse.bodies import known_functions
-from rebsync.reverse.bodies.cpp_algorithms import looked_at
+from rebsync.reverse.bodies.cpp_algorithms import looked_at, only_counts
 from rebsync.reverse.bodies.cpp_effect_reader import EffectReader
 from rebsync.reverse.bodies.cpp_kinds import OF_TEXTS
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
@@ -71,11 +71,15 @@ def check_call(effects: EffectReader, node: Node) -> None:
         known = _is_matrix(effects, node, name, call) or known
     else:
         _method(effects, call, name, of, meaning)
+        known = _takes_copies(effects, call)
     _check_defaults(effects, call)
     does = known_functions.acts(effects.cpp, call, has_mailbox(effects.scope))
     if does is not None:
         raise effects.touches(node, f'"{text_of(part(node, "function"))}" {does}')
     if looked_at(call):
+        return
+    if only_counts(call):
+        effects.arguments(call.arguments[2:])
         return
     if call.target is not None and any(map(gives_itself, call.arguments)):
         raise effects.touches(node, RENAMED)  # also a container, which only copies it
@@ -93,6 +97,15 @@ def _check_read(effects: EffectReader, call: CppCall) -> None:
     if why is not None:
         what = text_of(part(call.node, "function"))
         raise effects.touches(call.node, f'what "{what}" does is not known: {why}')
+
+
+def _takes_copies(effects: EffectReader, call: CppCall) -> bool:
+    """Whether a method of an object of the files only gets values, and changes that object alone."""
+    form = effects.scope.form
+    meant = form.unread_calls.methods_meant(effects.cpp, call) if form is not None else ()
+    if any(known_functions.may_change(p) for f in meant for p in f.parameters):
+        return False
+    return bool(meant) and all(is_calm(effects, f) for f in meant)
 
 
 def check_macro(effects: EffectReader, node: Node) -> None:

@@ -88,6 +88,21 @@ class UnreadCalls:
             self._found[key] = found or self.implicit.of_call(cpp, call)
         return self._found[key]
 
+    def methods_meant(self, cpp: Cpp, call: CppCall) -> tuple[CppFunction, ...]:
+        """The functions of a class of the files that a call on an object of it may mean."""
+        if call.target is None:
+            return ()
+        owner = self._statics.class_of(self._statics.of(cpp, call.target))
+        found = self._code.functions_of(owner) if owner is not None else ()
+        return tuple(f for f in found if f.name == call.name)
+
+    def is_aggregate(self, type_: str) -> bool:
+        """Whether objects of a class of the files are made of copies of what stands in braces."""
+        found = self._code.all_classes.get(type_, [])
+        if len(found) != 1 or found[0].bases or found[0].roots or found[0].others:
+            return False
+        return not any(f.name in (type_, f"~{type_}") for f in found[0].functions)
+
     def of_operator(self, cpp: Cpp, node: Node) -> str | None:
         """Why an operator may: of a class of the files, or declared by these alone."""
         if node.type == "assignment_expression" and self._open.has_undefined:

@@ -162,7 +162,9 @@ class Classes:
 
     def _reactive(self, owner: CppClass) -> m.ReactiveClass:
         roles = self.roles[owner.name]
-        check_plumbing(self.code, self.form, owner, self.roles, self.fields, self.findings)
+        by_hand = partial(self._by_hand, owner)
+        given = self.roles, self.fields, by_hand, self.findings
+        check_plumbing(self.code, self.form, owner, *given)
         for meaning in self.meanings:
             if in_files_of(self.code, owner, meaning):
                 unread = Unread(meaning.cpp.span(meaning.node), meaning.why)
@@ -196,6 +198,9 @@ class Classes:
     def _is_abstract(self, owner: CppClass) -> bool:
         """Whether no node is of this class: then it does not say what its state is."""
         return not any(f.name == "publishState" and not f.pure for f in owner.functions)
+
+    def _by_hand(self, owner: CppClass) -> Scope:
+        return as_by_hand(self.code, owner, self.shown, self.scope(owner))
 
     # --- variables ------------------------------------------------------------------------------
 

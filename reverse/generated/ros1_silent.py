@@ -20,8 +20,6 @@ from rebsync.reverse.syntax.cpp_tree import part, squeezed, text_of
 
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)::")
-_NUMBER = re.compile(r"(?:std::)?u?int(?:8|16|32|64)_t|(?:std::)?size_t|int|unsigned(?:int)?|long")
-_PLACES = ("identifier", "field_expression")
 _PUBLISHER = re.compile(r"ros::Publisher|rclcpp::Publisher<(.*)>::SharedPtr")
 
 
@@ -46,60 +44,6 @@ def only_logged(
             if not (is_other or any(n.id in known or is_logging(n) for n in around)):
                 left.discard(text_of(node))
     return left
-
-
-def counters(code: Code, owner: CppClass) -> set[str]:
-    """Numbers that are told to people, and else only counted or set in statements of their own.
-
-    Nothing but logs, and fields of messages that a function has made, gets what they are.
-    """
-    numbers = {f.name: f for f in owner.fields if _NUMBER.fullmatch(squeezed(f.type))}
-    left = {n for n, f in numbers.items() if not f.markers}
-    known = {f.node.id for f in owner.fields}
-    told = set[str]()
-    if not left:
-        return left
-    for cpp in code.files:
-        for node in code.named(cpp, cpp.root, sorted(left)):
-            around = [node, *ancestors(node)]
-            is_told = any(is_logging(n) or _fills(n) for n in around)
-            is_counted = any(n.id in known or _counts(n) for n in around)
-            if any(map(_is_of_state, around)) or not (is_told or is_counted):
-                left.discard(text_of(node))
-            elif is_told:
-                told.add(text_of(node))
-    return left & told
-
-
-def _is_of_state(node: Node) -> bool:
-    """Whether it is the function that tells the state: its variables are those of the model."""
-    is_function = node.type == "function_definition"
-    return is_function and "publishState" in text_of(part(node, "declarator"))
-
-
-def _counts(statement: Node) -> bool:
-    """`++x;`, `x = 0;` and `x += 2;`."""
-    inner = _expression_in(statement)
-    if inner is None or inner.type == "update_expression":
-        return inner is not None and part(inner, "argument").type in _PLACES
-    if inner.type != "assignment_expression":
-        return False
-    is_place = part(inner, "left").type in _PLACES
-    return is_place and part(inner, "right").type == "number_literal"
-
-
-def _fills(statement: Node) -> bool:
-    """`message.data = ++x;`, where the message is a local."""
-    inner = _expression_in(statement)
-    if inner is None or inner.type != "assignment_expression":
-        return False
-    left = part(inner, "left")
-    return left.type == "field_expression" and part(left, "argument").type == "identifier"
-
-
-def _expression_in(statement: Node) -> Node | None:
-    is_one = statement.type == "expression_statement" and bool(statement.named_children)
-    return statement.named_children[0] if is_one else None
 
 
 def _is_own(node: Node) -> bool:
