@@ -6,6 +6,8 @@ parameters whose functions only look at what the model has.
 
 from __future__ import annotations
 
+import re
+
 from tree_sitter import Node
 
 from rebsync.records import dataclass
@@ -18,7 +20,7 @@ from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import parameters_of
 from rebsync.reverse.generated.ros1_shown import OFFERS
-from rebsync.reverse.generated.ros1_timers import MAKES
+from rebsync.reverse.generated.ros1_timers import MAKES, makes
 from rebsync.reverse.generated.ros2_words import arguments_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
@@ -33,6 +35,8 @@ _REGISTERS = OFFERS | MAKES | READS | {
     *("set_parameter", "set_parameters", "setParam", "declare_parameters", "shared_from_this"),
 }
 _HANDS = ("lambda_expression", "this")
+# What only tells where frames are, whatever node makes it.
+_FRAMES = re.compile(r"std::make_(?:unique|shared)<tf2_ros::(?:Static)?TransformBroadcaster>")
 _HANDLES = frozenset({"node", "ros::NodeHandle(node)"})
 
 
@@ -72,7 +76,10 @@ class Beside:
         return form is not None and form.raises(self.function.cpp, statement) is not None
 
     def _is_outside(self, statement: Node) -> bool:
-        if inside(statement, *_HANDS) and any(map(_hands_on, inside(statement, *_HANDS))):
+        frames = [n for c in calls_in(statement) if _tells_frames(c) for n in c.arguments]
+        made = {n.id for a in frames for n in inside(a, *_HANDS)}
+        handed = [n for n in inside(statement, *_HANDS) if n.id not in made]
+        if any(map(_hands_on, handed)):
             return False
         if any(c.name.rpartition("::")[2] in _REGISTERS for c in calls_in(statement)):
             return False
@@ -93,10 +100,21 @@ class Beside:
         call = call_of(inner) if inner is not None else None
         if call is None or (call.target is not None and squeezed(call.target) not in _HANDLES):
             return False
+        if makes(call):
+            return self.is_idle_timer(call)
         if call.name in _SERVES:
             first, *others = call.arguments or (call.node,)
             return string_of(first) is not None and bool(others) and self._is_calm(others)
         return call.name == _SETS and self._is_calm(call.arguments) and self._agrees(call)
+
+    def is_idle_timer(self, call: CppCall) -> bool:
+        """Whether what a timer calls touches nothing of the model."""
+        arguments = list(call.arguments)
+        if call.name.startswith("rclcpp::"):
+            arguments = arguments[2:]
+        if len(arguments) < 2 or inside(arguments[0], "lambda_expression", "assignment_expression"):
+            return False
+        return self._is_calm(arguments[1:])
 
     def _is_calm(self, callback: list[Node] | tuple[Node, ...]) -> bool:
         """Whether what is called back touches nothing of the model: a lambda, or a method."""
@@ -140,6 +158,11 @@ class Beside:
             and n.parent.parent.parent.type in ("lambda_expression", "function_definition")
             for n in said[:1]
         )
+
+
+def _tells_frames(call: CppCall) -> bool:
+    """Whether a call makes an object that tells where frames are, and is given the node for it."""
+    return _FRAMES.fullmatch("".join(call.name.split())) is not None
 
 
 def _method(call: CppCall) -> str:

@@ -32,6 +32,7 @@ from rebsync.reverse.generated.ros1_annotations import (
     class_annotations,
     server_annotations,
 )
+from rebsync.reverse.generated.ros1_beside import Beside
 from rebsync.reverse.generated.ros1_bodies import GeneratedBodies
 from rebsync.reverse.generated.ros1_hand import acts, as_by_hand, is_passive, only_logs, stands_in
 from rebsync.reverse.generated.ros1_handed import as_handed_on
@@ -142,11 +143,18 @@ class Classes:
         """The timers of a class; their callbacks are servers, unless they only post a message."""
         roles = self.roles[owner.name]
         for timer in timers_of(self.code, owner, roles) if has_mailbox(self.code, owner) else ():
+            if timer.posts is None and timer.at_start and self._is_idle(owner, timer):
+                continue
             if timer.callback and timer.one_shot and timer.posts is not None:
                 roles.passing.add(timer.callback)
             elif timer.callback:
                 roles.handlers[timer.callback] = uncarry(timer.callback, RESERVED | self.types)
             yield timer
+
+    def _is_idle(self, owner: CppClass, timer: Timer) -> bool:
+        """Whether what a timer calls touches nothing of the model, as what logs does."""
+        scope = as_by_hand(self.code, owner, self.shown, self._scope(owner))
+        return Beside.of(self.code, timer.function, scope).is_idle_timer(timer.call)
 
     # --- one class ------------------------------------------------------------------------------
 

@@ -89,7 +89,7 @@ def _keeps(body: Node, own: Mapping[str, str]) -> bool:
     stored = (_root(n) for n in inside(body, *_STORES))
     is_own = all(name in own or name in locals_ for name in stored)
     floating = {n for n, type_ in own.items() if _FLOAT.search(type_)}
-    return is_own and not _divides(body, floating) and all(_is_pure_call(c) for c in calls_in(body))
+    return is_own and not divides(body, floating) and all(_is_pure_call(c) for c in calls_in(body))
 
 
 def _root(store: Node) -> str:
@@ -184,7 +184,7 @@ class _Silent:
         """Whether to evaluate something changes nothing, and cannot fail."""
         if inside(node, *_ACTS) or inside(node, "subscript_expression", "pointer_expression"):
             return False
-        return not _divides(node, self._floating) and all(map(_is_pure_call, calls_in(node)))
+        return not divides(node, self._floating) and all(map(_is_pure_call, calls_in(node)))
 
 
 def _uses(declaration: Node) -> Iterator[Node]:
@@ -198,7 +198,7 @@ def _uses(declaration: Node) -> Iterator[Node]:
             yield node
 
 
-def _divides(node: Node, floating: Collection[str]) -> bool:
+def divides(node: Node, floating: Collection[str]) -> bool:
     """Whether integers are divided there, perhaps by zero."""
     for each in inside(node, "binary_expression", "assignment_expression"):
         if text_of(part(each, "operator")).rstrip("=") not in ("/", "%"):

@@ -20,6 +20,7 @@ from rebsync.reverse.syntax.cpp_tree import part, squeezed, text_of
 
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)::")
+_ARRAY = re.compile(r"std::array<[\w:]+,(\d+)>")
 _PUBLISHER = re.compile(r"ros::Publisher|rclcpp::Publisher<(.*)>::SharedPtr")
 
 
@@ -67,6 +68,8 @@ def telling_publishers(
         for name, value in assigned_in(function.body) if function.name == owner.name else ():
             made.setdefault(name, []).append(call_of(value))
     members = {f.name: _PUBLISHER.fullmatch("".join(text_of(f.type).split())) for f in owner.fields}
+    arrays = {f.name: _ARRAY.fullmatch(squeezed(f.type)) for f in owner.fields}
+    sizes = {name: int(found[1]) for name, found in arrays.items() if found is not None}
     found = {}
     for name, calls in made.items():
         call, declared = calls[0], members.get(name)
@@ -76,7 +79,7 @@ def telling_publishers(
             continue
         type_ = type_of(call)
         is_shown = (type_, topic_of(call)) in shown and all(
-            sends(f.node, name, type_) for f in functions
+            sends(f.node, name, type_, sizes) for f in functions
         )
         if declared[1] in (None, type_) and (_TELLING.match(type_) or is_shown):
             found[name] = Publishes(())
