@@ -18,7 +18,7 @@ from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.models.building import binary, chosen, is_calm
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_declarations import CppParameter, parameters_in
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 from rebsync.static.types import INT, is_integer
 
 EXTREMES = {"std::max_element": ">", "std::min_element": "<"}
@@ -198,4 +198,8 @@ def looked_at(call: CppCall) -> bool:
 def only_counts(call: CppCall) -> bool:
     """Whether a call is of an algorithm that gives a value, and only looks at a whole array."""
     array = whole_array(call.arguments[:2]) if call.name in _VALUES else None
-    return array is not None and array.type == "identifier"
+    tests = [a for a in call.arguments[2:] if a.type == "lambda_expression"]
+    is_tested = call.name.removeprefix("std::") not in _TESTING or len(tests) == 1
+    given = [p for test in tests for p in inside(test, "parameter_declaration")]
+    takes_places = any("&" in text_of(p) and "const" not in text_of(p) for p in given)
+    return array is not None and array.type == "identifier" and is_tested and not takes_places

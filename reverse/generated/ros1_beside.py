@@ -83,6 +83,8 @@ class Beside:
             return False
         if any(c.name.rpartition("::")[2] in _REGISTERS for c in calls_in(statement)):
             return False
+        if any(name in self.scope.members for name in _declared(statement)):
+            return False  # what follows means the local by it
         before = set(self.effects.inner)
         try:
             self.effects.check(statement)
@@ -158,6 +160,15 @@ class Beside:
             and n.parent.parent.parent.type in ("lambda_expression", "function_definition")
             for n in said[:1]
         )
+
+
+def _declared(statement: Node) -> set[str]:
+    """The names that a statement declares for those that follow it."""
+    if statement.type != "declaration":
+        return set()
+    found = statement.children_by_field_name("declarator")
+    names = (d.child_by_field_name("declarator") or d for d in found)
+    return {text_of(n) for d in names for n in inside(d, "identifier")}
 
 
 def _tells_frames(call: CppCall) -> bool:
