@@ -99,10 +99,26 @@ def _check_read(effects: EffectReader, call: CppCall) -> None:
         raise effects.touches(call.node, f'what "{what}" does is not known: {why}')
 
 
+def _is_constant(effects: EffectReader, node: Node) -> bool:
+    form = effects.scope.form
+    return form is not None and form.unread_calls.objects.is_constant(effects.cpp, node)
+
+
+def _is_calm_helper(effects: EffectReader, call: CppCall) -> bool:
+    """Whether a function of the files outside of classes is called, which only looks."""
+    form = effects.scope.form
+    if form is None or call.name in effects.inner or effects.scope.meaning(call.name) is not None:
+        return False
+    helper = form.unread_calls.objects.free_function(call)
+    if helper is None or any(known_functions.may_change(p) for p in helper.parameters):
+        return False
+    return is_calm(effects, helper)
+
+
 def _takes_copies(effects: EffectReader, call: CppCall) -> bool:
     """Whether a method of an object of the files only gets values, and changes that object alone."""
     form = effects.scope.form
-    meant = form.unread_calls.methods_meant(effects.cpp, call) if form is not None else ()
+    meant = form.unread_calls.objects.methods_meant(effects.cpp, call) if form is not None else ()
     if any(known_functions.may_change(p) for f in meant for p in f.parameters):
         return False
     return bool(meant) and all(is_calm(effects, f) for f in meant)
@@ -211,6 +227,8 @@ def _function(effects: EffectReader, call: CppCall, name: str) -> bool:
                 return True
             raise effects.touches(call.node, f'"{name}" may be a macro that hides statements')
         case None | Ignored():
+            if _is_calm_helper(effects, call):
+                return True
             if is_unknown_function(effects.scope, effects.inner, call):
                 raise effects.touches(call.node, f'nobody here knows what "{call.name}" does')
             _check_read(effects, call)
@@ -277,6 +295,8 @@ def _method(
     target = call.target
     assert target is not None
     match meaning:
+        case None if _is_constant(effects, target):
+            pass
         case None if is_method_of_unknown(effects.scope, effects.inner, of, name):
             raise effects.touches(call.node, f'nobody here knows what "{text_of(target)}" is')
         case None | Outside(reaches=False):

@@ -19,6 +19,7 @@ from rebsync.reverse.bodies.cpp_implicit_calls import (
     UnwrittenCalls,
     operators,
 )
+from rebsync.reverse.bodies.cpp_known_objects import KnownObjects
 from rebsync.reverse.bodies.cpp_object_parts import UNDEFINED as _UNDEFINED
 from rebsync.reverse.bodies.cpp_object_parts import ObjectParts
 from rebsync.reverse.bodies.cpp_provenance import Provenance, ProvenanceAnalysis
@@ -74,6 +75,7 @@ class UnreadCalls:
         self._provenance = ProvenanceAnalysis(self._texts, self._calls, self._statics)
         self._open = Undefined(code, self._texts)
         self._parts = ObjectParts(self._texts, self._statics, self._open)
+        self.objects = KnownObjects(code, self._statics)
         self.of_enums = EnumOperators(self._statics, self._open)
         self.implicit = UnwrittenCalls(
             self._texts, self._statics, self._calls, self._parts, self._of_converted
@@ -87,21 +89,6 @@ class UnreadCalls:
             found = self._free(cpp, call) if call.target is None else self._method(cpp, call)
             self._found[key] = found or self.implicit.of_call(cpp, call)
         return self._found[key]
-
-    def methods_meant(self, cpp: Cpp, call: CppCall) -> tuple[CppFunction, ...]:
-        """The functions of a class of the files that a call on an object of it may mean."""
-        if call.target is None:
-            return ()
-        owner = self._statics.class_of(self._statics.of(cpp, call.target))
-        found = self._code.functions_of(owner) if owner is not None else ()
-        return tuple(f for f in found if f.name == call.name)
-
-    def is_aggregate(self, type_: str) -> bool:
-        """Whether objects of a class of the files are made of copies of what stands in braces."""
-        found = self._code.all_classes.get(type_, [])
-        if len(found) != 1 or found[0].bases or found[0].roots or found[0].others:
-            return False
-        return not any(f.name in (type_, f"~{type_}") for f in found[0].functions)
 
     def of_operator(self, cpp: Cpp, node: Node) -> str | None:
         """Why an operator may: of a class of the files, or declared by these alone."""

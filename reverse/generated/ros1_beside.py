@@ -19,7 +19,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_roles import parameters_of
-from rebsync.reverse.generated.ros1_shown import OFFERS
+from rebsync.reverse.generated.ros1_shown import OFFERS, is_free
 from rebsync.reverse.generated.ros1_timers import MAKES, makes
 from rebsync.reverse.generated.ros2_words import arguments_in
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, string_of
@@ -28,6 +28,11 @@ from rebsync.reverse.syntax.cpp_tree import inside, named, part, squeezed, text_
 
 # What a node is given to call: it tells of itself, and is told what others want to know.
 _SERVES = frozenset({"create_service", "advertiseService"})
+_HEARS = frozenset({"create_subscription", "subscribe"})
+# What calls back to be told how the node does, or what people set.
+_CALLING = re.compile(
+    r"(?:std::(?:unique|shared)_ptr<)?(?:diagnostic_updater::Updater|dynamic_reconfigure::Server<.*>)>?"
+)
 _SETS = "add_on_set_parameters_callback"
 _REGISTERS = OFFERS | MAKES | READS | {
     *("subscribe", "subscribeOnBridge", "create_subscription", "create_client", "serviceClient"),
@@ -37,7 +42,7 @@ _REGISTERS = OFFERS | MAKES | READS | {
 _HANDS = ("lambda_expression", "this")
 # What only tells where frames are, whatever node makes it.
 _FRAMES = re.compile(r"std::make_(?:unique|shared)<tf2_ros::(?:Static)?TransformBroadcaster>")
-_HANDLES = frozenset({"node", "ros::NodeHandle(node)"})
+_HANDLES = frozenset({"", "this", "node", "ros::NodeHandle(node)", "ros::NodeHandle()"})
 
 
 @dataclass(slots=True)
@@ -100,14 +105,41 @@ class Beside:
             kept = self.scope.members.get(text_of(part(inner, "left")).removeprefix("this->"))
             inner = part(inner, "right") if isinstance(kept, Outside) else None
         call = call_of(inner) if inner is not None else None
-        if call is None or (call.target is not None and squeezed(call.target) not in _HANDLES):
+        if call is None:
             return False
+        on = squeezed(call.target) if call.target is not None else ""
+        if _CALLING.fullmatch(self._type_of(on)):
+            return self._is_told(call)
+        if on not in _HANDLES:
+            return False
+        first, *others = call.arguments or (call.node,)
         if makes(call):
             return self.is_idle_timer(call)
         if call.name in _SERVES:
-            first, *others = call.arguments or (call.node,)
             return string_of(first) is not None and bool(others) and self._is_calm(others)
+        if call.name in _HEARS:
+            is_plain = len(others) > 1 and not inside(others[0], "lambda_expression")
+            return is_plain and is_free(self.code, first) and self._is_calm(others[1:])
         return call.name == _SETS and self._is_calm(call.arguments) and self._agrees(call)
+
+    def _type_of(self, member: str) -> str:
+        """The type of a member, without its layout."""
+        owner = self.code.classes.get(self.function.owner)
+        fields = owner.fields if owner is not None else ()
+        name = member.removeprefix("this->")
+        return next((squeezed(f.type) for f in fields if f.name == name), "")
+
+    def _is_told(self, call: CppCall) -> bool:
+        """Whether an object that tells people, or is told by them, calls what touches nothing."""
+        match call.name, call.arguments:
+            case ("setHardwareID" | "setHardwareIDf" | "setPeriod"), arguments:
+                return not any(inside(a, *_HANDS, "assignment_expression") for a in arguments)
+            case "setCallback", arguments if arguments:
+                return self._is_calm(arguments)
+            case "add", [_, *callback] if callback:
+                return self._is_calm(callback[::-1])
+            case _:
+                return False
 
     def is_idle_timer(self, call: CppCall) -> bool:
         """Whether what a timer calls touches nothing of the model."""
@@ -123,7 +155,7 @@ class Beside:
         first, *others = callback
         if first.type == "lambda_expression":
             return not others and self._looks(first)
-        if (bound := call_of(first)) is not None and bound.name == "std::bind":
+        if (bound := call_of(first)) is not None and bound.name in ("std::bind", "boost::bind"):
             first, *others = bound.arguments or (first,)
             others = [a for a in others if not text_of(a).startswith(("std::placeholders", "_"))]
         if not text_of(first).startswith("&") or [a.type for a in others] != ["this"]:

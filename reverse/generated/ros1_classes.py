@@ -38,7 +38,11 @@ from rebsync.reverse.generated.ros1_hand import acts, as_by_hand, is_passive, on
 from rebsync.reverse.generated.ros1_handed import as_handed_on
 from rebsync.reverse.generated.ros1_inherited import is_declared, list_hiding, only_forwards
 from rebsync.reverse.generated.ros1_meanings import Meaning, in_files_of, other_meanings
-from rebsync.reverse.generated.ros1_mixins import functions_beside, without_mixins
+from rebsync.reverse.generated.ros1_mixins import (
+    functions_beside,
+    methods_beside,
+    without_mixins,
+)
 from rebsync.reverse.generated.ros1_names import (
     aliases,
     called,
@@ -189,7 +193,7 @@ class Classes:
         members += [self._server(owner, f, by) for f, by in served if by is not None]
         members += self._lambdas(owner)
         members += [self._method(owner, f) for f, by in served if by is None]
-        members += [self._method(owner, f) for f in functions_beside(self.code, owner)]
+        members += [self._method(owner, f) for f in methods_beside(self.code, owner)]
         classes = self.code.classes
         extends = [b for b in owner.bases if b in classes and has_mailbox(self.code, classes[b])]
         return m.ReactiveClass(

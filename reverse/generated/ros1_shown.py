@@ -63,6 +63,13 @@ def shown_only(code: Code) -> frozenset[tuple[str, str]]:
     )
 
 
+def is_free(code: Code, topic: Node) -> bool:
+    """Whether a topic is a literal with a name that nothing else in the code has."""
+    name = (string_of(topic) or "").rpartition("/")[2]
+    literals = [n for cpp in code.files for n in inside(cpp.root, "string_literal")]
+    return bool(name) and name not in _RUNTIME and _is_free(name, {topic.id}, literals)
+
+
 def topic_of(call: CppCall) -> str:
     """The name, alone, of the topic that a call offers; empty if it has more of one."""
     place, name = _split(call)
