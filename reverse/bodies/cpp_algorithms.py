@@ -22,6 +22,8 @@ from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 from rebsync.static.types import INT, is_integer
 
 EXTREMES = {"std::max_element": ">", "std::min_element": "<"}
+_JOINING = {"==": "&&", "!=": "||"}
+_NAMES = ("identifier", "field_expression")
 _BEGINS, _ENDS = ("begin", "cbegin"), ("end", "cend")
 _MOST = 4  # elements of which a choice is written: each one more doubles what is to be said
 _LONGEST = 32  # elements that are added up, or counted
@@ -148,6 +150,40 @@ def whole_array(bounds: Sequence[Node]) -> Node | None:
     if len(bounds) != 2 or None in arrays or len({text_of(a) for a in arrays if a}) != 1:
         return None
     return arrays[0]
+
+
+def compared(
+    reader: CppExpressionReader, operator: str, sides: Sequence[Node]
+) -> m.Expression | None:
+    """`a == std::array<int, 2>{x, y}`, or `a == b`, of arrays of the model, element by element."""
+    left, right = sides
+    type_ = plain_type(reader, left) if operator in _JOINING and left.type in _NAMES else None
+    if type_ is None or type_.dimensions[0] > _LONGEST:
+        return None
+    size, others = type_.dimensions[0], _elements_of(right)
+    if others is not None:
+        if len(others) != size:
+            return None
+        values = [reader.read(value) for value in others]
+    elif right.type in _NAMES and plain_type(reader, right) == type_:
+        values = [m.Index(reader.read(right), m.IntLiteral(i)) for i in range(size)]
+    else:
+        return None
+    cells = (m.Index(reader.read(left), m.IntLiteral(i)) for i in range(size))
+    if not all(map(is_calm, values)):
+        return None
+    tests = [binary(operator, c, v) for c, v in zip(cells, values, strict=True)]
+    return reduce(lambda before, test: binary(_JOINING[operator], before, test), tests)
+
+
+def _elements_of(node: Node) -> list[Node] | None:
+    """What stands in the braces of an array that is made where it is compared."""
+    if node.type != "compound_literal_expression" or not text_of(node).startswith("std::array<"):
+        return None
+    values = named(part(node, "value"))
+    if len(values) == 1 and values[0].type == "initializer_list":
+        values = named(values[0])
+    return values
 
 
 def first_of(node: Node) -> Node | None:

@@ -341,7 +341,8 @@ class CppExpressions(CppExpressionReader):
             return found
         if operator == "%" and (drawn := cpp_idioms.drawn(self, node, named(node))) is not None:
             return drawn
-        return self.binary(node, operator, named(node))
+        elements = cpp_algorithms.compared(self, operator, named(node))
+        return elements or self.binary(node, operator, named(node))
 
     def binary(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
         reads = self.condition if operator in ("&&", "||") else self.read

@@ -86,7 +86,11 @@ def _has_clock(value: Node | None) -> bool:
 
 
 def _is_guarded(node: Node, member: str) -> bool:
-    """Whether a condition around says that the member was set."""
+    """Whether a condition around says that the member was set, or a statement before sets it."""
+    blocks = (n for n in ancestors(node) if n.type == "compound_statement")
+    before = (pair for block in blocks for pair in assigned_in(block))
+    if any(name == member and value.end_byte <= node.start_byte for name, value in before):
+        return True
     conditions = (n.child_by_field_name("condition") for n in ancestors(node))
     found = (m for c in conditions if c is not None for m in _IS_SET.finditer(squeezed(c)))
     return any(m[1] == member for m in found)
