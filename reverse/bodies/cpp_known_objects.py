@@ -9,7 +9,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall
-from rebsync.reverse.syntax.cpp_declarations import CppFunction
+from rebsync.reverse.syntax.cpp_declarations import CppField, CppFunction
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.values.cpp_static_types import StaticTypes
@@ -45,6 +45,10 @@ class KnownObjects:
         around = (variable.name, *ancestors(variable.name))
         declaration = next((n for n in around if n.type == "declaration"), None)
         return declaration is not None and _CONSTANT.match(text_of(declaration)) is not None
+
+    def fields_of(self, type_: str) -> tuple[CppField, ...]:
+        """The variables of the one class of a name."""
+        return self.code.all_classes[type_][0].fields
 
     def is_aggregate(self, type_: str) -> bool:
         """Whether objects of a class of the files are made of copies of what stands in braces."""
