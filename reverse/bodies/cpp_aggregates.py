@@ -38,9 +38,7 @@ class Part:
     reader: CppStatementReader
 
 
-def parts(
-    reader: CppStatementReader, type_: Node | None, value: Node | None
-) -> list[Part] | None:
+def parts(reader: CppStatementReader, type_: Node | None, value: Node | None) -> list[Part] | None:
     """The parts of what is made there, in their order; None for anything else.
 
     `type_` is the type that is written, if it is not left to the compiler.

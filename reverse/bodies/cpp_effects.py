@@ -254,7 +254,11 @@ class Effects(EffectReader):
             above = above.parent
         type_ = above.child_by_field_name("type") if above is not None else None
         form = self.scope.form
-        if type_ is None or form is None or not form.unread_calls.objects.is_aggregate(text_of(type_)):
+        if (
+            type_ is None
+            or form is None
+            or not form.unread_calls.objects.is_aggregate(text_of(type_))
+        ):
             self.arguments(named(node))
             return
         for element in named(node):

@@ -34,6 +34,7 @@ def _is_over_given(loop: Node) -> bool:
     declarator = around.child_by_field_name("declarator") if around is not None else None
     given = inside(declarator, "parameter_declaration")
     return any(
-        _LIST.match(text_of(p)) is not None and text_of(over) in map(text_of, inside(p, "identifier"))
+        _LIST.match(text_of(p)) is not None
+        and text_of(over) in map(text_of, inside(p, "identifier"))
         for p in given
     )

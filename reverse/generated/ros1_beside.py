@@ -34,11 +34,22 @@ _CALLING = re.compile(
     r"(?:std::(?:unique|shared)_ptr<)?(?:diagnostic_updater::Updater|dynamic_reconfigure::Server<.*>)>?"
 )
 _SETS = "add_on_set_parameters_callback"
-_REGISTERS = OFFERS | MAKES | READS | {
-    *("subscribe", "subscribeOnBridge", "create_subscription", "create_client", "serviceClient"),
-    *("advertiseAll", "create_callback_group", "getParam", "get_parameter", "has_parameter"),
-    *("set_parameter", "set_parameters", "setParam", "declare_parameters", "shared_from_this"),
-}
+_REGISTERS = (
+    OFFERS
+    | MAKES
+    | READS
+    | {
+        *(
+            "subscribe",
+            "subscribeOnBridge",
+            "create_subscription",
+            "create_client",
+            "serviceClient",
+        ),
+        *("advertiseAll", "create_callback_group", "getParam", "get_parameter", "has_parameter"),
+        *("set_parameter", "set_parameters", "setParam", "declare_parameters", "shared_from_this"),
+    }
+)
 _HANDS = ("lambda_expression", "this")
 # What only tells where frames are, whatever node makes it.
 _FRAMES = re.compile(r"std::make_(?:unique|shared)<tf2_ros::(?:Static)?TransformBroadcaster>")
@@ -132,7 +143,7 @@ class Beside:
     def _is_told(self, call: CppCall) -> bool:
         """Whether an object that tells people, or is told by them, calls what touches nothing."""
         match call.name, call.arguments:
-            case ("setHardwareID" | "setHardwareIDf" | "setPeriod"), arguments:
+            case (("setHardwareID" | "setHardwareIDf" | "setPeriod"), arguments):
                 return not any(inside(a, *_HANDS, "assignment_expression") for a in arguments)
             case "setCallback", arguments if arguments:
                 return self._is_calm(arguments)
@@ -186,11 +197,16 @@ class Beside:
         stores = [n for b in bodies for n in inside(b, "assignment_expression")]
         said = [n for n in stores if text_of(part(n, "left")).endswith(".successful")]
         is_first = len({text_of(part(n, "left")) for n in said}) == 1
-        return is_first and all(text_of(part(n, "right")) == "true" for n in said) and all(
-            n.parent is not None and n.parent.parent is not None
-            and n.parent.parent.parent is not None
-            and n.parent.parent.parent.type in ("lambda_expression", "function_definition")
-            for n in said[:1]
+        return (
+            is_first
+            and all(text_of(part(n, "right")) == "true" for n in said)
+            and all(
+                n.parent is not None
+                and n.parent.parent is not None
+                and n.parent.parent.parent is not None
+                and n.parent.parent.parent.type in ("lambda_expression", "function_definition")
+                for n in said[:1]
+            )
         )
 
 

@@ -116,7 +116,9 @@ def _odd_in(
     odd: Iterable[Node] = ()
     why = ""
     if name == owner.name:
-        odd = _not_outside(code, function, _odd_in_constructor(code, owner, function, roles), by_hand)
+        odd = _not_outside(
+            code, function, _odd_in_constructor(code, owner, function, roles), by_hand
+        )
         why = "a constructor of generated code only sets up; the model's own is construct()"
         if (told := _odd_priority(code, function, lineage)) is not None:
             yield told, "the mailbox is told of another priority than its most urgent server has"

@@ -127,9 +127,7 @@ def _may_fail(store: Node, sizes: Mapping[str, int]) -> bool:
     clocks = [n for n in given if squeezed(n).endswith("now()")]
     within |= {i.id for n in clocks for i in inside(n, "field_expression", "call_expression")}
     reached = [n for n in inside(store, "field_expression") if "->" in text_of(n)]
-    is_foreign = any(
-        text_of(part(n, "argument")) != "this" and n.id not in within for n in reached
-    )
+    is_foreign = any(text_of(part(n, "argument")) != "this" and n.id not in within for n in reached)
     looks = inside(store, "pointer_expression")
     looks += [n for n in inside(store, "subscript_expression") if not _is_there(n, sizes)]
     calls = [n for n in inside(store, "call_expression") if n.id not in within]
