@@ -116,7 +116,7 @@ def _is_calm_helper(effects: EffectReader, call: CppCall) -> bool:
 
 
 def _takes_copies(effects: EffectReader, call: CppCall) -> bool:
-    """Whether a method of an object of the files only gets values, and changes that object alone."""
+    """Whether a method of an object of the files gets values, and changes that object alone."""
     form = effects.scope.form
     meant = form.unread_calls.objects.methods_meant(effects.cpp, call) if form is not None else ()
     if any(known_functions.may_change(p) for f in meant for p in f.parameters):

@@ -174,7 +174,7 @@ class Beside:
         name = text_of(first).rpartition("::")[2]
         own = self.scope.functions.get(name)
         meant = meant_by(own, name, -1) if isinstance(own, Called | Inline) else ()
-        found = meant or [f for f in self.code.definitions.get((self.function.owner, name), ())]
+        found = meant or self.code.definitions.get((self.function.owner, name), ())
         return len(found) == 1 and is_calm(Effects(self.function.cpp, self.scope), found[0])
 
     def _looks(self, lambda_: Node) -> bool:

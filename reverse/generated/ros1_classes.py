@@ -21,9 +21,7 @@ from rebsync.reverse.bodies.scope import (
     Function,
     Ignored,
     Member,
-    Outside,
     Scope,
-    Variable,
 )
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.own_parameters import with_own
@@ -34,21 +32,18 @@ from rebsync.reverse.generated.ros1_annotations import (
 )
 from rebsync.reverse.generated.ros1_beside import Beside
 from rebsync.reverse.generated.ros1_bodies import GeneratedBodies
-from rebsync.reverse.generated.ros1_hand import acts, as_by_hand, is_passive, only_logs, stands_in
+from rebsync.reverse.generated.ros1_hand import as_by_hand, is_passive, only_logs, stands_in
 from rebsync.reverse.generated.ros1_handed import as_handed_on
 from rebsync.reverse.generated.ros1_inherited import is_declared, list_hiding, only_forwards
 from rebsync.reverse.generated.ros1_meanings import Meaning, in_files_of, other_meanings
-from rebsync.reverse.generated.ros1_mixins import (
-    functions_beside,
-    methods_beside,
-    without_mixins,
-)
+from rebsync.reverse.generated.ros1_mixins import functions_beside, methods_beside, without_mixins
 from rebsync.reverse.generated.ros1_names import (
     aliases,
     called,
     declared_type,
     enumerators,
     has_mailbox,
+    is_abstract,
     is_given,
     is_interface,
     plain_name,
@@ -59,7 +54,7 @@ from rebsync.reverse.generated.ros1_names import (
 )
 from rebsync.reverse.generated.ros1_plumbing import check_plumbing
 from rebsync.reverse.generated.ros1_posts import learn_servers, posts_in_bodies
-from rebsync.reverse.generated.ros1_publishing import publisher
+from rebsync.reverse.generated.ros1_publishing import meaning_of
 from rebsync.reverse.generated.ros1_roles import Roles, roles_of, shown_of
 from rebsync.reverse.generated.ros1_sends import add_sends, families_of
 from rebsync.reverse.generated.ros1_shown import shown_only
@@ -72,7 +67,7 @@ from rebsync.reverse.generated.ros1_timers import (
 )
 from rebsync.reverse.generated.ros1_values import initial_values
 from rebsync.reverse.generated.ros2_words import is_of_ros
-from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import text_of
 
 _PLUMBING = frozenset({"mailbox", "publishState"})
@@ -200,16 +195,12 @@ class Classes:
             name,
             (roles.queue_length or 1) + ticking(self.timers[owner.name]),
             tuple(members),
-            self._is_abstract(owner),
+            is_abstract(owner),
             class_name(extends[0]) if extends else None,
             tuple(class_name(b) for b in owner.bases if b not in extends),
             tuple(class_annotations(self.roles, owner)),
             owner.cpp.span(owner.node),
         )
-
-    def _is_abstract(self, owner: CppClass) -> bool:
-        """Whether no node is of this class: then it does not say what its state is."""
-        return not any(f.name == "publishState" and not f.pure for f in owner.functions)
 
     def _by_hand(self, owner: CppClass) -> Scope:
         return as_by_hand(self.code, owner, self.shown, self.scope(owner))
@@ -366,22 +357,14 @@ class Classes:
             self._scopes[owner.name] = self._scope(owner)
         return self._scopes[owner.name]
 
-    def _member(self, roles: Roles, member: CppField) -> Member:
-        if (runtime := runtime_of(member)) is not None:
-            return runtime
-        if (advertised := roles.publishers.get(member.name)) is not None:
-            return publisher(advertised, self.served, self.messages)
-        if declared_type(self.code, member.type) is None or member.name in roles.silent:
-            return Outside(reaches=acts(text_of(member.type)))
-        return Variable(variable_name(roles, member), declared_type(self.code, member.type))
-
     def _scope(self, owner: CppClass) -> Scope:
         members: dict[str, Member] = {}
         functions: dict[str, Function] = {}
         callable_: set[str] = set()
         for above in reversed(self.code.lineage(owner.name)):
             roles = self.roles[above.name]
-            members |= {f.name: self._member(roles, f) for f in above.fields}
+            given = self.code, roles, self.served, self.messages
+            members |= {f.name: meaning_of(f, *given) for f in above.fields}
             for function in self.code.functions_of(above):
                 served = self._served(above, function)
                 if function.name in roles.sends:

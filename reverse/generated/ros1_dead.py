@@ -216,7 +216,7 @@ def _is_pure_call(call: CppCall) -> bool:
         return False
     if call.target is not None:
         return name in _GIVES or name in libraries.looking()
-    return call.name.startswith("std::") and is_known(call) or call.name.startswith("static_cast")
+    return (call.name.startswith("std::") and is_known(call)) or call.name.startswith("static_cast")
 
 
 def _is_own_parameter(value: Node) -> bool:

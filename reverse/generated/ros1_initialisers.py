@@ -27,7 +27,8 @@ def odd_handles(owner: CppClass, constructor: CppFunction) -> Iterator[Node]:
         type_, given = types.get(text_of(name), ""), named(values)
         if not (type_ in _PARTS or type_.startswith(_SENSOR)) or not given:
             continue
-        if squeezed(given[0]) not in handles | {"*this"}:
-            yield initialiser
-        elif type_ == "Drive" and (len(given) != 2 or text_of(given[1]) != "mailbox_"):
+        is_own = squeezed(given[0]) in handles | {"*this"}
+        if type_ == "Drive":
+            is_own = is_own and [text_of(n) for n in given[1:]] == ["mailbox_"]
+        if not is_own:
             yield initialiser

@@ -161,7 +161,7 @@ def _offers(code: Code) -> Iterator[tuple[str, str, Node]]:
 
 
 def _is_sent(name: Node) -> bool:
-    """Whether a type is named to declare a message, for a publisher, or for one of its constants."""
+    """Whether a type is named for a message that is made, a publisher, or one of its constants."""
     node = name
     while node.parent is not None and node.parent.type == "qualified_identifier":
         node = node.parent
