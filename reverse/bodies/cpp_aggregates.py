@@ -29,7 +29,7 @@ _PAIR = ("first", "second")
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class AggregatePart:
     """One part: its name, its type if that is written, its value, and who reads that."""
 
     name: str
@@ -38,7 +38,9 @@ class Part:
     reader: CppStatementReader
 
 
-def parts(reader: CppStatementReader, type_: Node | None, value: Node | None) -> list[Part] | None:
+def parts(
+    reader: CppStatementReader, type_: Node | None, value: Node | None
+) -> list[AggregatePart] | None:
     """The parts of what is made there, in their order; None for anything else.
 
     `type_` is the type that is written, if it is not left to the compiler.
@@ -48,11 +50,11 @@ def parts(reader: CppStatementReader, type_: Node | None, value: Node | None) ->
     call = call_of(value)
     known = reader.scope.functions.get(call.name) if call is not None else None
     if call is not None and isinstance(known, Inline) and call.target is None:
-        function = known.function
-        if function.result is None or not _is_aggregate(reader, function.result):
+        result = known.function.result
+        if result is None or _fields(reader, result) is None:
             return None
         given = cpp_inline.only_value(reader, value, known, call.arguments)
-        return parts(given[0], function.result, given[1]) if given is not None else None
+        return parts(given[0], result, given[1]) if given is not None else None
     values: Sequence[Node] | None = None
     if value.type in ("initializer_list", "argument_list"):
         values = named(value)
@@ -61,7 +63,7 @@ def parts(reader: CppStatementReader, type_: Node | None, value: Node | None) ->
     elif call is not None and call.name in _MAKES:
         names = _PAIR if call.name.endswith("pair") else map(str, range(len(call.arguments)))
         made = zip(names, call.arguments, strict=False)
-        return [Part(name, None, each, reader) for name, each in made]
+        return [AggregatePart(name, None, each, reader) for name, each in made]
     elif call is not None and _STANDARD.match(call.name):
         function = part(value, "function")
         type_, values = type_ or function, call.arguments
@@ -69,11 +71,7 @@ def parts(reader: CppStatementReader, type_: Node | None, value: Node | None) ->
     if values is None or fields is None or len(values) != len(fields):
         return None
     pairs = zip(fields, values, strict=True)
-    return [Part(name, of, each, reader) for (name, of), each in pairs]
-
-
-def _is_aggregate(reader: CppStatementReader, type_: Node) -> bool:
-    return _fields(reader, type_) is not None
+    return [AggregatePart(name, of, each, reader) for (name, of), each in pairs]
 
 
 def _fields(reader: CppStatementReader, type_: Node) -> list[tuple[str, Node]] | None:
@@ -91,7 +89,7 @@ def _fields(reader: CppStatementReader, type_: Node) -> list[tuple[str, Node]] |
 
 
 def declared(
-    reader: CppStatementReader, node: Node, names: Sequence[str], made: Sequence[Part]
+    reader: CppStatementReader, node: Node, names: Sequence[str], made: Sequence[AggregatePart]
 ) -> Iterator[m.Statement]:
     """The locals that structured bindings are of parts that nothing else names."""
     found = []
@@ -104,7 +102,7 @@ def declared(
 
 
 def whole(
-    reader: CppStatementReader, node: Node, name: str, made: Sequence[Part], constant: bool
+    reader: CppStatementReader, node: Node, name: str, made: Sequence[AggregatePart], constant: bool
 ) -> Iterator[m.Statement]:
     """The local that has the parts."""
     fields: dict[str, Variable] = {}
@@ -116,7 +114,7 @@ def whole(
 
 
 def _read(
-    reader: CppStatementReader, node: Node, name: str, each: Part
+    reader: CppStatementReader, node: Node, name: str, each: AggregatePart
 ) -> tuple[Variable, list[m.Statement]]:
     """A local with the value of a part, and the statements that give it that."""
     inner, local = each.reader, Variable("")

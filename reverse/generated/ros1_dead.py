@@ -51,7 +51,7 @@ def dead_members(code: Code, owner: CppClass) -> set[str]:
         for node in code.named(cpp, cpp.root, sorted(left))
     ]
     while True:
-        silent = _Silent(code, owner, frozenset(left))
+        silent = _DeadStores(code, owner, frozenset(left))
         out = {name for name, around in places if name in left and not silent.has(around, known)}
         if not out:
             break
@@ -109,7 +109,7 @@ def _is_candidate(code: Code, type_: Node) -> bool:
     return _VALUE.fullmatch(text) is not None or is_plain_class(code, text)
 
 
-class _Silent:
+class _DeadStores:
     """Statements that store in dead members only, or tell of them."""
 
     def __init__(self, code: Code, owner: CppClass, left: frozenset[str]) -> None:
