@@ -121,7 +121,14 @@ def _takes_copies(effects: EffectReader, call: CppCall) -> bool:
     meant = form.unread_calls.objects.methods_meant(effects.cpp, call) if form is not None else ()
     if any(known_functions.may_change(p) for f in meant for p in f.parameters):
         return False
-    return bool(meant) and all(is_calm(effects, f) for f in meant)
+    near = all(f.cpp is effects.cpp or _is_in_class(f) for f in meant)
+    return bool(meant) and near and all(is_calm(effects, f) for f in meant)
+
+
+def _is_in_class(function: CppFunction) -> bool:
+    """Whether a body stands in its class, and not in a file that only that class is read from."""
+    above = function.node.parent
+    return above is not None and above.type == "field_declaration_list"
 
 
 def check_macro(effects: EffectReader, node: Node) -> None:

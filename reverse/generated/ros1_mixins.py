@@ -42,17 +42,28 @@ def functions_beside(code: Code, owner: CppClass) -> list[CppFunction]:
 
 def methods_beside(code: Code, owner: CppClass) -> list[CppFunction]:
     """Those of them that are methods of the model: something else than a log calls them."""
-    return [f for f in functions_beside(code, owner) if not _only_told(code, f)]
+    return [f for f in functions_beside(code, owner) if not _only_told(code, owner, f)]
 
 
-def _only_told(code: Code, function: CppFunction) -> bool:
-    """Whether nothing but statements that log names a function."""
+def _only_told(code: Code, owner: CppClass, function: CppFunction) -> bool:
+    """Whether nothing but statements that log names a function, but for bodies of other classes."""
+    lineage = {c.name for c in code.lineage(owner.name)}
+    others = {
+        f.node.id
+        for (of, _), found in code.definitions.items()
+        if of and of not in lineage
+        for f in found
+    }
     uses = [
         [node, *ancestors(node)]
         for cpp in code.files
         for node in code.named(cpp, cpp.root, [function.name])
     ]
-    uses = [around for around in uses if function.node not in around]
+    uses = [
+        around
+        for around in uses
+        if function.node not in around and not any(n.id in others for n in around)
+    ]
     return bool(uses) and all(any(map(is_logging, around)) for around in uses)
 
 
