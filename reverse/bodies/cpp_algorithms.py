@@ -18,10 +18,12 @@ from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.models.building import binary, chosen, is_calm
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_declarations import CppParameter, parameters_in
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 from rebsync.static.types import INT, is_integer
 
 EXTREMES = {"std::max_element": ">", "std::min_element": "<"}
+_JOINING = {"==": "&&", "!=": "||"}
+_NAMES = ("identifier", "field_expression")
 _BEGINS, _ENDS = ("begin", "cbegin"), ("end", "cend")
 _MOST = 4  # elements of which a choice is written: each one more doubles what is to be said
 _LONGEST = 32  # elements that are added up, or counted
@@ -150,6 +152,40 @@ def whole_array(bounds: Sequence[Node]) -> Node | None:
     return arrays[0]
 
 
+def compared(
+    reader: CppExpressionReader, operator: str, sides: Sequence[Node]
+) -> m.Expression | None:
+    """`a == std::array<int, 2>{x, y}`, or `a == b`, of arrays of the model, element by element."""
+    left, right = sides
+    type_ = plain_type(reader, left) if operator in _JOINING and left.type in _NAMES else None
+    if type_ is None or type_.dimensions[0] > _LONGEST:
+        return None
+    size, others = type_.dimensions[0], _elements_of(right)
+    if others is not None:
+        if len(others) != size:
+            return None
+        values = [reader.read(value) for value in others]
+    elif right.type in _NAMES and plain_type(reader, right) == type_:
+        values = [m.Index(reader.read(right), m.IntLiteral(i)) for i in range(size)]
+    else:
+        return None
+    cells = (m.Index(reader.read(left), m.IntLiteral(i)) for i in range(size))
+    if not all(map(is_calm, values)):
+        return None
+    tests = [binary(operator, c, v) for c, v in zip(cells, values, strict=True)]
+    return reduce(lambda before, test: binary(_JOINING[operator], before, test), tests)
+
+
+def _elements_of(node: Node) -> list[Node] | None:
+    """What stands in the braces of an array that is made where it is compared."""
+    if node.type != "compound_literal_expression" or not text_of(node).startswith("std::array<"):
+        return None
+    values = named(part(node, "value"))
+    if len(values) == 1 and values[0].type == "initializer_list":
+        values = named(values[0])
+    return values
+
+
 def first_of(node: Node) -> Node | None:
     """The array whose first element an iterator is."""
     return _end(node, _BEGINS)
@@ -175,6 +211,10 @@ def _end(node: Node, names: Sequence[str]) -> Node | None:
     return None
 
 
+# What these give is no place in the array.
+_VALUES = frozenset(f"std::{n}" for n in ("count", "count_if", "all_of", "any_of", "none_of"))
+
+
 def looked_at(call: CppCall) -> bool:
     """Whether `*std::max_element(a.begin(), a.end())` is only looked at where it stands."""
     pointer = call.node.parent
@@ -189,3 +229,13 @@ def looked_at(call: CppCall) -> bool:
         is_looked_at = above.type == "binary_expression" and ">>" not in text_of(above)
     array = whole_array(call.arguments) if is_looked_at else None
     return array is not None and array.type == "identifier"
+
+
+def only_counts(call: CppCall) -> bool:
+    """Whether a call is of an algorithm that gives a value, and only looks at a whole array."""
+    array = whole_array(call.arguments[:2]) if call.name in _VALUES else None
+    tests = [a for a in call.arguments[2:] if a.type == "lambda_expression"]
+    is_tested = call.name.removeprefix("std::") not in _TESTING or len(tests) == 1
+    given = [p for test in tests for p in inside(test, "parameter_declaration")]
+    takes_places = any("&" in text_of(p) and "const" not in text_of(p) for p in given)
+    return array is not None and array.type == "identifier" and is_tested and not takes_places

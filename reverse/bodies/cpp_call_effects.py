@@ -9,7 +9,7 @@ from functools import partial
 from tree_sitter import Node
 
 from rebsync.reverse.bodies import known_functions
-from rebsync.reverse.bodies.cpp_algorithms import looked_at
+from rebsync.reverse.bodies.cpp_algorithms import looked_at, only_counts
 from rebsync.reverse.bodies.cpp_effect_reader import EffectReader
 from rebsync.reverse.bodies.cpp_kinds import OF_TEXTS
 from rebsync.reverse.bodies.cpp_macros import macro_bodies
@@ -71,11 +71,15 @@ def check_call(effects: EffectReader, node: Node) -> None:
         known = _is_matrix(effects, node, name, call) or known
     else:
         _method(effects, call, name, of, meaning)
+        known = _takes_copies(effects, call)
     _check_defaults(effects, call)
     does = known_functions.acts(effects.cpp, call, has_mailbox(effects.scope))
     if does is not None:
         raise effects.touches(node, f'"{text_of(part(node, "function"))}" {does}')
     if looked_at(call):
+        return
+    if only_counts(call):
+        effects.arguments(call.arguments[2:])
         return
     if call.target is not None and any(map(gives_itself, call.arguments)):
         raise effects.touches(node, RENAMED)  # also a container, which only copies it
@@ -93,6 +97,38 @@ def _check_read(effects: EffectReader, call: CppCall) -> None:
     if why is not None:
         what = text_of(part(call.node, "function"))
         raise effects.touches(call.node, f'what "{what}" does is not known: {why}')
+
+
+def _is_constant(effects: EffectReader, node: Node) -> bool:
+    form = effects.scope.form
+    return form is not None and form.unread_calls.objects.is_constant(effects.cpp, node)
+
+
+def _is_calm_helper(effects: EffectReader, call: CppCall) -> bool:
+    """Whether a function of the files outside of classes is called, which only looks."""
+    form = effects.scope.form
+    if form is None or call.name in effects.inner or effects.scope.meaning(call.name) is not None:
+        return False
+    helper = form.unread_calls.objects.free_function(call)
+    if helper is None or any(known_functions.may_change(p) for p in helper.parameters):
+        return False
+    return is_calm(effects, helper)
+
+
+def _takes_copies(effects: EffectReader, call: CppCall) -> bool:
+    """Whether a method of an object of the files gets values, and changes that object alone."""
+    form = effects.scope.form
+    meant = form.unread_calls.objects.methods_meant(effects.cpp, call) if form is not None else ()
+    if any(known_functions.may_change(p) for f in meant for p in f.parameters):
+        return False
+    near = all(f.cpp is effects.cpp or _is_in_class(f) for f in meant)
+    return bool(meant) and near and all(is_calm(effects, f) for f in meant)
+
+
+def _is_in_class(function: CppFunction) -> bool:
+    """Whether a body stands in its class, and not in a file that only that class is read from."""
+    above = function.node.parent
+    return above is not None and above.type == "field_declaration_list"
 
 
 def check_macro(effects: EffectReader, node: Node) -> None:
@@ -198,6 +234,8 @@ def _function(effects: EffectReader, call: CppCall, name: str) -> bool:
                 return True
             raise effects.touches(call.node, f'"{name}" may be a macro that hides statements')
         case None | Ignored():
+            if _is_calm_helper(effects, call):
+                return True
             if is_unknown_function(effects.scope, effects.inner, call):
                 raise effects.touches(call.node, f'nobody here knows what "{call.name}" does')
             _check_read(effects, call)
@@ -264,6 +302,8 @@ def _method(
     target = call.target
     assert target is not None
     match meaning:
+        case None if _is_constant(effects, target):
+            pass
         case None if is_method_of_unknown(effects.scope, effects.inner, of, name):
             raise effects.touches(call.node, f'nobody here knows what "{text_of(target)}" is')
         case None | Outside(reaches=False):

@@ -10,7 +10,7 @@ from rebsync import model as m
 from rebsync import precedence
 from rebsync.reverse.bodies import cpp_idioms, cpp_mailbox
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
-from rebsync.reverse.bodies.cpp_places import is_this
+from rebsync.reverse.bodies.cpp_places import element_of, is_this
 from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.scope import (
@@ -99,6 +99,8 @@ def _other(
     reader: CppExpressionReader, node: Node, name: str, arguments: Sequence[Node], why: str
 ) -> m.Expression:
     """A function that the code does not have: one of a library."""
+    if (element := element_of(reader.scope, name, arguments)) is not None:
+        return m.Name(element.name, reader.cpp.span(node))
     read = cpp_idioms.call(reader, node, name.removeprefix("::"), arguments)
     if read is not None:
         return read

@@ -247,6 +247,23 @@ class Effects(EffectReader):
                 why = f'this may change "{text_of(argument)}"'
                 raise self.touches(argument, why, "hand over a copy: +x, or a const local")
 
+    def _braces(self, node: Node) -> None:
+        """What an object is made of: one of a class without constructors copies it."""
+        above = node.parent
+        if above is not None and above.type == "init_declarator":
+            above = above.parent
+        type_ = above.child_by_field_name("type") if above is not None else None
+        form = self.scope.form
+        if (
+            type_ is None
+            or form is None
+            or not form.unread_calls.objects.is_aggregate(text_of(type_))
+        ):
+            self.arguments(named(node))
+            return
+        for element in named(node):
+            self.check(element)
+
     def _handed(self, function: Node) -> None:
         """A function that is handed on: it may run at any time."""
         outer, around = self.inner, self._around
@@ -263,9 +280,8 @@ _CHECKS: dict[str, Callable[[Effects, Node], None]] = {
     **{"cast_expression": Effects._misread, "pointer_expression": Effects._pointer},
     **{"declaration": Effects._declaration, "compound_statement": Effects._block},
     **dict.fromkeys(("break_statement", "continue_statement"), Effects._left),
-    **dict.fromkeys(
-        ("argument_list", "initializer_list"), lambda self, node: self.arguments(named(node))
-    ),
+    "argument_list": lambda self, node: self.arguments(named(node)),
+    "initializer_list": Effects._braces,
     **{"new_expression": Effects._new, "delete_expression": check_deleted},
     **dict.fromkeys(LEAVES, Effects._left_function),
     **dict.fromkeys(REPEATED, Effects._repeated),

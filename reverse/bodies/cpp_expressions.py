@@ -337,11 +337,11 @@ class CppExpressions(CppExpressionReader):
 
     def _computed(self, node: Node) -> m.Expression:
         operator = self._operator(node)
-        if (found := cpp_texts.of_compare(self, node, operator)) is not None:
+        found = cpp_texts.of_compare(self, node, operator)
+        if found := found or cpp_algorithms.compared(self, operator, named(node)):
             return found
-        if operator == "%" and (drawn := cpp_idioms.drawn(self, node, named(node))) is not None:
-            return drawn
-        return self.binary(node, operator, named(node))
+        drawn = cpp_idioms.drawn(self, node, named(node)) if operator == "%" else None
+        return drawn or self.binary(node, operator, named(node))
 
     def binary(self, node: Node, operator: str, sides: Sequence[Node]) -> m.Expression:
         reads = self.condition if operator in ("&&", "||") else self.read

@@ -89,6 +89,23 @@ def inlined(
     return found
 
 
+def only_value(
+    reader: CppStatementReader, node: Node, function: Inline, arguments: Sequence[Node]
+) -> tuple[CppStatementReader, Node] | None:
+    """What a function that does nothing else gives, and who reads it: in braces, several values."""
+    inside, body, parameters, _ = _entered(reader, node, function, arguments)
+    statements = named(body)
+    if len(statements) != 1 or statements[0].type != "return_statement":
+        return None
+    if len(arguments) != len(parameters) or not named(statements[0]):
+        return None
+    cpp_sequencing.check_arguments(reader, arguments)
+    for parameter, argument in zip(parameters, arguments, strict=True):
+        reader.before += _bound(reader, inside, parameter, argument, False)
+        check_pointer(inside, parameter, argument, body)
+    return inside, named(statements[0])[0]
+
+
 def dropped(reader: CppStatementReader, node: Node, given: Meaning | None) -> Iterator[m.Statement]:
     """What is left of a value that a function gives and nobody takes: what it changes."""
     if isinstance(given, m.Expression):

@@ -10,6 +10,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import (
+    cpp_aggregates,
     cpp_bindings,
     cpp_captures,
     cpp_messages,
@@ -155,8 +156,18 @@ def _declared(reader: CppStatementReader, declared: DeclaratorParts) -> Iterator
     if value is not None and is_this(value) and (declared.kind in _REFERS or _is_auto(declared)):
         reader.meaning(declared.name, Itself())
         return
+    copies = _copies(declared) or declared.constant
+    given = cpp_aggregates.parts(reader, _written(declared), declared.value) if copies else None
     if (binding := cpp_bindings.names_in(declared.node)) is not None:
+        if given is not None and len(given) == len(binding):
+            yield from cpp_aggregates.declared(reader, declared.node, binding, given)
+            return
         yield from cpp_bindings.bound(reader, declared.node, binding, value, _copies(declared))
+        return
+    if given is not None:
+        yield from cpp_aggregates.whole(
+            reader, declared.node, declared.name, given, declared.constant
+        )
         return
     if declared.kind in _REFERS:
         yield from _reference(reader, declared, value)
@@ -185,6 +196,11 @@ def _declared(reader: CppStatementReader, declared: DeclaratorParts) -> Iterator
     if (kept.bits or kept.wide) and not reader.scope.open:
         raise reader.unread(declared.node, f'"{declared.text}" is none of the model\'s types')
     yield from _typed(reader, declared, kept, value)
+
+
+def _written(declared: DeclaratorParts) -> Node | None:
+    """The type, if it is not left to the compiler."""
+    return None if _is_auto(declared) else declared.type
 
 
 def _copies(declared: DeclaratorParts) -> bool:

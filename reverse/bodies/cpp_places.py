@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -19,6 +20,7 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 HELD = "*"  # the path of the value in an optional
+_GET = re.compile(r"std::get<(\d+)>")
 _SAME = frozenset({"std::move", "std::ref", "std::cref", "boost::ref", "boost::cref"})
 
 
@@ -110,3 +112,13 @@ def field_of(record: Record, name: str) -> Meaning:
         if path.startswith(f"{name}.")
     }
     return replace(record, fields=inner, type="", there="") if inner else Outside()
+
+
+def element_of(scope: Scope, name: str, arguments: Sequence[Node]) -> Variable | None:
+    """The part that `std::get<0>(x)` is; None for any other function."""
+    found = _GET.fullmatch("".join(name.split()))
+    record = resolve(scope, arguments[0]) if found and len(arguments) == 1 else None
+    if found is None or not isinstance(record, Record) or record.type:
+        return None
+    fields, index = list(record.fields.values()), int(found[1])
+    return fields[index] if index < len(fields) else None

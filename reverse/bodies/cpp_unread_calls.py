@@ -19,6 +19,7 @@ from rebsync.reverse.bodies.cpp_implicit_calls import (
     UnwrittenCalls,
     operators,
 )
+from rebsync.reverse.bodies.cpp_known_objects import KnownObjects
 from rebsync.reverse.bodies.cpp_object_parts import UNDEFINED as _UNDEFINED
 from rebsync.reverse.bodies.cpp_object_parts import ObjectParts
 from rebsync.reverse.bodies.cpp_provenance import Provenance, ProvenanceAnalysis
@@ -74,6 +75,7 @@ class UnreadCalls:
         self._provenance = ProvenanceAnalysis(self._texts, self._calls, self._statics)
         self._open = Undefined(code, self._texts)
         self._parts = ObjectParts(self._texts, self._statics, self._open)
+        self.objects = KnownObjects(code, self._statics)
         self.of_enums = EnumOperators(self._statics, self._open)
         self.implicit = UnwrittenCalls(
             self._texts, self._statics, self._calls, self._parts, self._of_converted

@@ -14,7 +14,7 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
 UNSET = "this may be read before it has a value"
 SCALARS = frozenset({"boolean", "byte", "short", "int", "float", "double"})
@@ -41,10 +41,10 @@ def may_be_unset(declarator: Node, name: str) -> bool:
     declaration = declarator
     while declaration.parent is not None and declaration.type != "declaration":
         declaration = declaration.parent
-    inside = declaration.parent
-    if inside is None:
+    around = declaration.parent
+    if around is None:
         return True
-    later = [n for n in inside.named_children if n.start_byte >= declarator.end_byte]
+    later = [n for n in around.named_children if n.start_byte >= declarator.end_byte]
     within = [n for n in declaration.named_children if n.start_byte >= declarator.end_byte]
     flow = _Flow(name)
     try:
@@ -126,6 +126,10 @@ class _Flow:
                 stored = any(self._is_it(n) for n in given)
                 others = [n for n in given if not self._is_it(n)]
                 return self.sequence(others, known) or stored
+            case "call_expression" if (index := self._stored_in(node)) is not None:
+                given = named(part(node, "arguments"))
+                self.sequence([*given[:index], *given[index + 1 :]], known)
+                return True
             case "pointer_expression" if self._is_it(part(node, "argument")):
                 return True  # whoever has the address may store
             case "field_expression":
@@ -143,6 +147,24 @@ class _Flow:
                 self.sequence(left.named_children[1:], known)
             return True
         return self._after(left, known)
+
+    def _stored_in(self, call: Node) -> int | None:
+        """The argument that the name is, of a function of the file that stores there first."""
+        given = named(part(call, "arguments"))
+        own = [index for index, n in enumerate(given) if self._is_it(n)]
+        function = part(call, "function")
+        if len(own) != 1 or function.type != "identifier":
+            return None
+        root = call
+        while root.parent is not None:
+            root = root.parent
+        name = text_of(function)
+        found = [
+            n
+            for n in inside(root, "function_definition")
+            if (d := _function_declarator(n)) is not None and text_of(part(d, "declarator")) == name
+        ]
+        return own[0] if len(found) == 1 and _stores_first(found[0], own[0]) else None
 
     def _is_element(self, node: Node) -> bool:
         """`a[i]` or `a.at(i)`, in which the name is the array."""
@@ -212,3 +234,32 @@ def _cases(body: Node) -> Sequence[Node]:
 def _called(node: Node) -> str:
     """The last name of what a call is of."""
     return re.split(r"\.|::|->", text_of(part(node, "function")))[-1]
+
+
+def _function_declarator(function: Node) -> Node | None:
+    return next(
+        iter(inside(function.child_by_field_name("declarator"), "function_declarator")), None
+    )
+
+
+def _stores_first(function: Node, index: int) -> bool:
+    """Whether a function, before anything else, stores in a parameter that is a reference."""
+    declarator, body = _function_declarator(function), function.child_by_field_name("body")
+    given = named(part(declarator, "parameters")) if declarator is not None else []
+    if body is None or index >= len(given):
+        return False
+    target = given[index].child_by_field_name("declarator")
+    if target is None or target.type != "reference_declarator" or "const" in text_of(given[index]):
+        return False
+    name = text_of(target.named_children[-1])
+    for statement in named(body):
+        inner = named(statement)[0] if statement.type == "expression_statement" else None
+        words = {text_of(n) for n in inside(statement, "identifier")}
+        if inner is None or inside(statement, "lambda_expression"):
+            return False
+        if inner.type == "assignment_expression" and text_of(part(inner, "left")) == name:
+            value = {text_of(n) for n in inside(part(inner, "right"), "identifier")}
+            return text_of(part(inner, "operator")) == "=" and name not in value
+        if name in words:
+            return False
+    return False

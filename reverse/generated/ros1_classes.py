@@ -21,9 +21,7 @@ from rebsync.reverse.bodies.scope import (
     Function,
     Ignored,
     Member,
-    Outside,
     Scope,
-    Variable,
 )
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.own_parameters import with_own
@@ -32,18 +30,20 @@ from rebsync.reverse.generated.ros1_annotations import (
     class_annotations,
     server_annotations,
 )
+from rebsync.reverse.generated.ros1_beside import Beside
 from rebsync.reverse.generated.ros1_bodies import GeneratedBodies
-from rebsync.reverse.generated.ros1_hand import acts, as_by_hand, is_passive, only_logs, stands_in
+from rebsync.reverse.generated.ros1_hand import as_by_hand, is_passive, only_logs, stands_in
 from rebsync.reverse.generated.ros1_handed import as_handed_on
 from rebsync.reverse.generated.ros1_inherited import is_declared, list_hiding, only_forwards
 from rebsync.reverse.generated.ros1_meanings import Meaning, in_files_of, other_meanings
-from rebsync.reverse.generated.ros1_mixins import functions_beside, without_mixins
+from rebsync.reverse.generated.ros1_mixins import functions_beside, methods_beside, without_mixins
 from rebsync.reverse.generated.ros1_names import (
     aliases,
     called,
     declared_type,
     enumerators,
     has_mailbox,
+    is_abstract,
     is_given,
     is_interface,
     plain_name,
@@ -54,7 +54,7 @@ from rebsync.reverse.generated.ros1_names import (
 )
 from rebsync.reverse.generated.ros1_plumbing import check_plumbing
 from rebsync.reverse.generated.ros1_posts import learn_servers, posts_in_bodies
-from rebsync.reverse.generated.ros1_publishing import publisher
+from rebsync.reverse.generated.ros1_publishing import meaning_of
 from rebsync.reverse.generated.ros1_roles import Roles, roles_of, shown_of
 from rebsync.reverse.generated.ros1_sends import add_sends, families_of
 from rebsync.reverse.generated.ros1_shown import shown_only
@@ -67,7 +67,7 @@ from rebsync.reverse.generated.ros1_timers import (
 )
 from rebsync.reverse.generated.ros1_values import initial_values
 from rebsync.reverse.generated.ros2_words import is_of_ros
-from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppField, CppFunction
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import text_of
 
 _PLUMBING = frozenset({"mailbox", "publishState"})
@@ -142,11 +142,18 @@ class Classes:
         """The timers of a class; their callbacks are servers, unless they only post a message."""
         roles = self.roles[owner.name]
         for timer in timers_of(self.code, owner, roles) if has_mailbox(self.code, owner) else ():
+            if timer.posts is None and timer.at_start and self._is_idle(owner, timer):
+                continue
             if timer.callback and timer.one_shot and timer.posts is not None:
                 roles.passing.add(timer.callback)
             elif timer.callback:
                 roles.handlers[timer.callback] = uncarry(timer.callback, RESERVED | self.types)
             yield timer
+
+    def _is_idle(self, owner: CppClass, timer: Timer) -> bool:
+        """Whether what a timer calls touches nothing of the model, as what logs does."""
+        scope = as_by_hand(self.code, owner, self.shown, self._scope(owner))
+        return Beside.of(self.code, timer.function, scope).is_idle_timer(timer.call)
 
     # --- one class ------------------------------------------------------------------------------
 
@@ -162,7 +169,9 @@ class Classes:
 
     def _reactive(self, owner: CppClass) -> m.ReactiveClass:
         roles = self.roles[owner.name]
-        check_plumbing(self.code, self.form, owner, self.roles, self.fields, self.findings)
+        by_hand = partial(self._by_hand, owner)
+        given = self.roles, self.fields, by_hand, self.findings
+        check_plumbing(self.code, self.form, owner, *given)
         for meaning in self.meanings:
             if in_files_of(self.code, owner, meaning):
                 unread = Unread(meaning.cpp.span(meaning.node), meaning.why)
@@ -179,23 +188,22 @@ class Classes:
         members += [self._server(owner, f, by) for f, by in served if by is not None]
         members += self._lambdas(owner)
         members += [self._method(owner, f) for f, by in served if by is None]
-        members += [self._method(owner, f) for f in functions_beside(self.code, owner)]
+        members += [self._method(owner, f) for f in methods_beside(self.code, owner)]
         classes = self.code.classes
         extends = [b for b in owner.bases if b in classes and has_mailbox(self.code, classes[b])]
         return m.ReactiveClass(
             name,
             (roles.queue_length or 1) + ticking(self.timers[owner.name]),
             tuple(members),
-            self._is_abstract(owner),
+            is_abstract(owner),
             class_name(extends[0]) if extends else None,
             tuple(class_name(b) for b in owner.bases if b not in extends),
             tuple(class_annotations(self.roles, owner)),
             owner.cpp.span(owner.node),
         )
 
-    def _is_abstract(self, owner: CppClass) -> bool:
-        """Whether no node is of this class: then it does not say what its state is."""
-        return not any(f.name == "publishState" and not f.pure for f in owner.functions)
+    def _by_hand(self, owner: CppClass) -> Scope:
+        return as_by_hand(self.code, owner, self.shown, self.scope(owner))
 
     # --- variables ------------------------------------------------------------------------------
 
@@ -349,22 +357,14 @@ class Classes:
             self._scopes[owner.name] = self._scope(owner)
         return self._scopes[owner.name]
 
-    def _member(self, roles: Roles, member: CppField) -> Member:
-        if (runtime := runtime_of(member)) is not None:
-            return runtime
-        if (advertised := roles.publishers.get(member.name)) is not None:
-            return publisher(advertised, self.served, self.messages)
-        if declared_type(self.code, member.type) is None or member.name in roles.silent:
-            return Outside(reaches=acts(text_of(member.type)))
-        return Variable(variable_name(roles, member), declared_type(self.code, member.type))
-
     def _scope(self, owner: CppClass) -> Scope:
         members: dict[str, Member] = {}
         functions: dict[str, Function] = {}
         callable_: set[str] = set()
         for above in reversed(self.code.lineage(owner.name)):
             roles = self.roles[above.name]
-            members |= {f.name: self._member(roles, f) for f in above.fields}
+            given = self.code, roles, self.served, self.messages
+            members |= {f.name: meaning_of(f, *given) for f in above.fields}
             for function in self.code.functions_of(above):
                 served = self._served(above, function)
                 if function.name in roles.sends:

@@ -10,6 +10,7 @@ from rebsync.reverse.bodies.cpp_types import type_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 
 _NONE: Mapping[str, CppFunction] = MappingProxyType({})
+_OPTIONAL = "optional_parameter_declaration"
 _LIBRARIES = frozenset({"std", "ros", "rclcpp", "boost", "tf2", "Eigen"})
 
 
@@ -49,8 +50,9 @@ def free_beside(
 
 
 def is_method(function: CppFunction) -> bool:
-    """Whether a function can be a local method of the model."""
-    return has_plain_types(function) and not list(passed_by_reference(function))
+    """Whether a function can be a local method of the model: one is given all that it takes."""
+    is_whole = all(p.node.type != _OPTIONAL for p in function.parameters)
+    return is_whole and has_plain_types(function) and not list(passed_by_reference(function))
 
 
 def has_plain_types(function: CppFunction) -> bool:

@@ -25,6 +25,10 @@ _PASSIVE = re.compile(
     r"|set<.*>|deque<.*>|list<.*>|queue<.*>|optional<.*>|unordered_map<.*>|pair<.*>|tuple<.*>"
     r"|o?stringstream|ofstream|mt19937(?:_64)?|default_random_engine|random_device"
     r"|uniform_int_distribution<.*>|chrono::[\w:<>, ]+)"
+    r"|(?:std::(?:unique|shared)_ptr<)?tf2_ros::(?:Static)?TransformBroadcaster>?"
+    r"|(?:std::(?:unique|shared)_ptr<)?"
+    r"(?:diagnostic_updater::Updater|dynamic_reconfigure::Server<.*>)>?"
+    r"|rclcpp::node_interfaces::OnSetParametersCallbackHandle::SharedPtr"
     r"|(?:ros|rclcpp)::(?:Wall)?(?:Time|Duration)|rclcpp::Logger|rclcpp::Clock(?:::SharedPtr)?)\Z",
     re.DOTALL,
 )

@@ -7,8 +7,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from rebsync.reserved import RUNTIME_FUNCTIONS
+from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.generated.ros1_free import free_beside, is_method
 from rebsync.reverse.generated.ros1_names import has_mailbox, is_given
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, function_of
 from rebsync.reverse.syntax.cpp_tree import named, text_of
@@ -36,6 +38,33 @@ def without_mixins(code: Code) -> Code:
 def functions_beside(code: Code, owner: CppClass) -> list[CppFunction]:
     """The free functions, and helpers of base classes without state, that a class calls first."""
     return free_beside(code, owner, {f.name: f for f in _helpers_of(code, owner)})
+
+
+def methods_beside(code: Code, owner: CppClass) -> list[CppFunction]:
+    """Those of them that are methods of the model: something else than a log calls them."""
+    return [f for f in functions_beside(code, owner) if not _only_told(code, owner, f)]
+
+
+def _only_told(code: Code, owner: CppClass, function: CppFunction) -> bool:
+    """Whether nothing but statements that log names a function, but for bodies of other classes."""
+    lineage = {c.name for c in code.lineage(owner.name)}
+    others = {
+        f.node.id
+        for (of, _), found in code.definitions.items()
+        if of and of not in lineage
+        for f in found
+    }
+    uses = [
+        [node, *ancestors(node)]
+        for cpp in code.files
+        for node in code.named(cpp, cpp.root, [function.name])
+    ]
+    uses = [
+        around
+        for around in uses
+        if function.node not in around and not any(n.id in others for n in around)
+    ]
+    return bool(uses) and all(any(map(is_logging, around)) for around in uses)
 
 
 def _helpers_of(code: Code, owner: CppClass) -> Iterator[CppFunction]:

@@ -91,6 +91,11 @@ def has_mailbox(code: Code, owner: CppClass) -> bool:
     return any(text_of(f.type) == "Mailbox" for f in fields)
 
 
+def is_abstract(owner: CppClass) -> bool:
+    """Whether no node is of this class: then it does not say what its state is."""
+    return not any(f.name == "publishState" and not f.pure for f in owner.functions)
+
+
 def is_interface(owner: CppClass, alone: bool) -> bool:
     """Whether a class only says what its heirs can do.
 

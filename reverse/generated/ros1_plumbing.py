@@ -7,16 +7,19 @@ generated. Anything else is listed: the model would not show it.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Container, Iterable, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_form import CppForm
+from rebsync.reverse.bodies.scope import Scope
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.annotations import best_priority
 from rebsync.reverse.generated.parameters import READS
+from rebsync.reverse.generated.ros1_beside import Beside
 from rebsync.reverse.generated.ros1_descriptors import number_of
 from rebsync.reverse.generated.ros1_idle import working
+from rebsync.reverse.generated.ros1_initialisers import odd_handles
 from rebsync.reverse.generated.ros1_names import declared_type
 from rebsync.reverse.generated.ros1_queues import odd_queue
 from rebsync.reverse.generated.ros1_roles import (
@@ -50,11 +53,12 @@ def check_plumbing(
     owner: CppClass,
     all_roles: Mapping[str, Roles],
     fields: Fields,
+    by_hand: Callable[[], Scope],
     findings: Findings,
 ) -> None:
     """Lists what a class does outside of its bodies that the model cannot show.
 
-    `fields` are those of each message type, in their order.
+    `fields` are those of each message type, in their order; `by_hand` is what people's bodies name.
     """
     roles, line = all_roles[owner.name], code.lineage(owner.name)
     for cpp, node, why in (
@@ -68,7 +72,7 @@ def check_plumbing(
     for function in code.functions_of(owner):
         if function.body is None:
             continue
-        for node, why in _odd_in(code, owner, function, lineage, fields):
+        for node, why in _odd_in(code, owner, function, lineage, fields, by_hand):
             unread = Unread(function.cpp.span(node), why)
             findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
 
@@ -96,7 +100,12 @@ def _odd_fields(code: Code, owner: CppClass) -> Iterator[tuple[Cpp, Node, str]]:
 
 
 def _odd_in(
-    code: Code, owner: CppClass, function: CppFunction, lineage: Sequence[Roles], fields: Fields
+    code: Code,
+    owner: CppClass,
+    function: CppFunction,
+    lineage: Sequence[Roles],
+    fields: Fields,
+    by_hand: Callable[[], Scope],
 ) -> Iterator[tuple[Node, str]]:
     """What in a function of a class is not as generated, if it is one of those around bodies.
 
@@ -107,12 +116,16 @@ def _odd_in(
     odd: Iterable[Node] = ()
     why = ""
     if name == owner.name:
-        odd = _odd_in_constructor(code, owner, function, roles)
+        odd = _not_outside(
+            code, function, _odd_in_constructor(code, owner, function, roles), by_hand
+        )
         why = "a constructor of generated code only sets up; the model's own is construct()"
         if (told := _odd_priority(code, function, lineage)) is not None:
             yield told, "the mailbox is told of another priority than its most urgent server has"
         if (told := odd_queue(code, function)) is not None:
             yield told, "this is no number of messages that is known here"
+        for told in odd_handles(owner, function):
+            yield told, "this is not given the node that the others are of"
     elif name in roles.shims and name not in topics:
         odd = (function.node,)
         why = "no subscription takes messages to this: those of others do not arrive"
@@ -160,6 +173,17 @@ def _is_constructed(code: Code, owner: CppClass) -> bool:
     return not concrete or any(c.name == "construct" for f in own for c in code.calls_of(f))
 
 
+def _not_outside(
+    code: Code, function: CppFunction, odd: Iterable[Node], by_hand: Callable[[], Scope]
+) -> Iterator[Node]:
+    """Those of some statements of a constructor that may touch what the model has."""
+    beside: Beside | None = None
+    for statement in odd:
+        beside = beside or Beside.of(code, function, by_hand())
+        if not beside.takes(statement):
+            yield statement
+
+
 def _odd_in_constructor(
     code: Code, owner: CppClass, function: CppFunction, roles: Roles
 ) -> Iterator[Node]:
@@ -168,7 +192,7 @@ def _odd_in_constructor(
     timers |= {call.node.id for call in idle_timers(code, owner)}
     arguments = dict(arguments_in(function))
     fields = (f for c in code.lineage(owner.name) for f in c.fields)
-    variables = {f.name for f in fields if declared_type(code, f.type) is not None}
+    variables = {f.name for f in fields if declared_type(code, f.type) is not None} - roles.silent
     waiting, done = roles.globals.keys() - roles.asked.values(), set[str]()
     for statement in working(function.body):
         once = {c.name for c in calls_in(statement) if c.name in _ONCE and c.on == "mailbox_"}

@@ -8,8 +8,29 @@ from rebsync.model import Type
 from rebsync.names import uncarry
 from rebsync.reserved import RUNTIME_TOPICS
 from rebsync.reverse.bodies.overloads import Served, plain
-from rebsync.reverse.bodies.scope import Outside, Publishes, Target
-from rebsync.reverse.generated.ros1_roles import Advertised
+from rebsync.reverse.bodies.scope import Member, Outside, Publishes, Target, Variable
+from rebsync.reverse.generated.ros1_hand import acts
+from rebsync.reverse.generated.ros1_names import declared_type, runtime_of, variable_name
+from rebsync.reverse.generated.ros1_roles import Advertised, Roles
+from rebsync.reverse.syntax.cpp_index import Code, CppField
+from rebsync.reverse.syntax.cpp_tree import text_of
+
+
+def meaning_of(
+    member: CppField,
+    code: Code,
+    roles: Roles,
+    served: Served,
+    messages: Mapping[str, Mapping[str, Type | None]],
+) -> Member:
+    """What a member of a class stands for in bodies."""
+    if (runtime := runtime_of(member)) is not None:
+        return runtime
+    if (advertised := roles.publishers.get(member.name)) is not None:
+        return publisher(advertised, served, messages)
+    if declared_type(code, member.type) is None or member.name in roles.silent:
+        return Outside(reaches=acts(text_of(member.type)))
+    return Variable(variable_name(roles, member), declared_type(code, member.type))
 
 
 def publisher(

@@ -19,11 +19,12 @@ from rebsync.reserved import OWN_TOPICS
 from rebsync.reverse.bodies.scope import Sends
 from rebsync.reverse.generated.own_parameters import OwnParameter
 from rebsync.reverse.generated.parameters import READS, read_by
+from rebsync.reverse.generated.ros1_dead import dead_members
 from rebsync.reverse.generated.ros1_descriptors import priority_of, server_of, tells_priority
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_parameters import constants_read, own_parameters
 from rebsync.reverse.generated.ros1_queues import queue_length
-from rebsync.reverse.generated.ros1_silent import counters, only_logged
+from rebsync.reverse.generated.ros1_silent import only_logged
 from rebsync.reverse.generated.ros2_words import (
     constant_of_model,
     declared_array,
@@ -153,9 +154,9 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
             roles.odd_globals.discard(member.name)
     roles.own, roles.reading = own_parameters(code, owner)
     roles.silent = only_logged(code, owner, roles.own, roles.reading)
+    roles.silent |= dead_members(code, owner) - roles.globals.keys()
     roles.told = [p for n, p in roles.own.items() if n in roles.silent]
     roles.own = {n: p for n, p in roles.own.items() if n not in roles.silent}
-    roles.silent |= counters(code, owner) - roles.own.keys() - roles.globals.keys()
     for constructor in (*owner.functions, *functions):
         if constructor.name == owner.name:
             roles.queue_length = queue_length(code, constructor) or roles.queue_length

@@ -1,4 +1,4 @@
-"""Publishers of standard messages that no node of a package can hear, in generated C++.
+"""Publishers of messages that no node of a package can hear, in generated C++.
 
 By its type: nobody subscribes to any message of it. By its topic: nothing else has the name. A
 message of the library may be looked at by whoever is outside, as one of diagnostics is.
@@ -7,17 +7,29 @@ message of the library may be looked at by whoever is outside, as one of diagnos
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from tree_sitter import Node
 
+from rebsync.reverse.generated.ros1_dead import divides
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_index import Code
-from rebsync.reverse.syntax.cpp_tree import Cpp, inside, part, squeezed, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, last_name, part, squeezed, text_of
 
 OFFERS = frozenset({"advertise", "create_publisher"})
-_VALUE = re.compile(r"std_msgs::(?:msg::)?((?:U?Int(?:8|16|32|64)|Float(?:32|64)|Bool|String)\b)")
-_PACKAGE = re.compile(r"\bstd_msgs\b(?!/)")
+_PLACES = frozenset(
+    {
+        *("assignment_expression", "argument_list", "binary_expression", "init_declarator"),
+        *("conditional_expression", "case_statement"),
+    }
+)
+_NAMES = ("type_identifier", "namespace_identifier", "identifier")
+# What tells of the node and its clock, or turns a number into another one, or into a text.
+_GIVES = re.compile(
+    r"(?:this->)?(?:get_clock\(\)->)?now\(\)|ros::(?:Wall)?Time::now\(\)"
+    r"|static_cast<\w+>\(.*\)|std::to_string\([\w.>-]+\)|(?:this->)?get_name\(\)",
+    re.DOTALL,
+)
 # Subscribers to messages of any type.
 _ANY = re.compile(r"ShapeShifter|generic_subscription|GenericSubscription|AnyMsg")
 _TOPIC = re.compile(r"[a-z](?:_?[a-z0-9])*", re.IGNORECASE | re.ASCII)
@@ -31,22 +43,31 @@ _RUNTIME = frozenset({"state", "cmd_vel", "odom", "clock", "tf", "rosout", "diag
 def shown_only(code: Code) -> frozenset[tuple[str, str]]:
     """The types with the topics of messages that the code sends to nobody in it."""
     texts = [cpp.source.text for cpp in code.files]
-    if not any("std_msgs::" in text for text in texts) or any(map(_ANY.search, texts)):
-        return frozenset()
     offers = list(_offers(code))
-    mentions = [each for cpp in code.files for each in _mentions(cpp)] if offers else []
-    if len(mentions) != sum(len(_PACKAGE.findall(text)) for text in texts):
-        return frozenset()  # there is a name for the package, or for one of its types
-    heard = {squeezed(node) for node in mentions if not _is_sent(node)}
-    types = {type_ for type_, _, _ in offers}
-    types -= {t for t in types if any(h.startswith(t) or "::" not in h for h in heard)}
+    if not offers or any(map(_ANY.search, texts)):
+        return frozenset()
+    names = {type_.rpartition("::")[2] for type_, _, _ in offers}
+    heard = {
+        text_of(node)
+        for cpp in code.files
+        for node in inside(cpp.root, *_NAMES)
+        if (node.text or b"").decode() in names and not _is_sent(node)
+    }
+    heard |= code.aliases.keys()
     literals = [n for cpp in code.files for n in inside(cpp.root, "string_literal")]
     return frozenset(
         (type_, name)
         for type_, name, _ in offers
-        if type_ in types and name not in _RUNTIME
+        if type_.rpartition("::")[2] not in heard and name not in _RUNTIME
         if _is_free(name, {n.id for t, _, n in offers if t == type_}, literals)
     )
+
+
+def is_free(code: Code, topic: Node) -> bool:
+    """Whether a topic is a literal with a name that nothing else in the code has."""
+    name = (string_of(topic) or "").rpartition("/")[2]
+    literals = [n for cpp in code.files for n in inside(cpp.root, "string_literal")]
+    return bool(name) and name not in _RUNTIME and _is_free(name, {topic.id}, literals)
 
 
 def topic_of(call: CppCall) -> str:
@@ -80,10 +101,10 @@ def type_of(call: CppCall) -> str:
     return squeezed(call.types[0]) if len(call.types) == 1 else ""
 
 
-def sends(function: Node, member: str, type_: str) -> bool:
+def sends(function: Node, member: str, type_: str, sizes: Mapping[str, int]) -> bool:
     """Whether a function publishes by a member nothing but its own messages of a type.
 
-    These must be filled with values that cannot fail to be.
+    These must be filled with values that cannot fail to be; `sizes` are those of arrays.
     """
     made = {
         text_of(part(d, "declarator"))
@@ -95,26 +116,29 @@ def sends(function: Node, member: str, type_: str) -> bool:
     is_known = all(len(a) == 1 and text_of(a[0]) in made for a in given)
     stores = inside(function, "assignment_expression") if given else []
     filled = (n for n in stores if text_of(part(n, "left")).partition(".")[0] in made)
-    is_sure = not any(map(_may_fail, filled))
+    is_sure = not any(_may_fail(n, sizes) for n in filled)
     return is_known and is_sure and len(used) == len(given) + len(_stores(function, member))
 
 
-def _may_fail(store: Node) -> bool:
+def _may_fail(store: Node, sizes: Mapping[str, int]) -> bool:
     """Whether to find the value of a store may throw, divide by nothing, or look at no object."""
-    found = inside(store, "binary_expression", "assignment_expression")
-    divides = any(text_of(part(n, "operator")).rstrip("=") in ("/", "%") for n in found)
+    given = [n for n in inside(store, "call_expression") if _GIVES.fullmatch(squeezed(n))]
+    within = {n.id for n in given}
+    clocks = [n for n in given if squeezed(n).endswith("now()")]
+    within |= {i.id for n in clocks for i in inside(n, "field_expression", "call_expression")}
     reached = [n for n in inside(store, "field_expression") if "->" in text_of(n)]
-    is_foreign = any(text_of(part(n, "argument")) != "this" for n in reached)
-    looks = inside(store, "subscript_expression", "pointer_expression")
-    calls = [n for n in inside(store, "call_expression") if not _is_number_as_text(n)]
-    return divides or is_foreign or bool(looks) or bool(calls)
+    is_foreign = any(text_of(part(n, "argument")) != "this" and n.id not in within for n in reached)
+    looks = inside(store, "pointer_expression")
+    looks += [n for n in inside(store, "subscript_expression") if not _is_there(n, sizes)]
+    calls = [n for n in inside(store, "call_expression") if n.id not in within]
+    return divides(store, ()) or is_foreign or bool(looks) or bool(calls)
 
 
-def _is_number_as_text(call: Node) -> bool:
-    """Whether it is `std::to_string` of a variable, which is one of a number."""
-    given = part(call, "arguments").named_children
-    is_plain = len(given) == 1 and given[0].type in ("identifier", "field_expression")
-    return is_plain and squeezed(part(call, "function")) == "std::to_string"
+def _is_there(element: Node, sizes: Mapping[str, int]) -> bool:
+    """Whether an array of the class has an element by this number."""
+    size = sizes.get(text_of(part(element, "argument")).removeprefix("this->"), 0)
+    index = text_of(element).rpartition("[")[2].removesuffix("]").strip()
+    return index.isdecimal() and int(index) < size
 
 
 def _stores(function: Node, member: str) -> list[Node]:
@@ -125,34 +149,33 @@ def _stores(function: Node, member: str) -> list[Node]:
 
 
 def _offers(code: Code) -> Iterator[tuple[str, str, Node]]:
-    """The calls that offer topics with plain names for single values."""
+    """The calls that offer topics with plain names."""
     for cpp in code.files:
         for node in inside(cpp.root, "call_expression"):
             call = call_of(node)
             if call is None or call.name not in OFFERS:
                 continue
             type_, topic = type_of(call), topic_of(call)
-            if _VALUE.fullmatch(type_) and topic:
+            if type_ and topic:
                 yield type_, topic, call.arguments[0]
 
 
-def _mentions(cpp: Cpp) -> Iterator[Node]:
-    """The names of types of the package, as they stand."""
-    for node in inside(cpp.root, "qualified_identifier"):
-        if text_of(node).startswith("std_msgs"):
-            yield node
-
-
-def _is_sent(mention: Node) -> bool:
-    """Whether a type is named to declare a message, or for a publisher."""
-    above = mention.parent
-    if above is not None and above.type == "declaration":
-        return part(above, "type") == mention
-    around = above.parent if above is not None and above.type == "type_descriptor" else None
+def _is_sent(name: Node) -> bool:
+    """Whether a type is named for a message that is made, a publisher, or one of its constants."""
+    node = name
+    while node.parent is not None and node.parent.type == "qualified_identifier":
+        node = node.parent
+    above = node.parent
+    if above is None or node.type == "identifier":
+        return False
+    if last_name(node) != text_of(name):
+        return above.type in _PLACES and node.type == "qualified_identifier"
+    if above.type == "declaration":
+        return above.child_by_field_name("type") == node
+    around = above.parent if above.type == "type_descriptor" else None
     of = around.parent if around is not None else None
     is_argument = around is not None and around.type == "template_argument_list"
-    name = text_of(part(of, "name")) if of is not None and is_argument else ""
-    return name in OFFERS | {"Publisher"} and _VALUE.fullmatch(squeezed(mention)) is not None
+    return of is not None and is_argument and text_of(part(of, "name")) in OFFERS | {"Publisher"}
 
 
 def _is_free(name: str, own: set[int], literals: list[Node]) -> bool:

@@ -20,8 +20,7 @@ from rebsync.reverse.syntax.cpp_tree import part, squeezed, text_of
 
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)::")
-_NUMBER = re.compile(r"(?:std::)?u?int(?:8|16|32|64)_t|(?:std::)?size_t|int|unsigned(?:int)?|long")
-_PLACES = ("identifier", "field_expression")
+_ARRAY = re.compile(r"std::array<[\w:]+,(\d+)>")
 _PUBLISHER = re.compile(r"ros::Publisher|rclcpp::Publisher<(.*)>::SharedPtr")
 
 
@@ -48,60 +47,6 @@ def only_logged(
     return left
 
 
-def counters(code: Code, owner: CppClass) -> set[str]:
-    """Numbers that are told to people, and else only counted or set in statements of their own.
-
-    Nothing but logs, and fields of messages that a function has made, gets what they are.
-    """
-    numbers = {f.name: f for f in owner.fields if _NUMBER.fullmatch(squeezed(f.type))}
-    left = {n for n, f in numbers.items() if not f.markers}
-    known = {f.node.id for f in owner.fields}
-    told = set[str]()
-    if not left:
-        return left
-    for cpp in code.files:
-        for node in code.named(cpp, cpp.root, sorted(left)):
-            around = [node, *ancestors(node)]
-            is_told = any(is_logging(n) or _fills(n) for n in around)
-            is_counted = any(n.id in known or _counts(n) for n in around)
-            if any(map(_is_of_state, around)) or not (is_told or is_counted):
-                left.discard(text_of(node))
-            elif is_told:
-                told.add(text_of(node))
-    return left & told
-
-
-def _is_of_state(node: Node) -> bool:
-    """Whether it is the function that tells the state: its variables are those of the model."""
-    is_function = node.type == "function_definition"
-    return is_function and "publishState" in text_of(part(node, "declarator"))
-
-
-def _counts(statement: Node) -> bool:
-    """`++x;`, `x = 0;` and `x += 2;`."""
-    inner = _expression_in(statement)
-    if inner is None or inner.type == "update_expression":
-        return inner is not None and part(inner, "argument").type in _PLACES
-    if inner.type != "assignment_expression":
-        return False
-    is_place = part(inner, "left").type in _PLACES
-    return is_place and part(inner, "right").type == "number_literal"
-
-
-def _fills(statement: Node) -> bool:
-    """`message.data = ++x;`, where the message is a local."""
-    inner = _expression_in(statement)
-    if inner is None or inner.type != "assignment_expression":
-        return False
-    left = part(inner, "left")
-    return left.type == "field_expression" and part(left, "argument").type == "identifier"
-
-
-def _expression_in(statement: Node) -> Node | None:
-    is_one = statement.type == "expression_statement" and bool(statement.named_children)
-    return statement.named_children[0] if is_one else None
-
-
 def _is_own(node: Node) -> bool:
     """Whether a name is that of a member of the class it stands in, if it is one of a member."""
     above = node.parent
@@ -123,6 +68,8 @@ def telling_publishers(
         for name, value in assigned_in(function.body) if function.name == owner.name else ():
             made.setdefault(name, []).append(call_of(value))
     members = {f.name: _PUBLISHER.fullmatch("".join(text_of(f.type).split())) for f in owner.fields}
+    arrays = {f.name: _ARRAY.fullmatch(squeezed(f.type)) for f in owner.fields}
+    sizes = {name: int(found[1]) for name, found in arrays.items() if found is not None}
     found = {}
     for name, calls in made.items():
         call, declared = calls[0], members.get(name)
@@ -132,7 +79,7 @@ def telling_publishers(
             continue
         type_ = type_of(call)
         is_shown = (type_, topic_of(call)) in shown and all(
-            sends(f.node, name, type_) for f in functions
+            sends(f.node, name, type_, sizes) for f in functions
         )
         if declared[1] in (None, type_) and (_TELLING.match(type_) or is_shown):
             found[name] = Publishes(())

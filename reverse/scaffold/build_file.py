@@ -15,6 +15,14 @@ from rebsync.source import Source, Span
 _OPTION = re.compile(
     r"(?:^|[\s\"])((?:-D|-U|-f|-include|-I|-isystem|-iquote|-Wp,|-x(?=\s)|-Ofast)\s*[^\s\"]*)"
 )
+# What finds mistakes, measures, or says where code is laid: what the code means stays.
+_CALM = re.compile(
+    r"--coverage|-f(?:no-)?sanitize=(?:(?:address|undefined|thread|leak),?)+|-fno-omit-frame-pointer"
+    r"|-fdiagnostics-\S+|-fPIC|-fstack-protector(?:-strong|-all)?|-fstack-clash-protection"
+    r"|-fcf-protection|-fprofile-arcs|-ftest-coverage|-flto(?:=\w+)?|-pthread"
+    r"|-Wl,--(?:as-needed|no-undefined)|-Wl,-z,(?:relro|now|defs)"
+)
+_LINKS = frozenset({"add_link_options", "target_link_options"})
 _COMMAND = "COMMAND"
 _CHANGING = frozenset(
     {"configure_file", "add_custom_command", "link_libraries", "add_link_options"}
@@ -125,6 +133,8 @@ def _named(command: Command) -> tuple[str, str] | None:
 def _compiled(command: Command, words: Sequence[str]) -> Iterator[_Told]:
     """The options of the compiler that change what code means."""
     for option in _OPTION.findall(" ".join(words)):
+        if _CALM.fullmatch(squeezed(option)):
+            continue
         yield "compiler option", "", squeezed(option), "given", command.span
     defined: Sequence[str] = ()
     match command.name:
@@ -153,6 +163,9 @@ def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
             is_step = _COMMAND not in words or not _asks(words)
         case "return", _:
             is_step = True
+        case name, [*options] if name in _LINKS:
+            options = options[name.startswith("target") :]
+            is_step = not all(o in _ORDERS or _CALM.fullmatch(o) for o in options)
         case "function" | "macro", [name, *_]:
             is_step = _is_redefined(name.lower())
         case name, _ if name.startswith(_SETTING):

@@ -33,7 +33,7 @@ _FAR = 400  # characters within which a subscription names its handler
 _POSTED = re.compile(r"\bk[A-Z]\w*")
 _DECLARED = re.compile(r'\bdeclare_parameter\s*<\s*([\w:]+)\s*>\s*\(\s*"([^"]*)"')
 _STATE = re.compile(
-    r"\b(?:create_publisher|advertise)\s*<\s*[\w:]*State\s*>\s*\(\s*\"[^\"]*\"\s*,([^;]*)\)\s*;"
+    r"\b(?:create_publisher|advertise)\s*<\s*[\w:]*State\s*>\s*\(\s*\"(?:~/)?state\"\s*,([^;]*)\)\s*;"
 )
 _KEPT_LAST = re.compile(r"\brclcpp::KeepLast\((\w+)\)")
 _STOPPED = re.compile(r"~(\w+)\s*\([^;{]*\{[^}]*\bmailbox_\s*\.\s*stop\s*\(\s*\)")

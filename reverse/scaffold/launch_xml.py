@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
@@ -27,6 +28,7 @@ from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source
 
 PARAMETERS = "config/params.yaml"
+_ENTRY = re.compile(r"\s*(\w+):\s*(?:-?\d+|true|false)\s*")
 Load = Callable[[str], "Source | None"]
 
 
@@ -53,6 +55,13 @@ def facts_of_settings(source: Source, load: Load) -> Iterator[Fact]:
     for unknown in launch.unknowns:
         if unknown.what == YAML and not unknown.source.path.endswith(PARAMETERS):
             yield Fact(UNKNOWN, "", unknown.what, unknown.why, unknown.source, unknown.span)
+
+
+def _is_plain(text: str) -> bool:
+    """Whether YAML in a node only says single numbers, none of them of the run-time part."""
+    lines = [line for line in text.splitlines() if line.strip()]
+    found = [_ENTRY.fullmatch(line) for line in lines]
+    return bool(found) and None not in found
 
 
 def _nodes(element: XmlElement) -> Iterator[str]:
@@ -119,6 +128,8 @@ class _Tags:
                 yield self._fact("remap", self.node, old, new, element)
             case "rosparam" if self.node and not given.get("param", "").startswith("/"):
                 said = squeezed(element.text) or given.get("file", "")
+                if {*given} <= {"command"} and _is_plain(element.text):
+                    return  # arguments of the model's constructor, which the model shows
                 yield self._fact("setting", self.node, given.get("param", ""), said, element)
             case "rosparam" if element.text.strip() and "param" in given:
                 yield self._fact("parameter", "", given["param"], squeezed(element.text), element)

@@ -32,6 +32,9 @@ _TYPES = {
 }
 # How many metres a cell has, no model says, as long as it has some.
 _METRES = "metres"
+# Within which seconds a node waits long enough for more urgent messages, and no model time passes.
+_SETTLES, _LEAST, _MOST = "long enough", 0.05, 0.2
+_UNIT = re.compile(r"^[ \t]*time_unit:[ \t]*([\d.]+)[ \t]*(?:#.*)?$", re.MULTILINE)
 _FOLDER = re.compile(r"^(script_dir|install_scripts)[ \t]*=[ \t]*(\S+)", re.MULTILINE)
 _REMARK = re.compile(r"<!--.*?-->", re.DOTALL)
 _BUILT_BY = re.compile(r"<build_type>\s*(\w+)\s*</build_type>")
@@ -85,8 +88,18 @@ def _parameter(section: str, name: str, value: str, source: Source, at: Span) ->
     if section == "env":
         yield Fact(CONSTANT, "", name, _type_of(value), source, at)
     elif has_bearing(whole := f"{section}/{name}"):
-        is_metres = whole == "drive/cell_size" and _is_length(value)
-        yield Fact("parameter", "", whole, _METRES if is_metres else value, source, at)
+        if whole == "drive/cell_size" and _is_length(value):
+            value = _METRES
+        elif whole == "mailbox/settle" and _settles(value, source.text):
+            value = _SETTLES
+        yield Fact("parameter", "", whole, value, source, at)
+
+
+def _settles(value: str, text: str) -> bool:
+    """Whether a node waits long enough, and far less than a unit of time."""
+    units = [float(m[1]) for m in _UNIT.finditer(text) if _type_of(m[1]) != "a text"]
+    is_plain = _type_of(value) == "a fraction" and "e" not in value.lower()
+    return is_plain and _LEAST <= float(value) <= _MOST and all(u >= 1 for u in units)
 
 
 def _is_length(value: str) -> bool:
