@@ -242,3 +242,12 @@ class EndlessIterators:
                     if any(endless.makes(n, given) for n in names):
                         return True
         return any(self._origins.methods_of_any(m) for m in _METHODS)
+
+
+def has_own_iterator(origins: Origins, value: e.Expression, function: str) -> bool:
+    """Whether a value is an iterator of the program's in C++, or has some."""
+    classes = origins.own_classes(value, function)
+    return any(
+        origins.may_have_method(value, name) or any(origins.has_method(c, name) for c in classes)
+        for name in ("operator++", "begin")
+    )

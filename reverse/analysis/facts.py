@@ -222,6 +222,13 @@ def _is_shared(expression: e.Expression) -> bool:
     return any(isinstance(n, shared) for n in walk(expression))
 
 
+def joined(one: Facts | None, other: Facts | None) -> Facts | None:
+    """What is known where two ways meet."""
+    if one is None or other is None:
+        return other if one is None else one
+    return one & other
+
+
 # --- what tests say -------------------------------------------------------------------------------
 
 _OPPOSITE = {

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Literal, TypeAlias
 
 from rebsync.reverse.analysis.facts import Facts, HasKey, bare, names_of
+from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import PlainOrigin
@@ -16,6 +17,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
+from rebsync.reverse.libraries.routines import Language
 from rebsync.unions import assert_never
 
 
@@ -57,6 +59,16 @@ class LibraryExceptions:
         if is_many or (of is not None and self.expressions.size(of, facts)):
             return raised
         return raised | outcome.empty
+
+    def has_pieces(self, node: s.Call, text: e.Expression) -> bool:
+        """Whether a call that formats a text gets all arguments that the text names."""
+        if self.table.language is not Language.PYTHON:
+            return True
+        texts = self.expressions.texts(text)
+        by_place = sum(a.name is None for a in node.arguments)
+        names = {a.name for a in node.arguments if a.name is not None}
+        stars = any(a.stars for a in node.arguments)
+        return bool(texts) and not stars and all(has_pieces(t, by_place, names) for t in texts)
 
     def _may_raise(self, node: s.Call, when: Raises, facts: Facts) -> bool:
         """Whether a call gets arguments for which its rule says that it raises."""
@@ -100,10 +112,8 @@ class LibraryExceptions:
                 return any(self.expressions.texts(v) not in _WHOLE for v in values)
             case Raises.UNWRITTEN:
                 return not all(map(self.expressions.texts, values[:1]))
-            case Raises.UNDECLARED | Raises.REPEATED:
+            case Raises.UNDECLARED | Raises.UNDECLARED_ALONE | Raises.REPEATED:
                 return self._is_odd_parameter(node, when, facts)
-            case Raises.UNDECLARED_ALONE:
-                return len(values) == 1 and not self._are_declared(values[0])
             case Raises.UNORDERED:
                 return not self._are_ordered(values, facts)
             case _:
@@ -111,6 +121,8 @@ class LibraryExceptions:
 
     def _is_odd_parameter(self, node: s.Call, when: Raises, facts: Facts) -> bool:
         """Whether a parameter may not be declared that is asked for, or is declared again."""
+        if when is Raises.UNDECLARED_ALONE:
+            return len(node.arguments) == 1 and not self._are_declared(node.arguments[0].value)
         declared = self.expressions.notes.counts.rules.declared
         if when is Raises.REPEATED:
             return declared.may_have(self.function)

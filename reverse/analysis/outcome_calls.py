@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 
 from rebsync.reverse.analysis.call_binding import REFUSED
+from rebsync.reverse.analysis.endless_iterators import has_own_iterator
 from rebsync.reverse.analysis.facts import Facts, IsThere, stored, without_shared
-from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.given_arguments import GivenArguments
 from rebsync.reverse.analysis.library_exceptions import LibraryExceptions
 from rebsync.reverse.analysis.library_operators import is_standard
@@ -36,11 +36,6 @@ _NUMERIC = ("len", "int", "float", "abs", "sum", "min", "max", "round")
 _ELEMENTS = ("sorted", "list", "tuple", "set", "enumerate", "zip")
 _OF_NUMBERS = frozenset(f"builtins.{name}" for name in (*_NUMERIC, *_ELEMENTS))
 _UNKNOWN = "what is called is not known"
-
-
-def _is_constant(name: str) -> bool:
-    """Whether a name of a library is written as those of constants are."""
-    return name.rpartition(".")[2].isupper()
 
 
 class OutcomeCalls:
@@ -200,7 +195,7 @@ class OutcomeCalls:
         """
         if self.notes.table.language is Language.CPP:
             return self.notes.table.is_known(name)
-        return not _is_constant(name)
+        return not name.rpartition(".")[2].isupper()  # constants are written so
 
     def _asks_a_node(self, node: s.Call) -> bool:
         """Whether a method is one that asks a node for something, as to call back."""
@@ -384,34 +379,20 @@ class OutcomeCalls:
         receiver: e.Expression | None,
         facts: Facts,
     ) -> None:
-        if name == "format" and receiver is not None and not self._has_pieces(node, receiver):
+        if (
+            name == "format"
+            and receiver is not None
+            and not self._exceptions.has_pieces(node, receiver)
+        ):
             self.notes.fails(node, "lacks the argument")
         if outcome.acts:
             self.notes.problem(node, f'"{name}": {outcome.acts}')
         if name.endswith("shared_from_this") and self.function in self.origins.of_cpp.constructing:
             self.notes.problem(node, f'"{name}" may raise an exception', "std::bad_weak_ptr")
-        if any(map(self._is_own_iterator, node.arguments)):
+        values = (
+            [a.value for a in node.arguments] if self.notes.table.language is Language.CPP else []
+        )
+        if any(has_own_iterator(self.origins, value, self.function) for value in values):
             self.notes.problem(node, f'"{name}" may never come to the end')
         for raised in self._exceptions.of(node, outcome, receiver, facts):
             self.notes.problem(node, f'"{name}" may raise an exception', raised)
-
-    def _is_own_iterator(self, argument: s.CallArgument) -> bool:
-        """Whether an argument is an iterator of the program's, or has some, in C++."""
-        if self.notes.table.language is not Language.CPP:
-            return False
-        classes = self.origins.own_classes(argument.value, self.function)
-        return any(
-            self.origins.may_have_method(argument.value, name)
-            or any(self.origins.has_method(c, name) for c in classes)
-            for name in ("operator++", "begin")
-        )
-
-    def _has_pieces(self, node: s.Call, text: e.Expression) -> bool:
-        """Whether a call that formats a text gets all arguments that the text names."""
-        if self.notes.table.language is not Language.PYTHON:
-            return True
-        texts = self.expressions.texts(text)
-        by_place = sum(a.name is None for a in node.arguments)
-        names = {a.name for a in node.arguments if a.name is not None}
-        stars = any(a.stars for a in node.arguments)
-        return bool(texts) and not stars and all(has_pieces(t, by_place, names) for t in texts)

@@ -19,6 +19,7 @@ from rebsync.reverse.analysis.facts import (
     IsThere,
     bare,
     is_bound,
+    joined,
     size_of,
     sized,
     stored,
@@ -255,7 +256,7 @@ class OutcomeWalk:
                 first = self.body(then, tested(facts, test, True))
                 if test == e.Literal(True):
                     return first
-                return _joined(first, self.body(otherwise, tested(facts, test, False)))
+                return joined(first, self.body(otherwise, tested(facts, test, False)))
             case s.Loop():
                 return self._loop(node, facts)
             case s.ForEach():
@@ -386,16 +387,9 @@ class OutcomeWalk:
         if after is not None:
             after = self.body(node.otherwise, after)
         for way in ways:
-            after = _joined(after, way)
+            after = joined(after, way)
         if not node.final:
             return after
         last = self._changed(inside, node.final) if after is None else after
         final = self.body(node.final, last if after is not None else inside)
         return None if after is None else final
-
-
-def _joined(one: Facts | None, other: Facts | None) -> Facts | None:
-    """What is known where two ways meet."""
-    if one is None or other is None:
-        return other if one is None else one
-    return one & other

@@ -24,7 +24,7 @@ from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_misparsed import check_misparsed
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
-from rebsync.reverse.bodies.cpp_references import is_made, stays
+from rebsync.reverse.bodies.cpp_references import is_made, is_made_pointer, message_of, stays
 from rebsync.reverse.bodies.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import seconds_of
@@ -311,8 +311,8 @@ def _inferred(
         reader.meaning(declared.name, held)
         yield from needed
         return
-    if (type_ := _message_of(reader, value)) is not None:
-        pointer = _is_made_pointer(reader, value)
+    if (type_ := message_of(reader.scope, value)) is not None:
+        pointer = is_made_pointer(reader.scope, value)
         yield from cpp_messages.declare(reader, declared.node, declared.name, type_, value, pointer)
         return
     read = reader.expressions.read(value)
@@ -337,31 +337,6 @@ def _lasts(reader: CppStatementReader, read: m.Expression) -> bool:
     return not any(
         re.search(rf"\b{n}_?\s*(?:[-+*/%&|^]?=[^=]|\+\+|--)", reader.text()) for n in names
     )
-
-
-def _message_of(reader: CppStatementReader, value: Node) -> str | None:
-    """The type of message that an expression is, if it is one that the model knows."""
-    match resolve(reader.scope, value):
-        case Record(type=type_) if type_:
-            return type_
-    if value.type == "call_expression" or value.type.endswith(
-        ("literal_expression", "new_expression")
-    ):
-        text = (
-            text_of(value.children_by_field_name("function")[0])
-            if value.type == ("call_expression")
-            else text_of(part(value, "type"))
-        )
-        made = re.match(r"(?:boost|std)::make_\w+<(.*)>\Z", text)
-        return cpp_messages.message_type(reader.scope, made[1] if made else text)
-    return None
-
-
-def _is_made_pointer(reader: CppStatementReader, value: Node) -> bool:
-    if value.type == "new_expression" or "::make_shared<" in text_of(value).partition("(")[0]:
-        return True
-    meaning = resolve(reader.scope, value)
-    return isinstance(meaning, Record) and meaning.pointer and value.type == "identifier"
 
 
 def _reference(

@@ -7,7 +7,9 @@ import re
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.scope import Called, Inline, Scope
+from rebsync.reverse.bodies import cpp_messages
+from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.scope import Called, Inline, Record, Scope
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
@@ -48,3 +50,29 @@ def stays(place: m.Expression, declared: Node) -> bool:
     block = climb(declared, lambda n: n.type == "compound_statement")
     text = text_of(block) if block is not None else ""
     return not any(re.search(rf"\b{n}_?\s*(?:[-+*/%&|^]?=[^=]|\+\+|--)", text) for n in names)
+
+
+def message_of(scope: Scope, value: Node) -> str | None:
+    """The type of message that an expression is, if it is one that the model knows."""
+    match resolve(scope, value):
+        case Record(type=type_) if type_:
+            return type_
+    if value.type == "call_expression" or value.type.endswith(
+        ("literal_expression", "new_expression")
+    ):
+        text = (
+            text_of(value.children_by_field_name("function")[0])
+            if value.type == ("call_expression")
+            else text_of(part(value, "type"))
+        )
+        made = re.match(r"(?:boost|std)::make_\w+<(.*)>\Z", text)
+        return cpp_messages.message_type(scope, made[1] if made else text)
+    return None
+
+
+def is_made_pointer(scope: Scope, value: Node) -> bool:
+    """Whether a value is a pointer to a message that is made there."""
+    if value.type == "new_expression" or "::make_shared<" in text_of(value).partition("(")[0]:
+        return True
+    meaning = resolve(scope, value)
+    return isinstance(meaning, Record) and meaning.pointer and value.type == "identifier"

@@ -311,3 +311,20 @@ def _guarded(
         return whole, reader.branch(block)
     finally:
         bound.pop(name, None)
+
+
+def taken_before(
+    before: list[m.Statement], condition: m.Expression | None, updates: tuple[m.Expression, ...]
+) -> m.Declaration | tuple[m.Expression, ...]:
+    """What stands directly before a loop and gives its variable a value, taken out of there."""
+    parts = [e for e in (condition, *updates) if e is not None]
+    used = {n.name for e in parts for n in m.walk(e) if isinstance(n, m.Name)}
+    match before[-1:]:
+        case [m.Local(declaration, annotations=())] if declaration.declarators[0].name in used:
+            before.pop()
+            return declaration
+        case [m.ExpressionStatement(m.Assign("=", m.Name(name)) as first, annotations=())]:
+            if name in used:
+                before.pop()
+                return (first,)
+    return ()

@@ -6,7 +6,6 @@ A store in such a member shows in no model, as long as nothing else looks at it.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
@@ -19,7 +18,7 @@ from rebsync.reverse.libraries.generated_calls import PUBLISHER_METHOD
 from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.model_asked import Answering
 from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
-from rebsync.reverse.python.model_members import VALUES, is_lock, is_own_parameter
+from rebsync.reverse.python.model_members import VALUES, is_lock, is_own_parameter, makers_in
 from rebsync.reverse.python.model_roles import PyRoles, is_of_node
 from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
 from rebsync.reverse.python.model_timers import Timers
@@ -28,7 +27,6 @@ from rebsync.reverse.python.module_variables import (
     call_and_arguments,
     counters_of,
     hidden_names,
-    imported_as,
     is_clock,
     loggers_of,
     maths_of,
@@ -55,8 +53,6 @@ from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import Py, field, is_label, named, text_of
 
 _SET_UP = ("__init__", "_wire")
-# Packages whose messages tell people how a node does, and that no node of a model is sent.
-_TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
 _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
 
 
@@ -205,7 +201,7 @@ def silent_in(
     """
     owner, functions = line[0], roles[0].functions
     taken = {n for r in roles for n in (*r.state, *r.known, *r.env, *r.publishers)}.difference(own)
-    makers = frozenset(_makers(owner.module))
+    makers = frozenset(makers_in(owner.module))
     modules = [*{id(c.module): c.module for c in line}.values()]
     looks = looks_in(code, modules, makers)
     hidden = hidden_names(code, owner.module)
@@ -315,14 +311,6 @@ def _is_publisher(node: Node, makers: frozenset[str]) -> bool:
     topics = [s for a in arguments if (s := string_value(a)) is not None]
     is_named = len(topics) == 1 and is_topic(topics[0], called)
     return called in PUBLISHERS and len(types) == 1 and is_named
-
-
-def _makers(module: Scope) -> Iterator[str]:
-    """The message types for people that a module imports."""
-    for name in module.names:
-        package, _, type_ = imported_as(module, name).rpartition(".")
-        if _TELLING.match(package) and type_ == name:
-            yield name
 
 
 # --- where they are used ------------------------------------------------------------------------

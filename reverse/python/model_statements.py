@@ -344,7 +344,7 @@ class Statements(ModelStatementReader):
         updates: tuple[m.Expression, ...],
     ) -> m.Declaration | tuple[m.Expression, ...]:
         """What a loop begins with: nobody knows behind the loop what is declared there."""
-        initial = _taken(before, condition, updates)
+        initial = loops.taken_before(before, condition, updates)
         if isinstance(initial, m.Declaration):
             declared = {d.name for d in initial.declarators}
             known = self.expressions.locals
@@ -387,23 +387,6 @@ def _ends(node: Node) -> bool:
     body = named(field(node, "consequence"))
     is_break = len(body) == 1 and body[0].type == "break_statement"
     return is_break and without_parentheses(field(node, "condition")).type == "not_operator"
-
-
-def _taken(
-    before: list[m.Statement], condition: m.Expression | None, updates: tuple[m.Expression, ...]
-) -> m.Declaration | tuple[m.Expression, ...]:
-    """What stands directly before a loop and gives its variable a value, taken out of there."""
-    parts = [e for e in (condition, *updates) if e is not None]
-    used = {n.name for e in parts for n in m.walk(e) if isinstance(n, m.Name)}
-    match before[-1:]:
-        case [m.Local(declaration, annotations=())] if declaration.declarators[0].name in used:
-            before.pop()
-            return declaration
-        case [m.ExpressionStatement(m.Assign("=", m.Name(name)) as first, annotations=())]:
-            if name in used:
-                before.pop()
-                return (first,)
-    return ()
 
 
 def _annotated(statement: m.Statement, given: tuple[m.Annotation, ...]) -> m.Statement:
