@@ -25,6 +25,8 @@ from rebsync.static.types import BYTE, INT, SHORT
 
 _MAKES = frozenset({"std::make_pair", "std::make_tuple"})
 _STANDARD = re.compile(r"std::(pair|tuple)<")
+# In a type of a part: it is no copy.
+_REFERS = re.compile(r"[&*]|reference_wrapper|_ptr\b|span\b|view\b|decltype|auto")
 _PAIR = ("first", "second")
 
 
@@ -80,6 +82,8 @@ def _fields(reader: CppStatementReader, type_: Node) -> list[tuple[str, Node]] |
     if (found := _STANDARD.match(text)) is not None:
         types = next(iter(inside(type_, "template_argument_list")), None)
         given = named(types) if types is not None else []
+        if any(_REFERS.search(text_of(each)) for each in given):
+            return None  # a part is another name of what it is made of
         names = _PAIR if found[1] == "pair" else tuple(map(str, range(len(given))))
         return list(zip(names, given, strict=False)) if len(names) == len(given) else None
     form = reader.scope.form
