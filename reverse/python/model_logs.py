@@ -35,7 +35,8 @@ class Looks:
     `describing` functions that only put texts together, with how many arguments they take.
     `containers` are members that only logs look into, with their kinds; `maths` are what the module
     calls functions of numbers, and `logging` methods that only log, with how many arguments each
-    takes.
+    takes. `attributes` are what objects of the class have, where that is known: with a slip in the
+    name of one, what logs raises.
     """
 
     trusted: frozenset[str] = with_default(
@@ -52,6 +53,7 @@ class Looks:
     containers: Mapping[str, str] = with_default(default_factory=dict)
     maths: frozenset[str] = frozenset()
     logging: Mapping[str, int] = with_default(default_factory=dict)
+    attributes: frozenset[str] | None = None
 
     def is_pure(self, node: Node) -> bool:
         """Whether nothing happens where an expression is evaluated."""
@@ -61,9 +63,18 @@ class Looks:
             return False
         if node.type == "attribute" and text_of(field(node, "attribute")) in self.functions:
             return text_of(field(node, "object")) not in ("self", "super()")
+        if node.type == "attribute" and self._is_absent(node):
+            return False
         if node.type == "subscript" and self._container(field(node, "value")):
             return False  # it may have no such element
         return all(map(self.is_pure, node.named_children))
+
+    def _is_absent(self, node: Node) -> bool:
+        """Whether no object of the class has an attribute; those of libraries are not private."""
+        name = text_of(field(node, "attribute"))
+        is_own = text_of(field(node, "object")) == "self" and name.startswith("_")
+        is_plain = is_own and not name.endswith("__")
+        return is_plain and self.attributes is not None and name not in self.attributes
 
     def _container(self, node: Node) -> str:
         """The kind of the container that a member is; empty for all else."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from tree_sitter import Node
 
@@ -11,6 +11,7 @@ from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.module_variables import imported_as
 from rebsync.reverse.syntax.ancestors import functions_around
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -19,6 +20,8 @@ _NUMBERS = frozenset({"true", "false", "integer", "float"})
 _DECLARE, _GET = "self.declare_parameter", "self.get_parameter"
 # Packages whose messages tell people how a node does, and that no node of a model is sent.
 _TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
+_LIBRARY_BASES = frozenset({"Node", "LifecycleNode", "object", "ABC"})
+_TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target"})
 _LOCKS = frozenset({"threading.Lock", "threading.RLock"})
 
 
@@ -100,3 +103,23 @@ def makers_in(module: Scope) -> Iterator[str]:
         package, _, type_ = imported_as(module, name).rpartition(".")
         if _TELLING.match(package) and type_ == name:
             yield name
+
+
+def attributes_in(line: Sequence[Scope]) -> frozenset[str] | None:
+    """What objects of a class have by itself and those above it; None where others are above."""
+    names = {owner.name for owner in line} | _LIBRARY_BASES
+    listed = (owner.node.child_by_field_name("superclasses") for owner in line)
+    bases = (base for each in listed if each is not None for base in named(each))
+    if any(text_of(base).rpartition(".")[2] not in names for base in bases):
+        return None
+    modules = {id(owner.module): owner.module for owner in line}.values()
+    nodes = (n for module in modules for n in nodes_in(module.node) if n.type == "attribute")
+    stored = (text_of(field(n, "attribute")) for n in nodes if _is_stored(n))
+    return frozenset(stored).union(*(owner.names for owner in line))
+
+
+def _is_stored(node: Node) -> bool:
+    above = node.parent
+    if above is None or above.type in _TARGETS:
+        return above is not None
+    return above.child_by_field_name("left") == node

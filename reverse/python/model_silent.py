@@ -18,7 +18,13 @@ from rebsync.reverse.libraries.generated_calls import PUBLISHER_METHOD
 from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.model_asked import Answering
 from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
-from rebsync.reverse.python.model_members import VALUES, is_lock, is_own_parameter, makers_in
+from rebsync.reverse.python.model_members import (
+    VALUES,
+    attributes_in,
+    is_lock,
+    is_own_parameter,
+    makers_in,
+)
 from rebsync.reverse.python.model_roles import PyRoles, is_of_node
 from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
 from rebsync.reverse.python.model_timers import Timers
@@ -208,6 +214,7 @@ def silent_in(
     records = records_in(code, owner.module)
     looks = replace(
         looks,
+        attributes=attributes_in(line),
         loggers=loggers_of(owner.module) - hidden,
         tables=tables_of(code, owner.module) - hidden,
         clocks=frozenset(n for n in owner.module.names if is_clock(owner.module, n)) - hidden,

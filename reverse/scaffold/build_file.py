@@ -69,6 +69,8 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
     """The facts of a file; values say under which conditions the commands are."""
     commands = list(_commands(read_cmake(source).items))
     names = dict(filter(None, (_named(command) for command, _ in commands)))
+    adding = (c for c, _ in commands if c.name == "add_library" and c.arguments)
+    libraries = frozenset(command.arguments[0].text for command in adding)
     own = {argument.text for command, _ in commands for argument in command.arguments}
     projects = (c.arguments[0].text for c, _ in commands if c.name == "project" and c.arguments)
     project = next(projects, "")
@@ -82,7 +84,8 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
             *(() if _only_remembers(words, caches) else _steps(command, words)),
             *_included(command, words, own),
         )
-        for fact in (*found, *_made(lists.written_out(command), names, project)):
+        made = lists.written_out(command)
+        for fact in (*found, *_made(made, names, project), *_joined(made, names, libraries)):
             kind, owner, name, value, span = fact
             yield Fact(kind, owner, name, f"{value}{condition}", source, span)
 
@@ -168,6 +171,9 @@ def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
             is_step = not all(o in _ORDERS or _CALM.fullmatch(o) for o in options)
         case "function" | "macro", [name, *_]:
             is_step = _is_redefined(name.lower())
+        case "set", [variable, *flags] if variable in _LINKING:
+            said = " ".join(flags).replace(f"${{{variable}}}", "").split()
+            is_step = not all(map(_CALM.fullmatch, said))
         case name, _ if name.startswith(_SETTING):
             is_step = is_step or any(map(_STEERING.fullmatch, words))
         case _:
@@ -260,6 +266,15 @@ def _made(command: Command, names: dict[str, str], project: str) -> Iterator[_To
                 yield "message", "", found[1], "generated", span
         case _:
             pass
+
+
+def _joined(command: Command, names: dict[str, str], libraries: frozenset[str]) -> Iterator[_Told]:
+    """That a program has more of the package's code than the source with its `main`."""
+    words = [argument.text for argument in command.arguments]
+    is_program = command.name == "add_executable" and len(words) > 2
+    is_linked = command.name == "target_link_libraries" and not libraries.isdisjoint(words[1:])
+    if is_program or (is_linked and words[0] not in libraries):
+        yield "own code of a program", names.get(words[0], words[0]), "", "there", command.span
 
 
 def _installed(

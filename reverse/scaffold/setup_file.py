@@ -52,7 +52,7 @@ class SetupFile:
                     yield self._fact("Python package", "packages", self._packages(value), value)
                 case ast.keyword(str(name), value) if name in BUILDING:
                     yield self._fact(PYTHON_SETTING, name, plain(value), value)
-                case ast.keyword(None, value) if not ast.unparse(value).startswith(_OF_CATKIN):
+                case ast.keyword(None, value) if not self._is_of_catkin(value):
                     yield self._fact(PYTHON_SETTING, "**", plain(value), value)
                 case _:
                     pass
@@ -133,7 +133,20 @@ class SetupFile:
             case _:
                 return None
 
+    def _is_of_catkin(self, value: ast.expr) -> bool:
+        """Whether all that `setup` gets is what catkin makes of the manifest: as is usual."""
+        made = self._value(value.id) if isinstance(value, ast.Name) else value
+        return made is not None and ast.unparse(made).startswith(_OF_CATKIN)
+
     def _constant(self, name: str) -> str | None:
+        """The text that a name of the file stands for, if it is bound once."""
+        match self._value(name):
+            case ast.Constant(str(text)):
+                return text
+            case _:
+                return None
+
+    def _value(self, name: str) -> ast.expr | None:
         """What a name of the file stands for, if it is bound once."""
         stores = [
             n
@@ -142,8 +155,8 @@ class SetupFile:
         ]
         for statement in self.tree.body if len(stores) == 1 else ():
             match statement:
-                case ast.Assign([ast.Name(own)], ast.Constant(str(text))) if own == name:
-                    return text
+                case ast.Assign([ast.Name(own)], value) if own == name:
+                    return value
                 case _:
                     pass
         return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 from tree_sitter import Node
 
@@ -57,6 +58,8 @@ def call_function(
         _operand(context, parameter, node, place)
         for parameter, node in zip(found.parameters, nodes, strict=False)
     ]
+    # Those of a pack, which nothing in the function names one by one.
+    operands += [partial(lower_value, context, node) for node in nodes[len(operands) :]]
     if receiver is not None and not function.is_static:
         mark = len(context.out)
         arguments = in_any_order(context, operands, place)
@@ -67,6 +70,7 @@ def call_function(
             receiver = dereferenced(target, receiver.type, place)
     else:
         arguments = in_any_order(context, operands, place)
+    arguments = arguments[: len(found.parameters)]
     arguments += default_arguments(context, function, len(nodes), place)
     return call(context, function, arguments, place, receiver, is_qualified)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import TypeAlias
 
@@ -14,7 +15,10 @@ from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value, World
 from rebsync.reverse.ir.cpp.conversions import is_arithmetic, rank
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
-from rebsync.reverse.syntax.cpp_tree import Cpp
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
+
+_OF_A_PACK = 100  # worse than any conversion
+_PACK = re.compile(r"&\s*\.\.\.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +159,13 @@ def _body(function: FunctionSymbol) -> bytes | None:
 def _takes(world: World, function: FunctionSymbol, count: int) -> bool:
     parameters = signature(world, function).parameters
     needed = sum(p.default is None for p in parameters)
-    return needed <= count <= len(parameters)
+    return needed <= count and (count <= len(parameters) or has_pack(function))
+
+
+def has_pack(function: FunctionSymbol) -> bool:
+    """Whether a function takes references to however many values: `const Values&... values`."""
+    lists = inside(function.code.node, "parameter_list")
+    return next((_PACK.search(text_of(each)) for each in lists), None) is not None
 
 
 def _is_better(ranks: list[int], other: list[int]) -> bool:
@@ -173,7 +183,7 @@ def _ranks(
         if one is None:
             return None
         found.append(one)
-    return found
+    return [*found, *[_OF_A_PACK] * (len(arguments) - len(found))]
 
 
 def _rank(context: Context, argument: ArgumentValue, declared: Declared) -> int | None:

@@ -10,6 +10,7 @@ from rebsync.reverse.scaffold.fact import (
     CLOCK,
     CONSTANT,
     NOT_GIVEN,
+    OWN,
     PLAYED,
     PROGRAM,
     PYTHON_SETTING,
@@ -80,6 +81,8 @@ class Excuses:
         first = (self.base.get(key) or self.today[key])[0]
         if first.kind in _HELPING or (first.kind == CONSTANT and key not in self.today):
             return True
+        if self._is_of_others(first.owner) and key not in self.base:
+            return not self._reaches_in(first)
         if key not in self.base and not self._is_unwanted(first):
             return True
         if self._has_moved(first) or self._is_renamed(key) or self._follows(first):
@@ -191,6 +194,20 @@ class Excuses:
         is_own = not fact.owner or (TYPE, fact.owner, "") in self.base
         is_met = is_of_runtime(self.today, fact) or is_about(self.now, self.today, fact)
         return is_own and is_met
+
+    def _is_of_others(self, node: str) -> bool:
+        """Whether a node is new, and of another package: nobody knows what it publishes."""
+        of = {fact.value for fact in self.today.get(("node", node, "pkg"), ())}
+        return bool(of) and OWN not in of and (TYPE, node, "") not in self.base
+
+    def _reaches_in(self, fact: Fact) -> bool:
+        """Whether a node of others is given a name that is one of generated nodes' topics."""
+        words = {*re.findall(r"\w+", fact.value)}
+        if fact.kind == "remap":
+            is_known = self.now is not None and not leads_in(self.now, self.today, fact)
+            return not is_known or not words.isdisjoint(self._nodes)
+        is_renaming = fact.name == "ns" or ":=" in fact.value
+        return is_renaming and not words.isdisjoint(self._nodes)
 
     def _is_of_another_tool(self, section: str) -> bool:
         """Whether a section of parameters is for a node that is none of the package."""

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-namespace library {
+namespace topic_tools {
 
 int level();  // 0 to 5
 bool ready();
@@ -20,12 +20,12 @@ struct Table {
 };
 Table& table();
 
-}  // namespace library
+}  // namespace topic_tools
 
 namespace Eigen {
 
-struct MatrixXd {
-  MatrixXd(int rows, int columns);
+struct Matrix3d {
+  Matrix3d(int rows, int columns);
   double& operator()(int row, int column);
   double cell;
 };

@@ -188,9 +188,9 @@ class Body:
     def _unknown(self) -> str:
         """A condition that no reader can know."""
         return self.one(
-            lambda: "library::ready()",
-            lambda: f"library::level() > {self.random.randrange(4)}",
-            lambda: "library::ratio() < 0.5",
+            lambda: "topic_tools::ready()",
+            lambda: f"topic_tools::level() > {self.random.randrange(4)}",
+            lambda: "topic_tools::ratio() < 0.5",
             lambda: "table_.empty()",
             lambda: f"table_.count({self.integer(2)}) > 0",
             lambda: 'label_ == "go"',
@@ -265,7 +265,7 @@ class Body:
         self.used.add(name)
         if self.opaque and self.chance(15):
             self.variables.append(Variable(name, "int"))
-            return [f"int {name} = library::level();  // rebsync: domain 0..5"]
+            return [f"int {name} = topic_tools::level();  // rebsync: domain 0..5"]
         types: tuple[str, ...] = ("int", "int", "bool", "double", "int8_t", "int16_t")
         type_ = self.random.choice((*types, *WIDE) if self.is_wide else types)
         shown = self.random.choice((type_, f"const {type_}"))
@@ -308,7 +308,7 @@ class Body:
         return [
             self.one(
                 lambda: 'ROS_INFO("x %d", 1);',
-                lambda: f"library::record({self.integer(2)});",
+                lambda: f"topic_tools::record({self.integer(2)});",
                 *(self._stored if self.members else lambda: "std::cout << 1;" for _ in range(3)),
                 lambda: "ros::Duration(1.0).sleep();" if self.result == "void" else "assert(true);",
             )

@@ -93,9 +93,9 @@ def _unknown(body: Body) -> list[str]:
     target, real = _plain(body, "int"), _plain(body, "double")
     if target is None or not body.members or not body.opaque or not target.endswith("_"):
         return []
-    lines = [f"{target} = library::level();", f"if ({target} > 2) {target} = 0;"]
+    lines = [f"{target} = topic_tools::level();", f"if ({target} > 2) {target} = 0;"]
     if real is not None and real.endswith("_"):
-        lines += [f"{real} = library::ratio();"]
+        lines += [f"{real} = topic_tools::ratio();"]
     return [body.random.choice(lines)]
 
 

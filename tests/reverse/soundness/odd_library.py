@@ -6,13 +6,13 @@ from tests.reverse.soundness.drawing import Body
 
 # What stands before the code: some only look at what they get, others do more.
 MACROS = (
-    "#define SHOW(text) if (library::ready()) { library::out() << text; }",
+    "#define SHOW(text) if (topic_tools::ready()) { topic_tools::out() << text; }",
     "#define SHOW_BOTH(a, b) \\",
-    "  do { SHOW(a); library::out() << b; } while (0)",
+    "  do { SHOW(a); topic_tools::out() << b; } while (0)",
     "#define RAISE(x) ++x",
-    "#define STORE(x, y) library::out() << y; x = y",
+    "#define STORE(x, y) topic_tools::out() << y; x = y",
     "#define LEAVE_IF(x) if ((x) > 3) return",
-    "#define GUARDED(x) if (library::ready()) { SHOW(x) } else { RAISE(x); }",
+    "#define GUARDED(x) if (topic_tools::ready()) { SHOW(x) } else { RAISE(x); }",
     "void spread(int& to, int by) { to = by; }",
     "void spread(int& to) { to = to % 50 + 1; }",
     "bool looked(int of) { return of > 1; }",
@@ -36,16 +36,16 @@ def library_statement(body: Body) -> list[str]:
         f'SHOW("it is " << {target} << " of " << {other});',
         f"SHOW({target});",
         f"SHOW_BOTH({target} + 1, {other});",
-        f"library::table()({target}, {other}) = {number};",
-        f"{{ Eigen::MatrixXd m_(2, 2); m_(0, {other}) = {target}; {target} = {number}; }}",
-        f"{{ Eigen::MatrixXd m_(2, 2); if (m_({other}, 1) > 0.5) {target} = {number}; }}",
+        f"topic_tools::table()({target}, {other}) = {number};",
+        f"{{ Eigen::Matrix3d m_(2, 2); m_(0, {other}) = {target}; {target} = {number}; }}",
+        f"{{ Eigen::Matrix3d m_(2, 2); if (m_({other}, 1) > 0.5) {target} = {number}; }}",
     ]
     calm += [
         f"{{ double seen_; noted({target}, seen_); if (seen_ > 2.0) {target} = {number}; }}",
         f"{{ int got_; if (looked({other}, &got_)) {target} = {number}; }}",
         f"{{ int got_; looked({other} * 2, &got_); {target} = got_; }}",
-        f"{{ double seen_ = 0; noted(library::level(), seen_); {target} = {number}; }}",
-        f"spread(library::table().cell, {target});",
+        f"{{ double seen_ = 0; noted(topic_tools::level(), seen_); {target} = {number}; }}",
+        f"spread(topic_tools::table().cell, {target});",
         f"spread({target});",
         f"if (looked({other})) {target} = {number};",
     ]
@@ -53,17 +53,17 @@ def library_statement(body: Body) -> list[str]:
         f"spread({target}, {other});",
         f"looked({other}++, &{target});",
         f"if (looked({number}, &{target})) {other} = 1;",
-        f"looked({target}, &library::table().row({target}++).cell);",
+        f"looked({target}, &topic_tools::table().row({target}++).cell);",
         f"SHOW({target}++);",
         f"SHOW_BOTH({other}, ({target} = {number}));",
         f"RAISE({target});",
         f"{{ STORE({target}, {number}); }}",
         f"GUARDED({target});",
-        f"library::table().at({target}++) = {number};",
-        f"library::table().row(--{target}).at(2) = {other};",
-        f"library::table().at({target} = {number}) += 2;",
-        f"library::table()({target}, {other}++) = {number};",
-        f"{{ Eigen::MatrixXd m_(2, 2); m_(0, {target}++) = {number}; }}",
+        f"topic_tools::table().at({target}++) = {number};",
+        f"topic_tools::table().row(--{target}).at(2) = {other};",
+        f"topic_tools::table().at({target} = {number}) += 2;",
+        f"topic_tools::table()({target}, {other}++) = {number};",
+        f"{{ Eigen::Matrix3d m_(2, 2); m_(0, {target}++) = {number}; }}",
     ]
     if body.result == "void":
         acting.append(f"LEAVE_IF({target});")

@@ -115,7 +115,7 @@ static unsigned drawn() {
   state_of_library = state_of_library * 1103515245u + 12345u;
   return state_of_library >> 16;
 }
-namespace library {
+namespace topic_tools {
 int level() { return drawn() % 6; }
 bool ready() { return drawn() % 2; }
 double ratio() { return (drawn() % 100) / 100.0; }
@@ -133,8 +133,8 @@ Table& table() {
 }
 }
 namespace Eigen {
-MatrixXd::MatrixXd(int, int) : cell(library::ratio()) {}
-double& MatrixXd::operator()(int, int) { return cell; }
+Matrix3d::Matrix3d(int, int) : cell(topic_tools::ratio()) {}
+double& Matrix3d::operator()(int, int) { return cell; }
 }
 static void tell(const std::string& text) { std::cerr << text << std::endl; }
 """

@@ -35,8 +35,7 @@ FILES = (
     *("gate_cpp.toml", "gate_python.toml", "gate2_cpp.toml", "gate2_python.toml"),
     *("gate3_cpp.toml", "gate3_python.toml", "reviewed.toml"),
     *("gate4_cpp.toml", "gate4_python.toml", "gate5_cpp.toml", "gate5_python.toml"),
-    "gate6_python.toml",
-    "gate6_cpp.toml",
+    *("gate6_python.toml", "gate6_cpp.toml", "gate7_cpp.toml", "gate7_python.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
