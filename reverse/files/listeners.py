@@ -7,6 +7,7 @@ what they hear is told to people. They are no part of the system that a model sa
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator, Mapping
 
 from rebsync.reverse.libraries.generated_calls import SUBSCRIBES
@@ -25,6 +26,7 @@ _ACTS = re.compile(
 )
 _HARMLESS = re.compile(r"__name__|__main__|__init__|__future__|\w*callback\w*|call_count")
 _IMPORTED = re.compile(r"^\s*(?:from\s+([\w.]+)\s+import\s+([^\n]+)|import\s+([\w., ]+))", re.M)
+_LIBRARIES = frozenset({"rospy", "rclpy"})
 _ENTRY = r"['\"]\s*(\w+)\s*=\s*[\w.]*\b{}:\w+\s*['\"]"
 
 
@@ -52,7 +54,23 @@ def listeners(files: Mapping[str, Source]) -> frozenset[str]:
 def _only_listens(text: str, modelled: set[str]) -> bool:
     if _MODELLED.search(text) or _LISTENS.search(text) is None:
         return False
+    if not all(map(_is_known, _modules(text))):
+        return False
     return _ACTS.search(_HARMLESS.sub("", text)) is None and modelled.isdisjoint(_imports(text))
+
+
+def _modules(text: str) -> Iterator[str]:
+    """The whole names of the modules that are imported."""
+    for module, _, plain in _IMPORTED.findall(text):
+        names = [module] if module else plain.split(",")
+        yield from (name.split()[0] for name in names if name.strip())
+
+
+def _is_known(module: str) -> bool:
+    """Whether a module is of ROS, of Python, or has messages alone: others may do anything."""
+    head = module.partition(".")[0]
+    is_of_messages = module.endswith(".msg") and not module.startswith(".")
+    return is_of_messages or head in _LIBRARIES or head in sys.stdlib_module_names
 
 
 def _imports(text: str) -> Iterator[str]:
