@@ -321,6 +321,7 @@ class ModelBodies:
             results=results,
             properties=frozenset(properties),
             helpers=helpers,
+            parameters={f.name: tuple(p.name for p in f.parameters[1:]) for f in scopes},
         )
 
     def _add_result(

@@ -327,6 +327,7 @@ class Expressions(ModelExpressionReader):
         if holder == "self" and name in self.names.servers:
             raise self.unread(node, "this serves a message at once; the model only sends them")
         target = m.Super(span) if holder == "super()" else None
+        arguments = idioms.in_order(self, node, arguments, self.names.parameters.get(name, ()))
         given = tuple(map(self.read, arguments))
         return self.cuts.passing(m.Call(target, function, given, span=span), name)
 

@@ -206,7 +206,7 @@ def in_order(
     first = arguments[: len(arguments) - len(given)]
     rest = [p for p in parameters[len(first) :] if p in named_]
     if len(rest) != len(given) or tuple(rest) != parameters[len(first) :][: len(rest)]:
-        raise reader.unread(node, "this sends with other arguments")
+        raise reader.unread(node, "this has other arguments than those that are asked for")
     values = [named_[name] for name in rest]
     plain = [v for name, v in named_.items() if name != "when"]
     if list(named_) != rest and not all(map(is_plain, plain)):

@@ -23,6 +23,7 @@ class ModelNames:
     `servers` are those of the functions that serve messages; `constants` what names of the module,
     and those of the class behind `self.`, are bound to. `types` are those of variables, `results`
     those of functions, by their names in the model; `properties` functions that are read.
+    `parameters` are what functions are given besides the object, by their names in the code.
     `imported` are what names of the module are of, `helpers` functions without an object,
     `fillings` what publishers send, `posts` what is posted, by the ids of the calls. `silent` is
     what only people are told, `code` all that the package has of Python.
@@ -38,6 +39,7 @@ class ModelNames:
     properties: frozenset[str] = frozenset()
     imported: Mapping[str, str] = with_default(default_factory=dict)
     helpers: Mapping[str, Helper] = with_default(default_factory=dict)
+    parameters: Mapping[str, tuple[str, ...]] = with_default(default_factory=dict)
     fillings: Mapping[str, Filling] = with_default(default_factory=dict)
     posts: Mapping[int, Post] = with_default(default_factory=dict)
     silent: Silent = NOTHING
