@@ -12,6 +12,7 @@ from collections.abc import Callable, Collection, Container, Iterable, Iterator,
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_form import CppForm
+from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.scope import Scope
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.annotations import best_priority
@@ -72,9 +73,17 @@ def check_plumbing(
     for function in code.functions_of(owner):
         if function.body is None:
             continue
-        for node, why in _odd_in(code, owner, function, lineage, fields, by_hand):
+        odd = _odd_in(code, owner, function, lineage, fields, by_hand)
+        for node, why in (*odd, *_failing_logs(form, function)):
             unread = Unread(function.cpp.span(node), why)
             findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
+
+
+def _failing_logs(form: CppForm, function: CppFunction) -> Iterator[tuple[Node, str]]:
+    """What is logged around the bodies, and may end the program: `10 / count` where that is 0."""
+    for node in inside(function.body, "expression_statement"):
+        if is_logging(node) and (why := form.raises(function.cpp, node)) is not None:
+            yield node, why
 
 
 def _odd_servers(code: Code, roles: Roles) -> Iterator[tuple[Cpp, Node, str]]:
