@@ -103,11 +103,12 @@ def expression(context: Context, node: Node) -> None:
             discarded(context, inner)
 
 
-@lowers_statement("else_clause")
-def else_clause(context: Context, node: Node) -> None:
-    """What stands behind `else`."""
+@lowers_statement("else_clause", "attributed_statement")
+def what_follows(context: Context, node: Node) -> None:
+    """What stands behind `else`, or `[[fallthrough]]` and other attributes, which say nothing."""
     for inner in named(node):
-        lower_statement(context, inner)
+        if inner.type != "attribute_declaration":
+            lower_statement(context, inner)
 
 
 # --- conditions -----------------------------------------------------------------------------------
