@@ -274,6 +274,10 @@ class CppStatements(CppStatementReader):
                 raise self.unread(node, "which of these alternatives counts is not known")
             case "attributed_statement" if text_of(node) == "[[fallthrough]];":
                 pass
+            case "attributed_statement":
+                yield from self.statements(
+                    [n for n in named(node) if n.type != "attribute_declaration"]
+                )
             case "ERROR":
                 raise self.unread(node, "this does not parse as C++")
             case kind:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -36,16 +37,24 @@ from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 
 _NO_EFFECT = (
-    "using_declaration",
-    "alias_declaration",
-    "type_definition",
-    "static_assert_declaration",
+    *("using_declaration", "alias_declaration", "type_definition", "static_assert_declaration"),
+    *("namespace_alias_definition", "struct_specifier", "class_specifier", "union_specifier"),
+    *("enum_specifier", "preproc_def", "preproc_function_def"),
 )
+# What these say of warnings changes nothing; others, as `omp`, start threads.
+_PRAGMA = re.compile(r"#\s*pragma\s+(?:GCC|clang)\s+diagnostic\b|#\s*pragma\s+(?:end)?region\b")
 
 
 @lowers_statement(*_NO_EFFECT, "comment", ";", "empty_statement")
 def nothing(context: Context, node: Node) -> None:
     """What only tells the compiler something."""
+
+
+@lowers_statement("preproc_call")
+def pragma(context: Context, node: Node) -> None:
+    """`#pragma GCC diagnostic push`."""
+    if _PRAGMA.match(text_of(node)) is None:
+        raise Unlowered("a pragma")
 
 
 @lowers_statement("declaration")
