@@ -33,6 +33,7 @@ _HEARS = frozenset({"create_subscription", "subscribe"})
 _CALLING = re.compile(
     r"(?:std::(?:unique|shared)_ptr<)?(?:diagnostic_updater::Updater|dynamic_reconfigure::Server<.*>)>?"
 )
+_GLOBAL = "global"  # the handle by which generated code reads the constants of the model
 _SETS = "add_on_set_parameters_callback"
 _REGISTERS = (
     OFFERS
@@ -99,7 +100,7 @@ class Beside:
             return False
         if any(c.name.rpartition("::")[2] in _REGISTERS for c in calls_in(statement)):
             return False
-        if any(name in self.scope.members for name in _declared(statement)):
+        if any(name in self.scope.members or name == _GLOBAL for name in _declared(statement)):
             return False  # what follows means the local by it
         before = set(self.effects.inner)
         try:

@@ -225,7 +225,7 @@ def more_than_both_say(merged: str, texts: tuple[str, str, str]) -> set[str]:
     return {
         line
         for line, number in Counter(merged.split("\n")).items()
-        if number > max(base[line], ours[line]) + max(0, theirs[line] - base[line])
+        if number > max(0, ours[line] + theirs[line] - base[line])
     }
 
 
