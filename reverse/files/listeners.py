@@ -11,6 +11,7 @@ import sys
 from collections.abc import Iterator, Mapping
 
 from rebsync.reverse.libraries.generated_calls import SUBSCRIBES
+from rebsync.reverse.libraries.python import clients
 from rebsync.source import Source
 
 _PROGRAM = re.compile(r"(?:.*\.py|(?:.*/)?scripts/\w+)\Z")
@@ -26,7 +27,6 @@ _ACTS = re.compile(
 )
 _HARMLESS = re.compile(r"__name__|__main__|__init__|__future__|\w*callback\w*|call_count")
 _IMPORTED = re.compile(r"^\s*(?:from\s+([\w.]+)\s+import\s+([^\n]+)|import\s+([\w., ]+))", re.M)
-_LIBRARIES = frozenset({"rospy", "rclpy"})
 _ENTRY = r"['\"]\s*(\w+)\s*=\s*[\w.]*\b{}:\w+\s*['\"]"
 
 
@@ -70,7 +70,9 @@ def _is_known(module: str) -> bool:
     """Whether a module is of ROS, of Python, or has messages alone: others may do anything."""
     head = module.partition(".")[0]
     is_of_messages = module.endswith(".msg") and not module.startswith(".")
-    return is_of_messages or head in _LIBRARIES or head in sys.stdlib_module_names
+    return (
+        is_of_messages or head in {lib.name for lib in clients()} or head in sys.stdlib_module_names
+    )
 
 
 def _imports(text: str) -> Iterator[str]:
