@@ -5,7 +5,7 @@ Such a function may keep a container, and take elements out of it whenever it li
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cached_property
 
 from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin, Origins
@@ -49,21 +49,10 @@ class ForeignEmptying:
 
     def is_foreign(self, call: s.Call, function: str) -> bool:
         """Whether a call runs a function of a library that no table knows."""
-        match call.callee:
-            case s.LibraryCallee(name):
-                return self._is_unknown(name)
-            case s.ValueCallee(value):
-                held = self._origins.of(value, function)
-                return any(self._is_unknown(o.name) for o in held if isinstance(o, LibraryOrigin))
-            case s.MethodCallee(receiver, name):
-                is_known = self._table.method(None, name) != _NOTHING
-                if is_known or self._origins.methods_of_any(name):
-                    return False
-                held = self._origins.of(receiver, function)
-                of = [o.name for o in held if isinstance(o, LibraryOrigin)]
-                return AnyOrigin() in held or any(map(self._is_unknown, of))
-            case _:
-                return False
+        callee = call.callee
+        if isinstance(callee, s.MethodCallee) and self._origins.methods_of_any(callee.name):
+            return False
+        return runs_unknown(self._origins, call, function, self._is_unknown)
 
     def _is_unknown(self, name: str) -> bool:
         parts = name.split(".")
@@ -109,3 +98,23 @@ def whole(value: e.Expression) -> Iterator[e.Expression]:
                     yield from whole(each)
         case _:
             yield value
+
+
+def runs_unknown(
+    origins: Origins, call: s.Call, function: str, is_unknown: Callable[[str], bool]
+) -> bool:
+    """Whether a call runs a function of a library that no table knows, by its name."""
+    match call.callee:
+        case s.LibraryCallee(name):
+            return is_unknown(name)
+        case s.ValueCallee(value):
+            held = origins.of(value, function)
+            return any(is_unknown(o.name) for o in held if isinstance(o, LibraryOrigin))
+        case s.MethodCallee(receiver, name):
+            if origins.table.method(None, name) != _NOTHING:
+                return False
+            held = origins.of(receiver, function)
+            of = [o.name for o in held if isinstance(o, LibraryOrigin)]
+            return AnyOrigin() in held or any(map(is_unknown, of))
+        case _:
+            return False

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from rebsync.reverse.analysis.foreign_emptying import whole
-from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin
+from rebsync.reverse.analysis.foreign_emptying import runs_unknown, whole
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import (
     CapturedVariable,
@@ -62,7 +61,9 @@ class ForeignFilling:
         for name in self._functions(names):
             for node in walk(self._program.function(name).body):
                 match node:
-                    case s.Call() if self._gets(node, name, names) and self._is_foreign(node, name):
+                    case s.Call() if self._gets(node, name, names) and runs_unknown(
+                        self._origins, node, name, self._is_unknown
+                    ):
                         return True
                     case _:
                         pass
@@ -95,21 +96,7 @@ class ForeignFilling:
         return self._program.functions
 
     def _is_foreign(self, call: s.Call, function: str) -> bool:
-        """Whether a call runs a function of a library that no table knows."""
-        match call.callee:
-            case s.LibraryCallee(name):
-                return self._is_unknown(name)
-            case s.ValueCallee(value):
-                held = self._origins.of(value, function)
-                return any(self._is_unknown(o.name) for o in held if isinstance(o, LibraryOrigin))
-            case s.MethodCallee(receiver, name):
-                if self._table.method(None, name) != _NOTHING:
-                    return False
-                held = self._origins.of(receiver, function)
-                of = [o.name for o in held if isinstance(o, LibraryOrigin)]
-                return AnyOrigin() in held or any(map(self._is_unknown, of))
-            case _:
-                return False
+        return runs_unknown(self._origins, call, function, self._is_unknown)
 
     def _is_unknown(self, name: str) -> bool:
         if name.partition(".")[0] in FINITE or self._table.is_standard(name):

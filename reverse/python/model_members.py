@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 
 from tree_sitter import Node
 
 from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1
+from rebsync.reverse.python.model_logs import Looks, looks_in
 from rebsync.reverse.python.model_types import call_parts, string_value
-from rebsync.reverse.python.module_variables import imported_as
+from rebsync.reverse.python.module_variables import (
+    imported_as,
+    is_clock,
+    loggers_of,
+    maths_of,
+    tables_of,
+)
+from rebsync.reverse.python.plain_functions import describing
+from rebsync.reverse.python.record_classes import records_in
 from rebsync.reverse.syntax.ancestors import functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
@@ -123,3 +133,22 @@ def _is_stored(node: Node) -> bool:
     if above is None or above.type in _TARGETS:
         return above is not None
     return above.child_by_field_name("left") == node
+
+
+def looks_of(
+    code: PyCode, line: Sequence[Scope], makers: frozenset[str], hidden: Collection[str]
+) -> Looks:
+    """What names stand for in the code of a class; `hidden` are bound anew somewhere."""
+    owner = line[0]
+    module, records = owner.module, records_in(code, owner.module)
+    texts = describing(code, module)
+    return replace(
+        looks_in(code, [*{id(c.module): c.module for c in line}.values()], makers),
+        attributes=attributes_in(line),
+        loggers=loggers_of(module).difference(hidden),
+        tables=tables_of(code, module).difference(hidden),
+        clocks=frozenset(n for n in module.names if is_clock(module, n)).difference(hidden),
+        maths=maths_of(module) if "math" not in hidden else frozenset(),
+        records={name: fields for name, fields in records.items() if name not in hidden},
+        describing={name: count for name, count in texts.items() if name not in hidden},
+    )

@@ -17,12 +17,12 @@ from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_METHOD
 from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.model_asked import Answering
-from rebsync.reverse.python.model_logs import Looks, looks_in, only_logs
+from rebsync.reverse.python.model_logs import Looks, only_logs
 from rebsync.reverse.python.model_members import (
     VALUES,
-    attributes_in,
     is_lock,
     is_own_parameter,
+    looks_of,
     makers_in,
 )
 from rebsync.reverse.python.model_roles import PyRoles, is_of_node
@@ -33,14 +33,8 @@ from rebsync.reverse.python.module_variables import (
     call_and_arguments,
     counters_of,
     hidden_names,
-    is_clock,
-    loggers_of,
-    maths_of,
-    tables_of,
 )
-from rebsync.reverse.python.plain_functions import describing
 from rebsync.reverse.python.py_callbacks import body_of
-from rebsync.reverse.python.record_classes import records_in
 from rebsync.reverse.python.told_containers import (
     SET,
     STORING,
@@ -209,21 +203,9 @@ def silent_in(
     taken = {n for r in roles for n in (*r.state, *r.known, *r.env, *r.publishers)}.difference(own)
     makers = frozenset(makers_in(owner.module))
     modules = [*{id(c.module): c.module for c in line}.values()]
-    looks = looks_in(code, modules, makers)
     hidden = hidden_names(code, owner.module)
-    records = records_in(code, owner.module)
-    looks = replace(
-        looks,
-        attributes=attributes_in(line),
-        loggers=loggers_of(owner.module) - hidden,
-        tables=tables_of(code, owner.module) - hidden,
-        clocks=frozenset(n for n in owner.module.names if is_clock(owner.module, n)) - hidden,
-        maths=maths_of(owner.module) if "math" not in hidden else frozenset(),
-        records={name: fields for name, fields in records.items() if name not in hidden},
-    )
+    looks = looks_of(code, line, makers, hidden)
     taken |= looks.functions
-    texts = describing(code, owner.module)
-    looks = replace(looks, describing={n: c for n, c in texts.items() if n not in hidden})
     made = {name: value for name, value in _made(functions) if name not in taken}
     members = {name: value for name, value in made.items() if not is_of_node(name)}
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
