@@ -1,6 +1,6 @@
 """Bags of ROS 1 and ROS 2 as events; the message types are those of the recording, or the model's.
 
-Types and the storages of ROS 2 are read by rosbags, without an installation of ROS.
+All is read by rosbags, without an installation of ROS.
 """
 
 from __future__ import annotations
@@ -8,18 +8,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from operator import attrgetter
 from pathlib import Path, PurePath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import os_mistake
 from rebsync.forward.message_files import message_files
 from rebsync.package import Package
 from rebsync.records import dataclass
-from rebsync.roundtrip.conform.mcap import whole_records
 from rebsync.roundtrip.conform.recording import Event, Place, Truncated
-from rebsync.roundtrip.conform.rosbag1 import Connection, DamagedBag, intact_records
 from rebsync.roundtrip.conform.topic_filter import TopicChoice
 from rebsync.roundtrip.conform.topics import Topic
+
+if TYPE_CHECKING:
+    from rosbags.rosbag1 import Reader as Reader1
+    from rosbags.rosbag2 import Reader as Reader2
 
 _NANO = 1e-9
 INSTALL = "pip install 'rebsync[bags]'"
@@ -81,25 +83,24 @@ class _Source:
         from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
         store = get_typestore(Stores.ROS2_HUMBLE if self.is_2 else Stores.ROS1_NOETIC)
-        name = type_ if "/msg/" in type_ else type_.replace("/", "/msg/", 1)
         try:
             types: Typesdict = {}
             if definition:
-                types.update(get_types_from_msg(definition, name))
-            elif name not in store.fielddefs:
-                owner = name.split("/")[0]
+                types.update(get_types_from_msg(definition, type_))
+            elif type_ not in store.fielddefs:
+                owner = type_.split("/")[0]
                 for stem, text in self.own.texts.items():
                     renamed = text.replace(f"{self.own.package}/", f"{owner}/")
                     types.update(get_types_from_msg(renamed, f"{owner}/msg/{stem}"))
             store.register({k: v for k, v in types.items() if k not in store.fielddefs})
-            found = store.get_msgdef(name)
+            found = store.get_msgdef(type_)
         except Exception as error:
             raise self.wrong(f"the type {type_} of {topic.name} is not known: {error}") from None
         cls: Any = found.cls
         if not self.is_2:
             read1 = found.deserialize_ros1
             return lambda raw: read1(raw, 0, cls, store)[0]
-        return lambda raw: store.deserialize_cdr(raw, name)
+        return lambda raw: store.deserialize_cdr(raw, type_)
 
     def maker(self, type_: str, definition: str, topic: Topic) -> Make:
         """What makes an event of bytes. RebsyncError: the type cannot be known."""
@@ -125,10 +126,10 @@ class _Source:
         text = f"message {self.number} of {topic} {what}"
         raise RebsyncError.of(self.path, "RS983", text, "is it a recording of this model?")
 
-    def end(self, why: str) -> Event:
+    def end(self, why: str, hint: str) -> Event:
         """That the file cannot be read on. RebsyncError: nothing of it can be read."""
         if not self.number:
-            raise self.wrong(why)
+            raise self.wrong(why, hint)
         place = Place(self.file, self.number)
         return Truncated(
             f"{self.path} cannot be read after message {self.number}: {why}",
@@ -142,55 +143,41 @@ class _Source:
 
 
 def events_1(path: str, file: int, wanted: TopicChoice, own: OwnTypes) -> Iterator[Event]:
-    """The events of a bag of ROS 1, in the order of the file."""
+    """The events of a bag of ROS 1, by their times."""
+    from rosbags.rosbag1 import Reader
+
     source = _Source(path, file, wanted, own, False)
-    readers: dict[int, tuple[str, Make, str] | None] = {}
-    try:
-        with Path(path).open("rb") as opened:
-            for record in intact_records(opened):
-                if isinstance(record[1], Connection):
-                    number, connection = record[0], record[1]
-                    if number not in readers:
-                        readers[number] = _reader(source, connection)
-                    continue
-                number, time, raw = record
-                source.number += 1
-                reader = readers.get(number)
-                if reader is not None:
-                    topic, make, node = reader
-                    yield source.event(topic, make, raw, time, node)
-    except DamagedBag as error:
-        yield source.end(str(error))
-    except OSError as error:
-        raise os_mistake(path, error) from None
-
-
-def _reader(source: _Source, connection: Connection) -> tuple[str, Make, str] | None:
-    topic = source.wanted.topic(connection.topic, source.path)
-    if topic is None:
-        return None
-    make = source.maker(connection.type, connection.definition, topic)
-    return topic.name, make, connection.publisher
+    hint = f"an index that a recorder left out is made by: rosbag reindex {path}"
+    yield from _until_damage(source, lambda: _of_part(source, Reader(path)), hint)
 
 
 def events_2(path: str, file: int, wanted: TopicChoice, own: OwnTypes) -> Iterator[Event]:
     """The events of a bag of ROS 2: a folder, or a file of one of its storages."""
+    from rosbags.rosbag2 import Reader
+
     source = _Source(path, file, wanted, own, True)
-    try:
+
+    def of_parts() -> Iterator[Event]:
         for part in _parts(Path(path)):
-            with whole_records(part) as (readable, is_cut):
-                yield from _of_part(source, readable)
-            if is_cut:
-                yield source.end("it ends within a record")
-                return
+            yield from _of_part(source, Reader(part))
+
+    hint = "what a recorder left that was killed is mended by: mcap recover, ros2 bag reindex"
+    yield from _until_damage(source, of_parts, hint)
+
+
+def _until_damage(
+    source: _Source, events: Callable[[], Iterator[Event]], hint: str
+) -> Iterator[Event]:
+    try:
+        yield from events()
     except (RebsyncError, GeneratorExit):
         raise
     except FileNotFoundError as error:
-        raise source.wrong(f"it is no bag of ROS 2: {error}") from None
+        raise source.wrong(f"it is no bag: {error}") from None
     except OSError as error:
-        raise os_mistake(path, error) from None
+        raise os_mistake(source.path, error) from None
     except Exception as error:  # of rosbags, of sqlite, of zstd: each has its own
-        yield source.end(f"it cannot be read as a bag of ROS 2: {error}")
+        yield source.end(f"it cannot be read as a bag: {error}", hint)
 
 
 def _parts(path: Path) -> list[Path]:
@@ -211,12 +198,11 @@ def _parts(path: Path) -> list[Path]:
     return [path / name for name in names]
 
 
-def _of_part(source: _Source, part: Path) -> Iterator[Event]:
-    from rosbags.interfaces import MessageDefinitionFormat
-    from rosbags.rosbag2 import Reader
+def _of_part(source: _Source, opened: Reader1 | Reader2) -> Iterator[Event]:
+    from rosbags.interfaces import ConnectionExtRosbag1, MessageDefinitionFormat
 
-    with Reader(part) as reader:
-        readers: dict[int, tuple[str, Make]] = {}
+    with opened as reader:
+        readers: dict[int, tuple[str, Make, str]] = {}
         connections = []
         expected = 0
         for connection in reader.connections:
@@ -226,14 +212,17 @@ def _of_part(source: _Source, part: Path) -> Iterator[Event]:
             is_msg = connection.msgdef.format is MessageDefinitionFormat.MSG
             definition = connection.msgdef.data if is_msg else ""
             make = source.maker(connection.msgtype, definition, topic)
-            readers[connection.id] = topic.name, make
+            said = connection.ext
+            node = said.callerid if isinstance(said, ConnectionExtRosbag1) else None
+            readers[connection.id] = topic.name, make, node or ""
             connections.append(connection)
             expected += connection.msgcount
         before = source.number
         if connections:
             for connection, time, raw in reader.messages(connections):
                 source.number += 1
-                yield source.event(*readers[connection.id], raw, time, "")
+                topic_name, make, node = readers[connection.id]
+                yield source.event(topic_name, make, raw, time, node)
     if source.number - before < expected:
         read = source.number - before
         raise source.wrong(f"it has {expected} messages of the model, and only {read} can be read")
