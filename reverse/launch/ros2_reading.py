@@ -8,10 +8,17 @@ from dataclasses import field, replace
 import yaml
 
 from rebsync.records import dataclass
-from rebsync.reverse.launch.launched import NOT_GIVEN, Launch, LaunchedNode, LaunchedRemap
+from rebsync.reverse.launch.launched import (
+    NOT_GIVEN,
+    Launch,
+    LaunchedCommand,
+    LaunchedNode,
+    LaunchedRemap,
+)
 from rebsync.reverse.launch.parameters import Parameter, ParameterValue, read_parameters
 from rebsync.reverse.launch.ros2_actions import (
     Action,
+    Command,
     Condition,
     DeclareArgument,
     ForAll,
@@ -88,6 +95,7 @@ class Reader:
     package: str = ""
     elsewhere: Load = nothing
     nodes: list[LaunchedNode] = field(default_factory=list)
+    commands: list[LaunchedCommand] = field(default_factory=list)
     common: dict[str, Parameter] = field(default_factory=dict)
     files: dict[str, Source] = field(default_factory=dict)
     unknowns: list[Unknown] = field(default_factory=list)
@@ -100,8 +108,13 @@ class Reader:
             () if self.nodes else scope.parameters
         ):  # a system of no nodes has constants, too
             tuple(self._parameters(each, "", "", scope))
-        sources = (source, *self.files.values())
-        return Launch(tuple(self.nodes), tuple(self.common.values()), tuple(self.unknowns), sources)
+        return Launch(
+            tuple(self.nodes),
+            tuple(self.common.values()),
+            tuple(self.unknowns),
+            (source, *self.files.values()),
+            tuple(self.commands),
+        )
 
     def _file(self, scope: _Scope, depth: int) -> None:
         found = self.actions(scope.source)
@@ -115,6 +128,9 @@ class Reader:
         match action:
             case NodeAction():
                 self.nodes.append(self._node(action, scope))
+            case Command(texts, span):
+                told = _given(texts, scope)
+                self.commands.append(LaunchedCommand(told, scope.source, span))
             case DeclareArgument(name, default):
                 self._declared(name, default, scope)
             case Let(name, value):
@@ -202,6 +218,7 @@ class Reader:
             markers=start.markers,
             source=scope.source,
             span=start.span,
+            texts=_given(start.texts, scope),
         )
 
     def _namespace(self, given: Words | None, scope: _Scope) -> Text:
@@ -320,6 +337,13 @@ class Reader:
         unknown = Unknown(what, why, scope.source, span)
         if unknown not in self.unknowns:
             self.unknowns.append(unknown)
+
+
+def _given(texts: tuple[Words, ...], scope: _Scope) -> tuple[str, ...] | Open:
+    """What a program is given; open where one of the texts is."""
+    found = [scope.text(words) for words in texts]
+    opens = (each for each in found if isinstance(each, Open))
+    return next(opens, None) or tuple(each for each in found if isinstance(each, str))
 
 
 def _names_nodes(file: Source) -> bool:

@@ -36,7 +36,7 @@ from rebsync.source import NOWHERE, Source
 
 _WIRED = (
     *(".cpp", ".h", ".hpp", ".launch", ".py", ".msg", ".srv", ".action"),
-    *("CMakeLists.txt", ".yaml", "package.xml", "setup.cfg"),
+    *("CMakeLists.txt", ".yaml", ".yml", ".xml", "setup.cfg"),
 )
 # Without these extraction lists what they were for; and somebody may call them otherwise.
 _MISSED = frozenset({"subscription", "publisher", "sensor", "priority", "type of the parameter"})
