@@ -87,13 +87,14 @@ class _Scope:
 class Reader:
     """Plays the actions of files; `common` are the parameters that files give all nodes.
 
-    `elsewhere` gives texts of other packages.
+    `elsewhere` gives texts of other packages. `any_way`: nodes that arguments leave out count, too.
     """
 
     load: Load
     actions: Actions
     package: str = ""
     elsewhere: Load = nothing
+    any_way: bool = False
     nodes: list[LaunchedNode] = field(default_factory=list)
     commands: list[LaunchedCommand] = field(default_factory=list)
     common: dict[str, Parameter] = field(default_factory=dict)
@@ -169,7 +170,8 @@ class Reader:
     def _only(self, condition: Condition, action: Action, scope: _Scope, depth: int) -> None:
         value = scope.text(condition.words)
         word = value.strip().lower() if isinstance(value, str) else ""
-        if word in (FALSE if condition.holds else TRUE):
+        is_start = isinstance(action, NodeAction | Command | Group | Include)
+        if word in (FALSE if condition.holds else TRUE) and not (self.any_way and is_start):
             return
         decided = word in (*TRUE, *FALSE)
         # what is set only perhaps is set: a node with it is said to depend on the condition

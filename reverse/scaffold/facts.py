@@ -45,7 +45,8 @@ def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
     def load(path: str) -> Source | None:
         inside = path.removeprefix("/")
         # of two packages that are one output, each is in a folder of its own
-        at = next((p for n, p in paths.items() if f"/{n}".endswith(f"/{inside}")), None)
+        found = (p for n, p in paths.items() if p == path or f"/{n}".endswith(f"/{inside}"))
+        at = next(found, None)
         with suppress(RebsyncError):
             return Source(at, _text(read_bytes(at))) if at is not None else None
         return None

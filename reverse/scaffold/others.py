@@ -13,13 +13,14 @@ from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch, speaks_ro
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.launch.parameters import ParameterValue
-from rebsync.reverse.scaffold.fact import HANDED, OPEN, Fact, is_of_runtime
+from rebsync.reverse.scaffold.fact import HANDED, OPEN, UNKNOWN, Fact, is_of_runtime
 from rebsync.reverse.unknowns import Open, Text
 from rebsync.source import Source, Span
 
 Load = Callable[[str], "Source | None"]
 
 _LAUNCH = re.compile(r"\.launch(?:\.py|\.xml|\.ya?ml)?\Z")
+_LOADED = r"ya?ml|xml|launch|py"
 # Files of which each has facts of its own for remaps and namespaces.
 _READ_ALONE = (".launch", ".launch.py")
 _PACKAGE = re.compile(r"""\b(?:pkg|package)["']?\s*[=:]\s*([^\s,)>]+)""")
@@ -60,6 +61,7 @@ def facts_of_others(sources: Iterable[Source], load: Load, package: str) -> Iter
     for path, launch in read.items():
         if path not in included:
             yield from _facts(launch, package)
+            yield from _missing(launch, package)
 
 
 def is_launch(path: str) -> bool:
@@ -74,8 +76,9 @@ def is_quiet(node: LaunchedNode) -> bool:
 
 def _read(source: Source, load: Load, package: str) -> Launch:
     if speaks_ros_2(source):
-        return read_ros2_launch(source, load, package)
-    return read_launch(source, Surroundings(load, lambda name: "" if name == package else None))
+        return read_ros2_launch(source, load, package, load, any_way=True)
+    own = Surroundings(load, lambda name: "" if name == package else None, any_way=True)
+    return read_launch(source, own)
 
 
 def _may_start_others(text: str, package: str) -> bool:
@@ -94,6 +97,15 @@ def _facts(launch: Launch, package: str) -> Iterator[Fact]:
     for given in launch.parameters if others else ():
         if not is_of_runtime(given.name.strip("/").partition("/")[0]):
             yield from _parameter("", given.name, given.value, given.source, given.span)
+
+
+def _missing(launch: Launch, package: str) -> Iterator[Fact]:
+    """Files of the package that are included or loaded, and are not there: nothing is started."""
+    own = re.compile(rf"`(?:share:/{re.escape(package)}/|(?!share:))[^`]*\.(?:{_LOADED})`")
+    for unknown in launch.unknowns:
+        told = f"{unknown.what} {unknown.why}"
+        if own.search(told) and told.endswith("not at hand"):
+            yield Fact(UNKNOWN, "", unknown.what, unknown.why, unknown.source, unknown.span)
 
 
 def _of_node(node: LaunchedNode) -> Iterator[Fact]:

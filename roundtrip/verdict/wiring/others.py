@@ -1,4 +1,4 @@
-"""Whether nodes of other packages, of which nobody knows what they publish, may reach generated ones.
+"""Whether nodes of other packages, whose publishers nobody knows, may reach generated ones.
 
 By what launch files hand to them: names of nodes, and of the topics by which these are joined.
 """
@@ -46,9 +46,7 @@ def is_of_another_tool(base: Facts, today: Facts, section: str) -> bool:
     return is_known and re.fullmatch(r"\w+", name) is not None and name not in own
 
 
-def _tells_of(
-    today: Facts, nodes: frozenset[str], now: JoinedTopics | None, handed: Fact
-) -> bool:
+def _tells_of(today: Facts, nodes: frozenset[str], now: JoinedTopics | None, handed: Fact) -> bool:
     """Whether a text that others are given names a generated node, or one of its topics.
 
     One that is told of the state alone is not: nobody takes that in.
