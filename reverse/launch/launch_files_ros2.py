@@ -26,11 +26,16 @@ def actions_of(source: Source) -> tuple[Action, ...] | Unknown:
 
 
 def read_ros2_launch(
-    source: Source, load: Load, package: str = "", elsewhere: Load = nothing
+    source: Source,
+    load: Load,
+    package: str = "",
+    elsewhere: Load = nothing,
+    any_way: bool = False,
 ) -> Launch:
     """What a launch file of ROS 2 and those that it includes start and set.
 
     `load` gives the text of a path below the folder of the package `package`, `elsewhere` that of
-    a path as the file writes it: `share:/` and the package in front, or on the disk.
+    a path as the file writes it: `share:/` and the package in front, or on the disk. With
+    `any_way`, nodes count that the defaults of arguments leave out.
     """
-    return Reader(load, actions_of, package, elsewhere).result(source)
+    return Reader(load, actions_of, package, elsewhere, any_way).result(source)

@@ -15,6 +15,7 @@ from rebsync.reverse.launch.described import misleading
 from rebsync.reverse.launch.launch_python_values import PythonValues, called, keywords
 from rebsync.reverse.launch.ros2_actions import (
     Action,
+    Command,
     Condition,
     DeclareArgument,
     ForAll,
@@ -36,7 +37,7 @@ _CONTAINERS = frozenset({"ComposableNodeContainer", "LoadComposableNodes"})
 # Actions that start no node and set nothing that a node can tell.
 _SILENT = frozenset(
     {
-        *("ExecuteProcess", "ExecuteLocal", "LogInfo", "EmitEvent", "Shutdown", "ReadyToTest"),
+        *("LogInfo", "EmitEvent", "Shutdown", "ReadyToTest"),
         *("SetEnvironmentVariable", "UnsetEnvironmentVariable", "AppendEnvironmentVariable"),
         *("UnregisterEventHandler", "ResetEnvironment", "UnsetLaunchConfiguration"),
     }
@@ -235,6 +236,7 @@ class _File:
             remaps=tuple(values.remaps(given.get("remappings"))),
             markers=tuple(values.markers(call.lineno)),
             span=self._span(call),
+            texts=values.given_texts(given, "arguments", "ros_arguments"),
         )
 
     def _condition(self, value: ast.expr) -> Condition:
@@ -263,6 +265,11 @@ class _File:
     def let(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
         pair = _two(call, given, "name", "value")
         return [Let(*map(self._values.words, pair))] if pair is not None else []
+
+    def command(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
+        described = self._values.resolved(given.get("process_description", call))
+        inner = keywords(described) if isinstance(described, ast.Call) else given
+        return [Command(self._values.given_texts(inner, "cmd"), self._span(call))]
 
     def push(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
         value = call.args[0] if call.args else given.get("namespace")
@@ -303,6 +310,8 @@ _Maker = Callable[[_File, ast.Call, "dict[str, ast.expr]"], "list[Action]"]
 _MAKERS: dict[str, _Maker] = {
     "DeclareLaunchArgument": _File.declare,
     "SetLaunchConfiguration": _File.let,
+    "ExecuteProcess": _File.command,
+    "ExecuteLocal": _File.command,
     "PushRosNamespace": _File.push,
     "PushROSNamespace": _File.push,
     "SetRemap": _File.set_remap,

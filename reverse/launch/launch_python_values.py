@@ -81,6 +81,14 @@ class PythonValues:
         """A text; what is not understood of it is computed."""
         return Words(tuple(self._parts(value, 0)), self.span(value))
 
+    def given_texts(self, given: Mapping[str, ast.expr], *names: str) -> tuple[Words, ...]:
+        """What an action gives a program: lists by their names, and values of its environment."""
+        lists = [self.resolved(given[name]) for name in names if name in given]
+        tables = [self.resolved(given[n]) for n in ("env", "additional_env") if n in given]
+        items = [i for each in lists for i in getattr(each, "elts", [each])]
+        items += [i for each in tables for i in getattr(each, "values", [each])]
+        return tuple(map(self.words, items))
+
     def computed(self, value: ast.expr) -> Words:
         """A text of which nothing is known."""
         return Words((COMPUTED,), self.span(value))

@@ -18,6 +18,8 @@ from rebsync.reverse.launch.xml_tree import XmlElement
 from rebsync.reverse.unknowns import Open, Text, Unknown
 from rebsync.source import Source, Span
 
+_STARTING = frozenset({"group", "include", "node"})
+
 
 @dataclass(slots=True)
 class LaunchReading:
@@ -153,8 +155,12 @@ class LaunchScope:
         value = truth(self.text(element, attribute) or "")
         if len(given) > 1:
             value = Open("roslaunch takes no `if` together with `unless`")
+        text = element.get(attribute) or ""
+        is_asked = "$(" in text and element.name in _STARTING
         if not isinstance(value, Open):
-            return value is (attribute == "if")
+            counts = value is (attribute == "if")
+            may = is_asked and self.reading.surroundings.any_way
+            return counts if counts or not may else (f"{attribute} {text}",)
         what = f"whether the <{element.name}> counts"
         self.unknown(what, value.why, element.place_of(attribute))
         return (f"{attribute} {element.get(attribute)}",)

@@ -11,6 +11,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.launch.parameters import yaml_span
 from rebsync.reverse.launch.ros2_actions import (
     Action,
+    Command,
     Condition,
     DeclareArgument,
     ForAll,
@@ -34,9 +35,7 @@ from rebsync.source import Source, Span
 
 _NODES = frozenset({"node", "lifecycle_node", "composable_node"})
 _CONTAINERS = frozenset({"node_container", "load_composable_node"})
-_SILENT = frozenset(
-    {"executable", "log", "shutdown", "set_env", "unset_env", "append_env", "reset"}
-)
+_SILENT = frozenset({"log", "shutdown", "set_env", "unset_env", "append_env", "reset"})
 _MARKER = re.compile(r"\s*rebsync:\s*(.*?)\s*\Z", re.DOTALL)
 # Words by which a launch file in XML is known to be for ROS 2.
 _OF_ROS_2 = re.compile(
@@ -180,6 +179,8 @@ def _made(tag: Tag) -> Iterator[Action]:
             pairs = [t.given for t in (*tag.children("arg"), *tag.children("let"))]
             named = tuple((p["name"], p["value"]) for p in pairs if {"name", "value"} <= {*p})
             yield Include(given["file"], named, tag.span)
+        case "executable":
+            yield Command(_texts(tag, "cmd"), tag.span)
         case name if name in _SILENT:
             return
         case name:
@@ -198,7 +199,15 @@ def _start(tag: Tag) -> NodeAction:
         remaps=tuple(_remaps(tag)),
         markers=tag.markers,
         span=tag.span,
+        texts=_texts(tag, "args", "ros_args"),
     )
+
+
+def _texts(tag: Tag, *names: str) -> tuple[Words, ...]:
+    """What a tag gives a program: some attributes, and the values of its environment."""
+    environment = (t.given.get("value") for t in tag.children("env"))
+    found = (*(tag.given.get(name) for name in names), *environment)
+    return tuple(words for words in found if words is not None)
 
 
 def _parameters(tag: Tag, prefix: str) -> Iterator[ParameterSource]:

@@ -31,13 +31,14 @@ class Surroundings:
 
     `load` gives the text of a path, `find` the folder of a package; each None for what is not at
     hand. `arguments` are those of the command line. `$(optenv X y)` is `y` where `environment`
-    has no X; `$(env X)` is then open.
+    has no X; `$(env X)` is then open. `any_way`: nodes that arguments leave out count, too.
     """
 
     load: Callable[[str], Source | None] = _nothing
     find: Callable[[str], str | None] = _nothing
     environment: Mapping[str, str] = field(default_factory=dict)
     arguments: Mapping[str, str] = field(default_factory=dict)
+    any_way: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,7 +42,8 @@ class LaunchedNode:
     command line that ROS leaves to the program. `markers` are the texts of the comments
     `rebsync: ...` before it. `only_if` holds the conditions that cannot be decided: the node is
     started if all of them hold. `anonymous` says that `$(anon)` makes its name, which stands for
-    another one in each run. `test` marks a node that only `rostest` starts.
+    another one in each run. `test` marks a node that only `rostest` starts. `texts` are those of the
+    command line in a launch file of ROS 2, and the values of the node's environment.
     """
 
     name: Text
@@ -59,6 +60,7 @@ class LaunchedNode:
     markers: tuple[str, ...]
     source: Source
     span: Span
+    texts: tuple[str, ...] | Open = ()
 
     @property
     def path(self) -> Text:
@@ -93,6 +95,15 @@ class LaunchedNode:
 
 
 @dataclass(frozen=True, slots=True)
+class LaunchedCommand:
+    """A program that is started as a shell does it, by its command line."""
+
+    arguments: tuple[str, ...] | Open
+    source: Source
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Launch:
     """All that a launch file and the files it includes say.
 
@@ -103,3 +114,4 @@ class Launch:
     parameters: tuple[Parameter, ...]
     unknowns: tuple[Unknown, ...]
     sources: tuple[Source, ...]
+    commands: tuple[LaunchedCommand, ...] = ()

@@ -65,7 +65,10 @@ class Remapping:
 
 @dataclass(frozen=True, slots=True)
 class NodeAction:
-    """A node, or a component that a container runs; None for what is not given."""
+    """A node, or a component that a container runs; None for what is not given.
+
+    `texts` are those of its command line and of its environment.
+    """
 
     name: Words | None
     namespace: Words | None
@@ -74,6 +77,15 @@ class NodeAction:
     parameters: tuple[ParameterSource, ...]
     remaps: tuple[Remapping | Unlisted, ...]
     markers: tuple[str, ...]
+    span: Span
+    texts: tuple[Words, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A program that is started as a shell does it, by its command line."""
+
+    texts: tuple[Words, ...]
     span: Span
 
 
@@ -133,6 +145,4 @@ class Only:
     action: Action
 
 
-Action: TypeAlias = (
-    "NodeAction | DeclareArgument | Let | Push | ForAll | Group | Include | Only | Unlisted"
-)
+Action: TypeAlias = "NodeAction | Command | DeclareArgument | Let | Push | ForAll | Group | Include | Only | Unlisted"

@@ -8,10 +8,17 @@ from dataclasses import field, replace
 import yaml
 
 from rebsync.records import dataclass
-from rebsync.reverse.launch.launched import NOT_GIVEN, Launch, LaunchedNode, LaunchedRemap
+from rebsync.reverse.launch.launched import (
+    NOT_GIVEN,
+    Launch,
+    LaunchedCommand,
+    LaunchedNode,
+    LaunchedRemap,
+)
 from rebsync.reverse.launch.parameters import Parameter, ParameterValue, read_parameters
 from rebsync.reverse.launch.ros2_actions import (
     Action,
+    Command,
     Condition,
     DeclareArgument,
     ForAll,
@@ -80,14 +87,16 @@ class _Scope:
 class Reader:
     """Plays the actions of files; `common` are the parameters that files give all nodes.
 
-    `elsewhere` gives texts of other packages.
+    `elsewhere` gives texts of other packages. `any_way`: nodes that arguments leave out count, too.
     """
 
     load: Load
     actions: Actions
     package: str = ""
     elsewhere: Load = nothing
+    any_way: bool = False
     nodes: list[LaunchedNode] = field(default_factory=list)
+    commands: list[LaunchedCommand] = field(default_factory=list)
     common: dict[str, Parameter] = field(default_factory=dict)
     files: dict[str, Source] = field(default_factory=dict)
     unknowns: list[Unknown] = field(default_factory=list)
@@ -100,8 +109,13 @@ class Reader:
             () if self.nodes else scope.parameters
         ):  # a system of no nodes has constants, too
             tuple(self._parameters(each, "", "", scope))
-        sources = (source, *self.files.values())
-        return Launch(tuple(self.nodes), tuple(self.common.values()), tuple(self.unknowns), sources)
+        return Launch(
+            tuple(self.nodes),
+            tuple(self.common.values()),
+            tuple(self.unknowns),
+            (source, *self.files.values()),
+            tuple(self.commands),
+        )
 
     def _file(self, scope: _Scope, depth: int) -> None:
         found = self.actions(scope.source)
@@ -115,6 +129,9 @@ class Reader:
         match action:
             case NodeAction():
                 self.nodes.append(self._node(action, scope))
+            case Command(texts, span):
+                told = _given(texts, scope)
+                self.commands.append(LaunchedCommand(told, scope.source, span))
             case DeclareArgument(name, default):
                 self._declared(name, default, scope)
             case Let(name, value):
@@ -153,7 +170,8 @@ class Reader:
     def _only(self, condition: Condition, action: Action, scope: _Scope, depth: int) -> None:
         value = scope.text(condition.words)
         word = value.strip().lower() if isinstance(value, str) else ""
-        if word in (FALSE if condition.holds else TRUE):
+        is_start = isinstance(action, NodeAction | Command | Group | Include)
+        if word in (FALSE if condition.holds else TRUE) and not (self.any_way and is_start):
             return
         decided = word in (*TRUE, *FALSE)
         # what is set only perhaps is set: a node with it is said to depend on the condition
@@ -202,6 +220,7 @@ class Reader:
             markers=start.markers,
             source=scope.source,
             span=start.span,
+            texts=_given(start.texts, scope),
         )
 
     def _namespace(self, given: Words | None, scope: _Scope) -> Text:
@@ -320,6 +339,13 @@ class Reader:
         unknown = Unknown(what, why, scope.source, span)
         if unknown not in self.unknowns:
             self.unknowns.append(unknown)
+
+
+def _given(texts: tuple[Words, ...], scope: _Scope) -> tuple[str, ...] | Open:
+    """What a program is given; open where one of the texts is."""
+    found = [scope.text(words) for words in texts]
+    opens = (each for each in found if isinstance(each, Open))
+    return next(opens, None) or tuple(each for each in found if isinstance(each, str))
 
 
 def _names_nodes(file: Source) -> bool:

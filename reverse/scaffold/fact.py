@@ -16,6 +16,8 @@ CONSTANT, CLOCK = "type of the constant", "use_sim_time"
 TOLD, TOLD_TYPE = "state field", "type of the state field"
 UNKNOWN = "unknown"  # what a file leaves open, with the reason as its value
 NOT_GIVEN, OWN = "not given", "this package"
+# What nodes of other packages are given; and a text of which the files do not tell what it is.
+HANDED, OPEN = "given", "what only the launch knows"
 _BEARING = {
     "mailbox": ("time_unit", "settle"),
     "drive": ("cell_size", "kind", "heading", "move_time", "odometry"),

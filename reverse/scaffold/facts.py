@@ -20,6 +20,7 @@ from rebsync.reverse.scaffold.cpp import facts_in_cpp
 from rebsync.reverse.scaffold.fact import Fact, Facts
 from rebsync.reverse.scaffold.launch_python import facts_of_python_launch
 from rebsync.reverse.scaffold.launch_xml import PARAMETERS, facts_of_launch, facts_of_settings
+from rebsync.reverse.scaffold.others import facts_of_others, is_launch
 from rebsync.reverse.scaffold.settings import (
     facts_of_message,
     facts_of_other_package,
@@ -39,11 +40,15 @@ def package_name(path: str) -> str:
 def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
     """The facts in files of a package of that name, by their keys; `paths` are by names inside."""
     found: Facts = {}
+    launches: list[Source] = []
 
     def load(path: str) -> Source | None:
-        name = path.removeprefix("/")
+        inside = path.removeprefix("/")
+        # of two packages that are one output, each is in a folder of its own
+        found = (p for n, p in paths.items() if p == path or f"/{n}".endswith(f"/{inside}"))
+        at = next(found, None)
         with suppress(RebsyncError):
-            return Source(paths[name], _text(read_bytes(paths[name]))) if name in paths else None
+            return Source(at, _text(read_bytes(at))) if at is not None else None
         return None
 
     for name, path in sorted(paths.items()):
@@ -51,8 +56,11 @@ def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
             source = Source(path, compiled_text(name, _text(read_bytes(path))))
             for fact in _told(name, source, package, _beside(name, paths)):
                 found.setdefault(fact.key, []).append(fact)
+            launches += [source] if is_launch(name) else []
             for fact in facts_of_settings(source, load) if name.endswith(".launch") else ():
                 found.setdefault(fact.key, []).append(fact)
+    for fact in facts_of_others(launches, load, package):
+        found.setdefault(fact.key, []).append(fact)
     return found
 
 
@@ -83,6 +91,8 @@ def _of_file(name: str, source: Source, package: str, beside: tuple[str, ...]) -
             return facts_of_parameters(source) if name.endswith(PARAMETERS) else ()
         case last if last.endswith("package.xml"):
             return facts_of_other_package(source, package)
+        case last if last.endswith((".xml", ".yml")):
+            return ()  # what launch files load and include counts as they do
         case last if last.endswith(".cfg"):
             return facts_of_setup(source)
         case last if last.endswith(".txt"):

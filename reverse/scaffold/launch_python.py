@@ -39,8 +39,12 @@ _CONFIGURING = frozenset({"DeclareLaunchArgument", "SetLaunchConfiguration"})
 def facts_of_python_launch(source: Source, package: str) -> Iterator[Fact]:
     """What it starts, and what else it says of that."""
     launch = read_ros2_launch(source, lambda _: None)
+    others = [node.span for node in launch.nodes if node.package != package]
     for unknown in launch.unknowns:
-        said = source.text[unknown.span.start : unknown.span.end]
+        said, at = source.text[unknown.span.start : unknown.span.end], unknown.span.start
+        is_handed = any(span.start <= at < span.end for span in others)
+        if is_handed and unknown.what.startswith("the parameter "):
+            continue  # what they are handed are facts of their own
         if not is_of_package(said, package):
             yield Fact(UNKNOWN, "", unknown.what, unknown.why, source, unknown.span)
     for node in launch.nodes:

@@ -30,6 +30,7 @@ from rebsync.source import Source
 PARAMETERS = "config/params.yaml"
 _ENTRY = re.compile(r"\s*(\w+):\s*(?:-?\d+|true|false)\s*")
 Load = Callable[[str], "Source | None"]
+_BY_NAMES = "topic_tools"  # whose programs publish under names alone that they are handed
 
 
 def facts_of_launch(source: Source, package: str) -> Iterator[Fact]:
@@ -153,7 +154,7 @@ class _Tags:
         """What a node is, and what else than parameters and remaps it is started with."""
         name, tags = given.get("name", ""), (*self.around, given)
         command = f"{given.get('pkg', '')} {given.get('type', '')} {given.get('args', '')}".strip()
-        if given.get("pkg") != self.package and speaks(command.split()):
+        if given.get("pkg") not in (self.package, _BY_NAMES) and speaks(command.split()):
             yield self._fact("command", "", command, "started", element)
         told = {key: given.get(key, "") for key in ("pkg", "respawn", "args", "launch-prefix")}
         if told["pkg"] == self.package:

@@ -33,7 +33,8 @@ def conditions(tags: Sequence[Mapping[str, str]]) -> str:
 
 def is_of_package(said: str, package: str) -> bool:
     """Whether what is said of a file is of the package itself, where extraction reads it."""
-    if f"$(find {package})" in said or "$(dirname)" in said:
+    beside = ("$(dirname)", "ThisLaunchFileDir", "__file__")
+    if f"$(find {package})" in said or any(word in said for word in beside):
         return True
     # formatters choose the quotes and the lines
     return re.search(rf"""\(\s*(["']){re.escape(package)}\1\s*,?\s*\)""", said) is not None

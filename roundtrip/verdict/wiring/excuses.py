@@ -9,8 +9,8 @@ from rebsync.records import dataclass
 from rebsync.reverse.scaffold.fact import (
     CLOCK,
     CONSTANT,
+    HANDED,
     NOT_GIVEN,
-    OWN,
     PLAYED,
     PROGRAM,
     PYTHON_SETTING,
@@ -41,6 +41,7 @@ from rebsync.roundtrip.verdict.wiring.names import (
     is_of_runtime,
     leads_in,
 )
+from rebsync.roundtrip.verdict.wiring.others import is_of_another_tool, is_of_others, reaches_in
 from rebsync.roundtrip.verdict.wiring.runtime_settings import is_of_all_rebecs, waits_longer
 
 _JOINING = frozenset(
@@ -81,8 +82,9 @@ class Excuses:
         first = (self.base.get(key) or self.today[key])[0]
         if first.kind in _HELPING or (first.kind == CONSTANT and key not in self.today):
             return True
-        if self._is_of_others(first.owner) and key not in self.base:
-            return not self._reaches_in(first)
+        is_others = is_of_others(self.base, self.today, first.owner)
+        if first.kind == HANDED or (is_others and key not in self.base):
+            return not reaches_in(self.base, self.today, self.now, first)
         if key not in self.base and not self._is_unwanted(first):
             return True
         if self._has_moved(first) or self._is_renamed(key) or self._follows(first):
@@ -94,7 +96,7 @@ class Excuses:
         if first.kind == "import" and key not in self.today:
             return not self._is_named(first)
         if first.kind == "parameters" and key not in self.base:
-            return self._is_of_another_tool(first.name)
+            return is_of_another_tool(self.base, self.today, first.name)
         if first.kind == "node" and first.name == "ns":
             return self._is_in_one_space
         if first.kind == "node" and first.name == CLOCK:
@@ -194,27 +196,6 @@ class Excuses:
         is_own = not fact.owner or (TYPE, fact.owner, "") in self.base
         is_met = is_of_runtime(self.today, fact) or is_about(self.now, self.today, fact)
         return is_own and is_met
-
-    def _is_of_others(self, node: str) -> bool:
-        """Whether a node is new, and of another package: nobody knows what it publishes."""
-        of = {fact.value for fact in self.today.get(("node", node, "pkg"), ())}
-        return bool(of) and OWN not in of and (TYPE, node, "") not in self.base
-
-    def _reaches_in(self, fact: Fact) -> bool:
-        """Whether a node of others is given a name that is one of generated nodes' topics."""
-        words = {*re.findall(r"\w+", fact.value)}
-        if fact.kind == "remap":
-            is_known = self.now is not None and not leads_in(self.now, self.today, fact)
-            return not is_known or not words.isdisjoint(self._nodes)
-        is_renaming = fact.name == "ns" or ":=" in fact.value
-        return is_renaming and not words.isdisjoint(self._nodes)
-
-    def _is_of_another_tool(self, section: str) -> bool:
-        """Whether a section of parameters is for a node that is none of the package."""
-        nodes = {owner for kind, owner, _ in self.today if kind == TYPE}
-        is_known = bool(nodes) and all(re.fullmatch(r"\w+", n) and n != "None" for n in nodes)
-        name = section.rpartition("/")[2]
-        return is_known and re.fullmatch(r"\w+", name) is not None and name not in nodes
 
     def _is_named(self, fact: Fact) -> bool:
         """Whether the code of a class still has a name."""

@@ -13,6 +13,7 @@ from dataclasses import replace
 from rebsync.diagnostics import Diagnostic, Findings
 from rebsync.records import dataclass
 from rebsync.reverse.scaffold.fact import (
+    HANDED,
     UNKNOWN,
     Fact,
     Facts,
@@ -36,7 +37,7 @@ from rebsync.source import NOWHERE, Source
 
 _WIRED = (
     *(".cpp", ".h", ".hpp", ".launch", ".py", ".msg", ".srv", ".action"),
-    *("CMakeLists.txt", ".yaml", "package.xml", "setup.cfg"),
+    *("CMakeLists.txt", ".yaml", ".yml", ".xml", "setup.cfg"),
 )
 # Without these extraction lists what they were for; and somebody may call them otherwise.
 _MISSED = frozenset({"subscription", "publisher", "sensor", "priority", "type of the parameter"})
@@ -79,7 +80,8 @@ def odd_facts(
     """The facts that are not as they were when the code was generated."""
     touched = [n for n in {*now.changed, *now.missing} & record.files.keys() if _is_wiring(n)]
     new = [n for n in now.changed if n not in record.files and _is_wiring(n)]
-    if not touched and not any(n.endswith("setup.cfg") for n in new):
+    counts = [*touched, *(n for n in new if n.endswith("setup.cfg"))]
+    if not counts and not any(map(_is_launch, new)):
         return ()
     listed = now.listing.files
     old_paths = {n: f"{package.root}/{BASE}{n}" for n in record.files if _is_wiring(n)}
@@ -95,6 +97,8 @@ def odd_facts(
     files = frozenset(name.rpartition("/")[2] for name in listed)
     excuses = Excuses(base, today, of_code, changed_groups(of_code), files, *sides)
     keys = [*base, *(k for k in today if k not in base)]
+    # of files beside those generated, as launch files may be, only what others do in the system
+    keys = keys if counts else [k for k in keys if k[0] == HANDED]
     found = [
         replace(odd, is_known=excuses.is_known_to_differ(key))
         for key in keys
@@ -103,7 +107,7 @@ def odd_facts(
     ]
     told = (o for o in found if o.finding.diagnostics[0].message not in record.accepted)
     is_told = any(f.kind in ("remap", *TOPICS) for odd in told for f in (*odd.before, *odd.now))
-    return (*found, *(() if is_told else _unseen(package, excuses)))
+    return (*found, *(() if is_told or not counts else _unseen(package, excuses)))
 
 
 def _values(facts: Facts) -> dict[tuple[str, str, str], set[str]]:
@@ -112,6 +116,11 @@ def _values(facts: Facts) -> dict[tuple[str, str, str], set[str]]:
 
 def _is_wiring(name: str) -> bool:
     return name.endswith(_WIRED) or name.rpartition("/")[0].endswith("scripts")
+
+
+def _is_launch(name: str) -> bool:
+    """Whether it is a launch file, or one that it may include or load."""
+    return name.endswith((".launch", ".launch.py", ".xml", ".yaml", ".yml"))
 
 
 def _odd(package: ManagedPackage, before: list[Fact], now: list[Fact]) -> Odd | None:

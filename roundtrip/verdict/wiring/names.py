@@ -18,7 +18,7 @@ _STRING = re.compile(r'"([^"]*)"')
 _QUOTED = re.compile(r"'([^']*)'")
 _NAME = re.compile(r"(?:~/?|/)?\w+(?:/\w+)*\Z")
 _SENDING = frozenset({"publisher", PLAYED})
-_RUNTIME = frozenset({"/clock", "/startup"})
+RUNTIME_TOPICS = frozenset({"/clock", "/startup"})
 TOPICS = frozenset({"publisher", "subscription", "sensor"})
 
 
@@ -135,11 +135,11 @@ def is_about(joined: JoinedTopics | None, facts: Facts, remap: Fact) -> bool:
 def is_of_runtime(facts: Facts, remap: Fact) -> bool:
     """Whether a remap is of a topic, or to a topic, by which the run-time parts of nodes agree."""
     if not remap.owner:
-        return _common(remap) in _RUNTIME or f"/{remap.value.lstrip('/')}" in _RUNTIME
+        return _common(remap) in RUNTIME_TOPICS or f"/{remap.value.lstrip('/')}" in RUNTIME_TOPICS
     node = _Node(facts, remap.owner)
     try:
         old, new = node.resolved(remap.name), node.resolved(remap.value)
-        own = {node.resolved("startup"), *_RUNTIME}
+        own = {node.resolved("startup"), *RUNTIME_TOPICS}
     except _Unknown:
         return True
     return old != new and not own.isdisjoint((old, new))
