@@ -237,6 +237,8 @@ class _File:
             markers=tuple(values.markers(call.lineno)),
             span=self._span(call),
             texts=values.given_texts(given, "arguments", "ros_arguments"),
+            arguments=values.listed(given.get("arguments")),
+            ros_arguments=values.listed(given.get("ros_arguments")),
         )
 
     def _condition(self, value: ast.expr) -> Condition:

@@ -89,6 +89,15 @@ class PythonValues:
         items += [i for each in tables for i in getattr(each, "values", [each])]
         return tuple(map(self.words, items))
 
+    def listed(self, value: ast.expr | None) -> tuple[Words, ...]:
+        """The texts of a list; one that is computed where it is none."""
+        if value is None or (isinstance(value, ast.Constant) and value.value is None):
+            return ()
+        found = self.resolved(value)
+        if isinstance(found, ast.List | ast.Tuple):
+            return tuple(map(self.words, found.elts))
+        return (self.computed(value),)
+
     def computed(self, value: ast.expr) -> Words:
         """A text of which nothing is known."""
         return Words((COMPUTED,), self.span(value))

@@ -200,6 +200,9 @@ def _start(tag: Tag) -> NodeAction:
         markers=tag.markers,
         span=tag.span,
         texts=_texts(tag, "args", "ros_args"),
+        arguments=(given["args"],) if "args" in given else (),
+        ros_arguments=(given["ros_args"],) if "ros_args" in given else (),
+        is_split=True,
     )
 
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from rebsync.records import dataclass
 from rebsync.reverse.launch.graph_names import as_namespace, join, resolve
+from rebsync.reverse.launch.parameter_sections import ParameterSection, of_node
 from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.unknowns import Open, Text, Unknown
 from rebsync.source import Source, Span
@@ -42,8 +45,10 @@ class LaunchedNode:
     command line that ROS leaves to the program. `markers` are the texts of the comments
     `rebsync: ...` before it. `only_if` holds the conditions that cannot be decided: the node is
     started if all of them hold. `anonymous` says that `$(anon)` makes its name, which stands for
-    another one in each run. `test` marks a node that only `rostest` starts. `texts` are those of the
-    command line in a launch file of ROS 2, and the values of the node's environment.
+    another one in each run. `test` marks a node that only `rostest` starts. `texts` are those
+    of the command line in a launch file of ROS 2, and the values of the node's environment; of its
+    `sections` of parameters those that match its name make its `parameters`. Where it is not known
+    what sets some, there is one of the name `parameter_sections.ANY`, which is open.
     """
 
     name: Text
@@ -61,6 +66,7 @@ class LaunchedNode:
     source: Source
     span: Span
     texts: tuple[str, ...] | Open = ()
+    sections: tuple[ParameterSection, ...] = ()
 
     @property
     def path(self) -> Text:
@@ -83,6 +89,13 @@ class LaunchedNode:
                     return remap.target
                 return resolve(remap.target, self.namespace, self.name)
         return meant
+
+    def named(self, own: str) -> LaunchedNode:
+        """The node under the name that its code gives it, where the launch file gives none."""
+        if not isinstance(self.name, Open) or self.name.why != NOT_GIVEN:
+            return self
+        node = replace(self, name=own)
+        return replace(node, parameters=of_node(self.sections, node.path)) if own else self
 
     def parameter(self, name: str) -> Parameter | None:
         """The private parameter of that name."""

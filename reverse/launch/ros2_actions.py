@@ -67,7 +67,8 @@ class Remapping:
 class NodeAction:
     """A node, or a component that a container runs; None for what is not given.
 
-    `texts` are those of its command line and of its environment.
+    `texts` are those of its command line and of its environment. `arguments` are the words of its
+    command line, `ros_arguments` those behind `--ros-args`; with `is_split` a shell splits them.
     """
 
     name: Words | None
@@ -79,6 +80,9 @@ class NodeAction:
     markers: tuple[str, ...]
     span: Span
     texts: tuple[Words, ...] = ()
+    arguments: tuple[Words, ...] = ()
+    ros_arguments: tuple[Words, ...] = ()
+    is_split: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,4 +149,7 @@ class Only:
     action: Action
 
 
-Action: TypeAlias = "NodeAction | Command | DeclareArgument | Let | Push | ForAll | Group | Include | Only | Unlisted"
+Action: TypeAlias = (
+    "NodeAction | Command | DeclareArgument | Let | Push | ForAll | Group | Include | Only"
+    " | Unlisted"
+)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from fractions import Fraction
 
 from rebsync.records import dataclass
@@ -10,6 +9,7 @@ from rebsync.reverse.graph import FromParameter, OneOf, Plain, Resolved, Under, 
 from rebsync.reverse.launch.arithmetic import evaluate
 from rebsync.reverse.launch.graph_names import join, resolve
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
+from rebsync.reverse.launch.parameter_sections import asked
 from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.nodes.node_units import Start
 from rebsync.reverse.unknowns import Open, Text
@@ -80,18 +80,14 @@ class Instance:
         if self.launched is None or not isinstance(text, str):
             return None
         if self.start.unit.flat:
-            return self.launched.parameter(text.replace(".", "/"))
+            return asked(self.launched.parameters, text.replace(".", "/"))
         absolute = self._resolved(text)
         own = self.launched.private_namespace
         if isinstance(absolute, Open) or isinstance(own, Open):
             return None
         if absolute.startswith(own):
-            return self.launched.parameter(absolute.removeprefix(own))
-        return next((p for p in self._outside() if p.name == absolute), None)
-
-    def _outside(self) -> Iterator[Parameter]:
-        if self.launch is not None:
-            yield from self.launch.parameters
+            return asked(self.launched.parameters, absolute.removeprefix(own))
+        return asked(self.launch.parameters if self.launch is not None else (), absolute)
 
     def _resolved(self, name: str) -> Text:
         if self.launched is None:

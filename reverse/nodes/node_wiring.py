@@ -16,7 +16,7 @@ from rebsync.reverse.graph import (
     SubscriptionFact,
     TimerFact,
 )
-from rebsync.reverse.launch.launched import NOT_GIVEN, Launch, LaunchedNode
+from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.libraries.routines import Access
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_programs import Program
@@ -24,7 +24,7 @@ from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_times import period_of
 from rebsync.reverse.nodes.node_units import Start, Unit
 from rebsync.reverse.nodes.node_values import Instance, of_object
-from rebsync.reverse.unknowns import Open, Text
+from rebsync.reverse.unknowns import Text
 
 # By the publisher's place in the facts of its unit, a receiver and its server.
 Edge = tuple[int, int, str]
@@ -47,7 +47,7 @@ def instances(
     for node in launch.nodes:
         of_node = [s for s in starts if _runs(node, s, package, known_as)]
         for start in of_node:
-            node = _with_own_name(node, start)
+            node = node.named(_named_itself(start))
             plain = node.name if isinstance(node.name, str) else "node"
             wish = plain if len(of_node) == 1 else f"{plain}_{_own(start)}"
             space = node.namespace if isinstance(node.namespace, str) else ""
@@ -96,13 +96,6 @@ def _own(start: Start) -> str:
     if start.made is not None and start.made.variable:
         return start.made.variable.removeprefix("this->").rstrip("_")
     return start.unit.owner.name if start.unit.owner is not None else start.unit.name
-
-
-def _with_own_name(node: LaunchedNode, start: Start) -> LaunchedNode:
-    """A node that a launch file gives no name, under the name that its code gives it."""
-    own = _named_itself(start)
-    unnamed = isinstance(node.name, Open) and node.name.why == NOT_GIVEN
-    return replace(node, name=own) if own and unnamed else node
 
 
 def _runs(

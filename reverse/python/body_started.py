@@ -49,8 +49,9 @@ class Started:
         start = Start(unit.unit, None, None)
         for node in nodes or [None]:
             own = unit.node
-            if node is not None and isinstance(node.name, str):
-                own = node.name
+            if node is not None:
+                node = node.named(own)
+                own = node.name if isinstance(node.name, str) else own
             wish = own if alone else unit.lineage[0].name
             if not alone and len(nodes) > 1:
                 wish = f"{own}_{wish}"
