@@ -11,6 +11,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from rebsync.reverse.graph import OneOf, Place, Resolved
 from rebsync.reverse.launch.launched import LaunchedNode, LaunchedRemap
+from rebsync.reverse.launch.parameter_sections import is_any
+from rebsync.reverse.launch.parameters import Parameter
 from rebsync.rosgraph.ends import NodeCode
 from rebsync.rosgraph.findings import GraphFinding
 from rebsync.rosgraph.graph import RosNode
@@ -99,6 +101,8 @@ def unknown_parameters(nodes: Iterable[RosNode]) -> Iterator[GraphFinding]:
             continue
         known = {_relative(name, run[0]) for name in names if name is not None}
         for parameter in tag.parameters:
+            if is_any(parameter.name) or _is_for_all(parameter, tag):
+                continue
             if _BUILT_IN.match(parameter.name) or _has(known, parameter.name):
                 continue
             place = Place(parameter.source, parameter.span)
@@ -106,6 +110,12 @@ def unknown_parameters(nodes: Iterable[RosNode]) -> Iterator[GraphFinding]:
             message = f"{run[0].name} has no parameter {parameter.name}, which is set here"
             hint = f"its parameters are {listed}" if listed else "it has no parameters"
             yield GraphFinding("RS996", place, message, hint)
+
+
+def _is_for_all(parameter: Parameter, tag: LaunchedNode) -> bool:
+    """Whether a file sets a parameter for several nodes: one of them may have it."""
+    sections = (s.parameters for s in tag.sections if "*" in s.pattern)
+    return parameter.source is not tag.source and any(parameter in each for each in sections)
 
 
 def _is_known(run: Sequence[RosNode]) -> bool:

@@ -64,6 +64,8 @@ def _launched(joined: Joined) -> Iterator[str]:
         if any(word in source.text for source in launch.sources for word in _ARGUMENTS):
             path = launch.sources[0].path
             yield f"{path} is started with the defaults of its arguments, and no other environment"
+        for unknown in launch.unknowns:
+            yield f"what is not known of launch files starts and renames nothing: {unknown}"
 
 
 def _parameters(joined: Joined) -> Iterator[str]:

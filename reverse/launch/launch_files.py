@@ -17,6 +17,7 @@ from rebsync.reverse.launch.launch_parameters import settings
 from rebsync.reverse.launch.launch_scope import LaunchReading, LaunchScope
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
+from rebsync.reverse.launch.parameter_sections import ANY, is_any, overridden
 from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.launch.xml_tree import Comment, XmlElement, read_xml
 from rebsync.reverse.unknowns import Open, Text, Unknown
@@ -192,7 +193,15 @@ class _Loader:
             return
         if scope.only_if and not isinstance(parameter.value, Open):
             parameter = replace(parameter, value=Open(f"it is set only `{scope.only_if[-1]}`"))
-        self.server[canonical(name)] = (self.step, replace(parameter, name=canonical(name)))
+        self._store(replace(parameter, name=canonical(name)))
+
+    def _store(self, parameter: Parameter) -> None:
+        """Sets a parameter of the server; of what any parameter may be, all so far is open."""
+        if is_any(parameter.name):
+            for name, (when, earlier) in self.server.items():
+                if name.startswith(parameter.name[: -len(ANY)]):
+                    self.server[name] = when, replace(earlier, value=parameter.value)
+        self.server[parameter.name] = self.step, parameter
 
     def _node(self, tag: NodeTag | None, scope: LaunchScope) -> None:
         if tag is None:
@@ -205,6 +214,9 @@ class _Loader:
                 return
             self.paths.add(path)
         self.started.append((self.step, tag))
+        if tag.node.package == tag.node.type == "rosparam":
+            runs = Open("`rosparam` sets parameters when it runs")
+            self._store(Parameter(f"/{ANY}", runs, tag.node.source, tag.node.span))
         for parameter in tag.outside:
             self._set(parameter, scope)
 
@@ -224,9 +236,16 @@ class _Loader:
         for name, (when, parameter) in self.server.items():
             if isinstance(space, str) and name.startswith(space):
                 inner = name[len(space) :]
-                if when > step or inner not in own:
-                    own[inner] = replace(parameter, name=inner)
-        own |= {p.name: p for p in tag.given}
+            elif isinstance(space, Open) or (is_any(name) and space.startswith(name[: -len(ANY)])):
+                inner, parameter = ANY, replace(parameter, value=_any(space, parameter))
+            else:
+                continue
+            if is_any(inner) and when > step:
+                overridden(own, replace(parameter, name=inner))
+            elif when > step or inner not in own:
+                own[inner] = replace(parameter, name=inner)
+        for parameter in tag.given:
+            overridden(own, parameter)
         return replace(tag.node, parameters=tuple(own.values()))
 
     def _conflicts(self, nodes: tuple[LaunchedNode, ...]) -> None:
@@ -234,12 +253,19 @@ class _Loader:
         named = {name: p for name, (_, p) in self.server.items()}
         named |= {f"{n.private_namespace}{p.name}": p for n in nodes for p in n.parameters}
         for name, parameter in named.items():
-            for above in _above(name):
+            for above in _above(name) if not is_any(name) else ():
                 if above in named:
                     why = f"`{above}` and `{name}` cannot both be set"
                     self.reading.unknowns.append(
                         Unknown("a parameter", why, parameter.source, parameter.span)
                     )
+
+
+def _any(space: Text, parameter: Parameter) -> Open:
+    """Why any parameter of a node may be set by one of the server."""
+    if isinstance(space, Open):
+        return Open(f"the name of its node is not known: {space.why}")
+    return parameter.value if isinstance(parameter.value, Open) else Open("it is not known")
 
 
 def _above(name: str) -> Iterator[str]:

@@ -12,6 +12,7 @@ from rebsync.reverse.launch.graph_names import canonical
 from rebsync.reverse.launch.launch_parameters import settings
 from rebsync.reverse.launch.launch_scope import LaunchScope
 from rebsync.reverse.launch.launched import LaunchedNode, LaunchedRemap, Nodelet
+from rebsync.reverse.launch.parameter_sections import ANY, overridden
 from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.launch.xml_tree import XmlElement
 from rebsync.reverse.unknowns import Open, Text
@@ -71,6 +72,8 @@ def node_tag(element: XmlElement, scope: LaunchScope, markers: Sequence[str]) ->
     namespace = scope.below(scope.text(element, "ns"))
     if isinstance(namespace, Open) and "ns" in element.attributes:
         scope.unknown("the namespace of a node", namespace.why, element.place_of("ns"))
+    if not isinstance(words, Open) and any(word.startswith("__ns:=") for word in words):
+        namespace = Open("the command line may give another one")
     node = LaunchedNode(
         name=name,
         namespace=namespace,
@@ -88,7 +91,9 @@ def node_tag(element: XmlElement, scope: LaunchScope, markers: Sequence[str]) ->
         span=element.span,
     )
     # roslaunch sets what is loaded first, then ~ parameters of the scope, then <param> tags
-    own = {**inside.loaded, **_private(scope), **inside.params}
+    own = dict(inside.loaded)
+    for parameter in (*_private(scope).values(), *inside.params.values()):
+        overridden(own, parameter)
     return NodeTag(node, tuple(own.values()), tuple(given.params.values()), tuple(inside.outside))
 
 
@@ -132,14 +137,13 @@ def _inside(element: XmlElement, scope: LaunchScope) -> _Inside:
                 scope.remap(tag, inside.remaps)
             case "param":
                 for parameter in map(_relative, settings(tag, scope)):
-                    inside.params.pop(parameter.name, None)
-                    inside.params[parameter.name] = parameter
+                    overridden(inside.params, parameter)
             case "rosparam":
                 for parameter in settings(tag, scope):
                     if parameter.name[:1] in ("/", "~"):
                         inside.outside.append(parameter)
                     else:
-                        inside.loaded[canonical(parameter.name)] = _relative(parameter)
+                        overridden(inside.loaded, _relative(parameter))
             case "env":
                 environment(tag, scope)
             case _:
@@ -173,6 +177,7 @@ def _command_line(
     """Remappings and private parameters (`_x:=1`) of the arguments, and the arguments left."""
     given = _Inside({})
     if isinstance(words, Open):
+        given.params[ANY] = Parameter(ANY, words, scope.source, place)
         return given, words
     left = []
     for word in words:

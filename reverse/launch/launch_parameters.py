@@ -12,6 +12,7 @@ from dataclasses import replace
 from rebsync.reverse.launch.graph_names import canonical, join
 from rebsync.reverse.launch.launch_scope import LaunchScope
 from rebsync.reverse.launch.launch_values import stored
+from rebsync.reverse.launch.parameter_sections import ANY
 from rebsync.reverse.launch.parameters import Parameter, Parameters, read_parameters
 from rebsync.reverse.launch.xml_tree import XmlElement
 from rebsync.reverse.unknowns import Open, Text
@@ -43,7 +44,7 @@ def _param(element: XmlElement, scope: LaunchScope) -> tuple[Parameter, ...]:
     given = [a for a in _CONTENTS if a in element.attributes]
     name = scope.needed(element, "name")
     if name is None:
-        return ()
+        return _any_of("", "its name is not known", scope, element.span)
     name = canonical(name.strip())
     what = f"the parameter `{name}`"
     if len(given) != 1 or not name:
@@ -56,9 +57,17 @@ def _param(element: XmlElement, scope: LaunchScope) -> tuple[Parameter, ...]:
     if kind == "yaml" and isinstance(text, str) and text.strip():
         return _named(name, _read(read_parameters(scope.source, text, lambda _: place), scope))
     value = text if isinstance(text, Open) else stored(text, kind)
-    if isinstance(value, Open):
-        scope.unknown(what, value.why, place)
-    return (Parameter(name, value, scope.source, place),)
+    found = (Parameter(name, value, scope.source, place),)
+    if not isinstance(value, Open):
+        return found
+    scope.unknown(what, value.why, place)
+    return found + (_any_of(name, value.why, scope, place) if kind == "yaml" else ())
+
+
+def _any_of(name: str, why: str, scope: LaunchScope, place: Span) -> tuple[Parameter, ...]:
+    """What may set any parameter below a name."""
+    below = f"{canonical(name).rstrip('/')}/{ANY}" if name else ANY
+    return (Parameter(below, Open(why), scope.source, place),)
 
 
 def _content(element: XmlElement, kind: str, scope: LaunchScope) -> Text:
@@ -103,16 +112,16 @@ def _rosparam(element: XmlElement, scope: LaunchScope) -> tuple[Parameter, ...]:
     if isinstance(command, Open) or command != "load":
         why = command.why if isinstance(command, Open) else f"roslaunch has no `{command}`"
         scope.unknown("a <rosparam>", why, element.place_of("command"))
-        return ()
+        return _any_of("", why, scope, element.span) if isinstance(command, Open) else ()
     if isinstance(name, Open) or name.startswith("~"):
         why = name.why if isinstance(name, Open) else "`~` stands for roslaunch itself here"
         scope.unknown("the name of a <rosparam>", why, element.span)
-        return ()
+        return _any_of("", why, scope, element.span) if isinstance(name, Open) else ()
     read = _rosparam_content(element, scope)
     if isinstance(read, Open):
         what = f"the parameter `{name}`" if name else "the parameters of a <rosparam>"
         scope.unknown(what, read.why, element.place_of("file"))
-        return ()
+        return _any_of(name, read.why, scope, element.span)
     entries = _read(read, scope)
     if not name and any(not entry.name for entry in entries):
         why = "a value that is no mapping needs the attribute `param`"

@@ -88,7 +88,7 @@ CASES: dict[str, tuple[dict[str, str], list[str], list[str]]] = {
             YAML: "- node: {pkg: p, exec: e, name: n,"
             " param: [{from: $(find-pkg-share here)/config/p.yaml}]}",
         },
-        ["/n p e {own/x: 2} []", "{/all: 1}"],
+        ["/n p e {all: 1, own/x: 2} []", "{/all: 1}"],
         [],
     ),
     "of another package": (
@@ -100,7 +100,7 @@ CASES: dict[str, tuple[dict[str, str], list[str], list[str]]] = {
             YAML: "- node: {pkg: p, exec: e, name: n,"
             " param: [{from: $(find-pkg-share there)/config/p.yaml}]}",
         },
-        ["/n p e {} []"],
+        ["/n p e {**: ?} []"],
         ["parameters of a node: `share:/there/config/p.yaml` is not at hand"],
     ),
     "included": (
@@ -240,7 +240,7 @@ ONLY_PYTHON = {
         "os.path.dirname(os.path.realpath(__file__)) + '/config/p.yaml',"
         " Path(__file__).resolve().parent / 'config' / 'p.yaml',"
         " [ThisLaunchFileDir(), os.sep, 'config/p.yaml'], Path(__file__).parent.parent])",
-        ["/n p e {own/x: 2} []", "{/all: 1}"],
+        ["/n p e {all: ?, **: ?, own/x: 2} []", "{/all: 1}"],
         ["parameters of a node: it is computed when the file runs"],
     ),
     "a text of YAML": (
