@@ -5,26 +5,13 @@ from __future__ import annotations
 import os
 from typing import Any
 
+from rebsync.checker.cluster import NoCluster
 from rebsync.checker.cluster.worker import Worker, before
-from rebsync.records import dataclass
-
-LOCAL = "local"
-
-
-class NoCluster(Exception):
-    """There is no cluster to search with; the text says why."""
-
-
-@dataclass(frozen=True, slots=True)
-class Cluster:
-    """An address that Ray understands, or LOCAL; workers, None for one for each processor."""
-
-    address: str
-    workers: int | None = None
+from rebsync.checker.problem import LOCAL, Cluster
 
 
 class Crew:
-    """Ray, and the processes that it has started for workers: one search after the other has them."""
+    """Ray, and processes of it for workers, which work for one search after the other."""
 
     def __init__(self, ray: Any) -> None:  # noqa: ANN401 - a module
         self.ray = ray

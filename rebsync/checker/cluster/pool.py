@@ -74,7 +74,8 @@ class Pool:
 
     def before(self, level: int, number: int) -> tuple[int, int]:
         """The parent of a state of a level, and the code of the step between."""
-        asked = [self._crew.before.remote(each.checkpoints[level], number) for each in self._members]
+        checkpoints = (member.checkpoints[level] for member in self._members)
+        asked = [self._crew.before.remote(each, number) for each in checkpoints]
         for answer in self._got(asked):
             if answer is not None:
                 return int(answer[0]), int(answer[1])

@@ -9,9 +9,10 @@ from itertools import accumulate
 from typing import NoReturn
 
 from rebsync.checker.build import libraries
-from rebsync.checker.cluster.connecting import Cluster, connected
+from rebsync.checker.cluster import NoCluster
+from rebsync.checker.cluster.connecting import connected
 from rebsync.checker.cluster.pool import ClusterLost, Pool
-from rebsync.checker.cluster.shard import NOTHING, Finding, Task
+from rebsync.checker.cluster.shard import NOTHING, PlacedEvent, Task
 from rebsync.checker.cluster.worker import OrderReport, WorkerReport
 from rebsync.checker.decoding import cut_of, risk_of_hashes
 from rebsync.checker.endless import Cut, endless_reason
@@ -22,11 +23,13 @@ from rebsync.checker.exploration import (
     Limits,
     Progress,
     Report,
+    Unavailable,
     kinds_of,
 )
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, Stopped, unwatched
 from rebsync.checker.memory import used_memory
+from rebsync.checker.problem import Cluster
 from rebsync.checker.program import Program
 from rebsync.checker.reduction import PersistentSets
 from rebsync.checker.search import FIRST, NO_MEMORY
@@ -62,10 +65,10 @@ class Traffic:
 class ClusterSearch:
     """A search by the workers of a cluster. `invariants` are as those of other searches.
 
-    Its figures are those of whole levels: a bound ends it between two of them, and what was found in
-    the one that went on is not told.
+    Its figures are those of whole levels: a bound ends it between two of them, and nothing is told
+    of the one that went on.
 
-    Raises NoCluster when there is none, Unavailable when what searches cannot be built here.
+    Raises NoCluster when there is none, or it cannot build what searches.
     """
 
     def __init__(
@@ -97,7 +100,10 @@ class ClusterSearch:
         """Searches until everything is seen or a bound is reached; it does not go on from there."""
         started = time.perf_counter()
         task = self._task(limits)
-        libraries(task.units())
+        try:
+            libraries(task.units())  # on this machine for the workers, too
+        except Unavailable as unavailable:
+            raise NoCluster(str(unavailable)) from None
         built = time.perf_counter()
         self._look = self._bounds(limits, report, built)
         reason: str | None
@@ -110,6 +116,8 @@ class ClusterSearch:
             reason = str(stopped)
         except MemoryError:
             reason = NO_MEMORY
+        except Unavailable as unavailable:
+            raise NoCluster(str(unavailable)) from None
         finally:
             self._look = unwatched
         if reason is None and self._dropped:
@@ -187,7 +195,7 @@ class ClusterSearch:
         texts = zip(*places, strict=True)
         taken, checkpoints = pool.call("accept", [(firsts, *t) for t in texts], 1)
         pool.checkpoint([objects[0] for objects in checkpoints])
-        reached = sum(each.phase.states for each in taken)
+        reached: int = sum(each.phase.states for each in taken)
         assert reached == states - self._states, "all new states have their numbers"
         self._entered(reached, end, made, taken)
         self.traffic.add(made, (*new, *ordered), taken)
@@ -198,8 +206,8 @@ class ClusterSearch:
         found = [each.phase.unfinished for each in made if each.phase.unfinished]
         if not found:
             return NOTHING
-        number, *where = min(found)
-        self._cut = cut_of(*where, limits.instructions)
+        number, cause, pc, outer = min(found)
+        self._cut = cut_of(cause, pc, outer, limits.instructions)
         return number
 
     def _entered(
@@ -239,7 +247,7 @@ class ClusterSearch:
         raise Stopped(NO_GRAPH)
 
 
-def _order(finding: Finding) -> tuple[int, int, int]:
+def _order(finding: PlacedEvent) -> tuple[int, int, int]:
     return finding.parent, finding.code, finding.place
 
 

@@ -51,7 +51,7 @@ class Task:
         return hashlib.sha256("\0".join(parts).encode()).hexdigest()
 
 
-class Finding(NamedTuple):
+class PlacedEvent(NamedTuple):
     """Something wrong, with its place in the order of the search."""
 
     parent: int
@@ -82,7 +82,7 @@ class _Figures(ctypes.Structure):
     )
 
 
-class _Finding(ctypes.Structure):
+class _Found(ctypes.Structure):
     kind: int
     pc: int
     rebec: int
@@ -100,7 +100,7 @@ class _Finding(ctypes.Structure):
 
 
 class PhaseReport(NamedTuple):
-    """What a phase has come to: states that wait, new ones, steps, and those beyond the bound of time.
+    """What a phase has come to: states that wait, new ones, steps, those later than the bound.
 
     `unfinished` is a state in which a body was given up, with the cause, and where.
     """
@@ -109,7 +109,7 @@ class PhaseReport(NamedTuple):
     fresh: int
     transitions: int
     dropped: int
-    findings: tuple[Finding, ...]
+    findings: tuple[PlacedEvent, ...]
     unfinished: tuple[int, int, int, int] | None
 
 
@@ -225,16 +225,16 @@ class Shard:
         figures = _Figures()
         self._library.rebsync_shard_figures(self._shard, ctypes.byref(figures))
         found = self._library.rebsync_shard_findings(self._shard)
-        findings = tuple(self._finding(found[i]) for i in range(figures.findings))
+        findings = tuple(self._placed(found[i]) for i in range(figures.findings))
         end = figures.unfinished
         unfinished = (end.number, end.cause, end.pc, end.outer) if end.number != NOTHING else None
         known = figures.states, figures.fresh, figures.transitions, figures.dropped
         return PhaseReport(*known, findings, unfinished)
 
-    def _finding(self, found: _Finding) -> Finding:
+    def _placed(self, found: _Found) -> PlacedEvent:
         cause = cause_of(self.task.program, found.kind, found.pc, found.rebec)
         event = Event(cause, found.state, found.ordinal)
-        return Finding(found.parent, found.code, found.place, event)
+        return PlacedEvent(found.parent, found.code, found.place, event)
 
 
 def _declare(library: ctypes.CDLL) -> None:
@@ -255,7 +255,7 @@ def _declare(library: ctypes.CDLL) -> None:
         "checkpoint": (pointer, [pointer, pointer]),
         "restore": (number, [pointer, bytes_]),
         "figures": (None, [pointer, pointer]),
-        "findings": (ctypes.POINTER(_Finding), [pointer]),
+        "findings": (ctypes.POINTER(_Found), [pointer]),
         "covered": (None, [pointer] * 4),
     }
     for name, (result, arguments) in types.items():

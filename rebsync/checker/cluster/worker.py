@@ -17,7 +17,7 @@ from rebsync.checker.memory import used_memory
 class WorkerReport(NamedTuple):
     """What a phase has come to, what ran in this worker so far, and its memory.
 
-    `sent` are the bytes for other workers, or for the checkpoint, `messages` how many texts they are.
+    `sent` are the bytes for other workers, or for the checkpoint, `messages` how many texts.
     """
 
     phase: PhaseReport
