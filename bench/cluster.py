@@ -4,7 +4,7 @@
 
 `states`, `orders` and `checkpoints` are bytes that workers write: states for others, what puts new
 ones in order, and checkpoints. `messages` are the texts of one worker for another in a level.
-`memory` is what the search adds to the processes of workers, `cpu` what these spend.
+`memory` is what the processes of workers have more at the end, `cpu` what they spend.
 """
 
 from __future__ import annotations
@@ -14,18 +14,24 @@ import sys
 import time
 from pathlib import Path
 
-from bench.searching import program_of
+from searching import program_of
+
 from rebsync.checker.cluster.connecting import Crew, connected
 from rebsync.checker.cluster.search import ClusterSearch
 from rebsync.checker.exploration import Limits
-from rebsync.checker.memory import peak_memory
 from rebsync.checker.problem import LOCAL, Cluster
 
 
+def own_memory() -> int:
+    """The bytes of a process that are its own: objects of Ray are in memory of all."""
+    status = Path("/proc/self/status").read_text(encoding="ascii")
+    return next(1024 * int(line.split()[1]) for line in status.splitlines() if "RssAnon" in line)
+
+
 def spent(crew: Crew, workers: int) -> tuple[float, int]:
-    """The seconds of the processor that workers have taken, and the most memory that they had."""
+    """The seconds of the processor that workers have taken, and the memory that is their own."""
     asked = [
-        crew.actor(number).__ray_call__.remote(lambda _: (time.process_time(), peak_memory()))
+        crew.actor(number).__ray_call__.remote(lambda _: (time.process_time(), own_memory()))
         for number in range(workers)
     ]
     seconds, memory = zip(*crew.ray.get(asked), strict=True)
