@@ -244,7 +244,7 @@ def test_bounds() -> None:
     assert first.reason == FIRST
     assert first.events[0] == whole.events[0]
     assert first.depth < whole.depth
-    _same(system.program, "ftts", (0, 1), limits=Limits(until=20))
+    _same(system.program, "ftts", (0, 1), limits=Limits(until=4))
 
 
 def test_a_body_that_does_not_end() -> None:
