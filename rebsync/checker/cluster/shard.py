@@ -23,7 +23,7 @@ from rebsync.records import dataclass
 NOTHING = 2**64 - 1  # no state
 _FOREVER = 2**63 - 1
 _WAY = 12  # bytes
-_PARTS = (*native.KERNEL, "fingerprints.h", "shard.h", "shard.c")
+_PARTS = (*native.KERNEL, "fingerprints.h", "ranking.h", "shard.h", "shard.c")
 
 
 @dataclass(frozen=True, slots=True)

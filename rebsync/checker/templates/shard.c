@@ -6,6 +6,7 @@
  * to it with the first way there; the ways of all workers are put in order, each range of parents by
  * one of them; and with its place in that order, which is the number that a search by one machine would
  * give it, a new state is judged and waits for the next level. */
+#include "ranking.h"
 #include "shard.h"
 
 enum { PREDICATE = 8, DEADLOCK = 9 };
@@ -51,12 +52,6 @@ struct shard {
     size_t collect_at;
     struct shard_figures figures;
     struct escape escape[1];
-};
-
-/* A way to a new state, as workers tell each other. */
-struct way {
-    uint64_t parent;
-    uint32_t code, list;
 };
 
 static void begin_phase(struct shard *s)
@@ -258,45 +253,6 @@ const void *rebsync_shard_ways(struct shard *s, uint64_t first, uint64_t parents
     }
     *length = s->writer.bytes.count;
     return s->writer.bytes.data;
-}
-
-/* --- the order of all */
-
-static int compare_ways(const void *one, const void *two)
-{
-    const struct way *a = one, *b = two;
-    if (a->parent != b->parent)
-        return a->parent < b->parent ? -1 : 1;
-    return (a->code > b->code) - (a->code < b->code);
-}
-
-/* Merges ordered lists of ways, one of each worker: `into` gets for each list, one behind the other, the
- * places of its ways among all. */
-int rebsync_rank(const unsigned char *const *lists, const uint64_t *lengths, int count, uint64_t total,
-                 uint32_t *into)
-{
-    enum { WAY = sizeof(uint64_t) + sizeof(uint32_t) };
-    struct way *ways = malloc((total + 1) * sizeof *ways);
-    uint64_t *next = calloc((size_t)count + 1, sizeof *next), at = 0;
-    if (!ways || !next || total >= NONE) {
-        free(ways);
-        free(next);
-        return NO_MEMORY;
-    }
-    for (int list = 0; list < count; list++) {
-        next[list] = at;
-        for (uint64_t i = 0; i < lengths[list]; i += WAY, at++) {
-            memcpy(&ways[at].parent, lists[list] + i, sizeof ways->parent);
-            memcpy(&ways[at].code, lists[list] + i + sizeof ways->parent, sizeof ways->code);
-            ways[at].list = (uint32_t)list;
-        }
-    }
-    qsort(ways, total, sizeof *ways, compare_ways);
-    for (uint64_t i = 0; i < total; i++)
-        into[next[ways[i].list]++] = (uint32_t)i;
-    free(ways);
-    free(next);
-    return COMPLETE;
 }
 
 /* Numbers the new states whose parents are in the next range, by their places in it. */
