@@ -257,6 +257,8 @@ RUNS = {
     "RS929": "a name that no property has",
     "RS931": "no C compiler for the compiled engine, or one that fails",
     "RS932": "a model without the symmetries that are to reduce its states",
+    "RS933": "no cluster that can search: Ray is missing, nobody answers, or too few processors",
+    "RS934": "something that a cluster does not decide",
 }
 
 CONFORMANCE = {

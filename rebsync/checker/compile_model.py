@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from rebsync.checker.build import header
+from rebsync.checker.build import Unit, header
 from rebsync.checker.compile_bodies import bodies, branches, number
 from rebsync.checker.program import NULL, Program, RebecInfo
 from rebsync.records import dataclass
@@ -34,6 +34,12 @@ class ModelText:
 
     def render(self) -> str:
         return rendered(self._template, self._context)
+
+
+def model_unit(program: Program) -> Unit:
+    """A program as a library."""
+    text = ModelText(program)
+    return Unit("model", text.render, (*text.parts, header("machine.h")), "-O1")
 
 
 def rendered(template: str, context: Mapping[str, object]) -> str:

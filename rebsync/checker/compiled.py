@@ -18,9 +18,9 @@ from typing import Any
 
 from rebsync.checker import native
 from rebsync.checker.build import Unit, always, header, libraries
-from rebsync.checker.compile_bodies import branches
-from rebsync.checker.compile_model import ModelText
-from rebsync.checker.endless import CAUSES, DEPTH, WAYS, Cut, endless_reason
+from rebsync.checker.compile_model import model_unit
+from rebsync.checker.decoding import cause_of, covered, cut_of, risk_of_hashes
+from rebsync.checker.endless import Cut, endless_reason
 from rebsync.checker.exploration import (
     INSTRUCTIONS,
     Covered,
@@ -39,7 +39,7 @@ from rebsync.checker.memory import used_memory
 from rebsync.checker.program import Program
 from rebsync.checker.reduction import PersistentSets
 from rebsync.checker.search import FIRST, NO_MEMORY
-from rebsync.checker.steps import Failure, Semantics
+from rebsync.checker.steps import Semantics
 from rebsync.checker.symmetry import Symmetry
 from rebsync.records import dataclass
 
@@ -237,27 +237,11 @@ class CompiledSearch:
     def _given_up(self, instructions: int) -> Cut:
         """The body that ended the search."""
         now = self._figures()
-        cause = CAUSES[now.cause]
-        bounds = {"instructions": instructions, "calls": DEPTH, "ways": WAYS, "repeats": 0}
-        return Cut(cause, now.pc, now.outer, bounds[cause])
+        return cut_of(now.cause, now.pc, now.outer, instructions)
 
     def _events(self, count: int) -> tuple[Event, ...]:
         found = self._library.rebsync_events(self._engine)
-        return tuple(self._event(found[i]) for i in range(count))
-
-    def _event(self, found: native.Event) -> Event:
-        cause: Failure | int | str
-        match native.KINDS[found.kind]:
-            case "deadlock":
-                cause = "deadlock"
-            case "property":
-                cause = int(found.pc)
-            case kind:
-                failing = self.program.code[found.pc]
-                said = kind == "assertion" and failing.a >= 0
-                text = self.program.texts[failing.a] if said else ""
-                cause = Failure(kind, found.pc, found.rebec, text)
-        return Event(cause, found.state, found.ordinal)
+        return tuple(_event(self.program, found[i]) for i in range(count))
 
     def _measured(self) -> tuple[Extremes, ...]:
         found = self._library.rebsync_measured(self._engine)
@@ -267,32 +251,10 @@ class CompiledSearch:
         )
 
     def _covered(self) -> Covered:
-        numbers = branches(self.program)
-        served = (ctypes.c_ubyte * max(1, len(self.program.servers)))()
-        taken = (ctypes.c_ubyte * max(1, 2 * len(numbers)))()
-        largest = (ctypes.c_uint32 * len(self.program.rebecs))()
-        self._library.rebsync_covered(self._engine, served, taken, largest)
-        return Covered(
-            frozenset(i for i in range(len(self.program.servers)) if served[i]),
-            frozenset(
-                (pc, jumps)
-                for pc, n in numbers.items()
-                for jumps in (False, True)
-                if taken[2 * n + jumps]
-            ),
-            tuple(largest),
-        )
+        return covered(self.program, partial(self._library.rebsync_covered, self._engine))
 
     def _notes(self, states: int) -> tuple[str, ...]:
-        """The risk: pairs of states, times 2^-64 for each hash (Wolper & Leroy 1993)."""
-        if not self.hash_compaction:
-            return ()
-        hashes = len(self.program.rebecs) + 2  # of local states, and to put these together
-        risk = hashes * states**2 / 2**65
-        return (
-            "only 64 bits of each state were kept: the chance that a state was left out "
-            f"is at most {risk:.1e}",
-        )
+        return (risk_of_hashes(self.program, states),) if self.hash_compaction else ()
 
     # --- afterwards
 
@@ -356,14 +318,17 @@ def _zeros(code: str, count: int) -> array[Any]:
     return empty * count
 
 
+def _event(program: Program, found: native.Event) -> Event:
+    cause = cause_of(program, found.kind, found.pc, found.rebec)
+    return Event(cause, found.state, found.ordinal)
+
+
 def _libraries(
     program: Program, build: bool, wanted: Callable[[], bool]
 ) -> tuple[ctypes.CDLL, ctypes.CDLL]:
     """The search, and the model."""
     parts = tuple(header(name) for name in ("runtime.c", *native.PARTS))
     runtime = Unit("runtime", partial(header, "runtime.c"), parts, "-O1")
-    text = ModelText(program)
-    model = Unit("model", text.render, (*text.parts, header("machine.h")), "-O1")
-    search, bodies = libraries((runtime, model), build, wanted)
+    search, bodies = libraries((runtime, model_unit(program)), build, wanted)
     native.declare(search)
     return search, bodies

@@ -34,8 +34,15 @@ def explore(
 
     Of `persistent` one rebec acts alone when it can; states are canonical under the `symmetry`.
 
-    Raises Unavailable when the compiled engine was asked for and cannot be built.
+    Raises Unavailable when the compiled engine was asked for and cannot be built, NoCluster when a
+    cluster was asked for and cannot be had.
     """
+    if options.cluster:
+        from rebsync.checker.cluster.search import ClusterSearch
+
+        searched = program, semantics, invariants, persistent
+        shared = ClusterSearch(*searched, options.cluster, options.hash_compaction)
+        return shared, shared.run(options.limits, report)
     if options.engine == "interpreted":
         interpreted = Interpreted(program, semantics, invariants, persistent, symmetry)
         return interpreted, interpreted.run(options.limits, report)

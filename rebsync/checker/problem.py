@@ -94,6 +94,17 @@ class Problem:
         return bool(self.measures or self.between)
 
 
+LOCAL = "local"
+
+
+@dataclass(frozen=True, slots=True)
+class Cluster:
+    """An address that Ray understands, or LOCAL; `workers`, None for one for each processor."""
+
+    address: str
+    workers: int | None = None
+
+
 @dataclass(frozen=True, slots=True)
 class Options:
     """How to verify. `semantics` None leaves the view to the model and its properties.
@@ -109,6 +120,7 @@ class Options:
     hash_compaction: bool = False
     reduce: bool = False
     symmetry: bool = False
+    cluster: Cluster | None = None
 
     def bounded(self, started: float, faults: Faults) -> Options:
         """With bounds that count what was done before the search, too."""

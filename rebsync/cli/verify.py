@@ -114,6 +114,17 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     "--symmetry", is_flag=True, help="Count states that differ by an exchange of equal rebecs once."
 )
 @click.option(
+    "--cluster",
+    metavar="ADDRESS|local",
+    help="Search with a cluster of Ray: at an address, or started on this machine.",
+)
+@click.option(
+    "--workers",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Of a cluster: how many share the search (default: one for each processor).",
+)
+@click.option(
     "--format",
     "style",
     type=click.Choice(FORMATS),
@@ -207,6 +218,7 @@ def _models_in(path: str) -> list[str]:
 
 def _one(model: str, given: dict[str, Any], output: str) -> Status:
     """Verifies a model or a package."""
+    _check_cluster(given)
     if given["swept"]:
         return _swept(model, given, output)
     if given["replay"] is not None and (given["states"] or given["export"]):
@@ -237,6 +249,15 @@ def _one(model: str, given: dict[str, Any], output: str) -> Status:
         save_verdicts(problem, options, result)
     write_result(result, problem, given, output)
     return STATUS_OF[result.verdict]
+
+
+def _check_cluster(given: dict[str, Any]) -> None:
+    """Refuses what is not for a cluster; what a model asks for, the checker refuses."""
+    if given["workers"] and not given["cluster"]:
+        raise click.UsageError("--workers are those of a --cluster")
+    if given["cluster"] and any(given[name] for name in ("replay", "states", "export", "swept")):
+        wrong = "--replay, --states, --export and --for-all"
+        raise click.UsageError(f"{wrong} are for one machine: leave --cluster out")
 
 
 def _swept(model: str, given: dict[str, Any], output: str) -> Status:
@@ -279,7 +300,7 @@ def _read(model: str, given: dict[str, Any]) -> Problem:
 def _options(given: dict[str, Any], model: str) -> Options:
     """The options of the command line, and what the settings beside the model allow."""
     from rebsync.checker.exploration import INSTRUCTIONS, Limits
-    from rebsync.checker.problem import Options
+    from rebsync.checker.problem import Cluster, Options
 
     if given["language"] == "core" and given["fairness"] == "progress":
         raise click.UsageError("--language core has no time: leave --fairness progress out")
@@ -300,6 +321,7 @@ def _options(given: dict[str, Any], model: str) -> Options:
         hash_compaction=given["hash_compaction"],
         reduce=given["reduce"],
         symmetry=given["symmetry"],
+        cluster=Cluster(given["cluster"], given["workers"]) if given["cluster"] else None,
         first=_first(given),
     )
 
@@ -343,6 +365,7 @@ def view_named(given: dict[str, Any]) -> Semantics | None:
 
 
 def _verified(problem: Problem, options: Options) -> Result:
+    from rebsync.checker.cluster import NoCluster
     from rebsync.checker.exploration import Unavailable
     from rebsync.checker.verify import verify
     from rebsync.cli.progress import progress
@@ -353,3 +376,6 @@ def _verified(problem: Problem, options: Options) -> Result:
         except Unavailable as unavailable:
             hint = "--engine auto goes on without it"
             raise RebsyncError.of(problem.source.path, "RS931", str(unavailable), hint) from None
+        except NoCluster as missing:
+            hint = "without --cluster this machine searches"
+            raise RebsyncError.of(problem.source.path, "RS933", str(missing), hint) from None

@@ -15,6 +15,7 @@ import pytest
 
 from rebsync.checker.compiled import CompiledSearch
 from rebsync.checker.exploration import Exploration, Limits
+from tests.checker.comparing import System
 from tests.checker.test_compiled import _walkers
 
 _COMPILERS = tuple(filter(None, map(shutil.which, ("cc", "gcc", "clang"))))
@@ -46,6 +47,38 @@ def test_states_that_wait_on_the_disk(walkers: int, size: int, limits: Limits) -
     assert found.states > 1000
     for state in range(0, found.states, 1 + found.states // 100):
         assert compacted.path(state) == exact.path(state)
+
+
+_TREE = """\
+reactiveclass Tree(3) {
+  knownrebecs { Ticker ticker; }
+  statevars { int n; }
+  Tree() { self.grow(0); }
+  msgsrv grow(int depth) {
+    n = n * 2 + ?(0, 1);
+    if (depth < 7) { self.grow(depth + 1) after(1); } else { ticker.tick(6) after(1); }
+  }
+}
+reactiveclass Ticker(3) {
+  msgsrv tick(int left) { if (left > 0) { self.tick(left - 1) after(1); } }
+}
+reactiveclass Idle(1) { }
+main { Tree tree(ticker):(); Ticker ticker():(); %IDLE% }
+"""
+
+
+def test_local_states_outgrow_their_bits_when_they_are_read_from_the_disk() -> None:
+    """No step makes one then: all states of the tree wait, and what they are made of was given up.
+
+    Each idle rebec takes two bits; with 58 of them few are left over for the tree.
+    """
+    idle = " ".join(f"Idle i{i}():();" for i in range(58))
+    program = System.of(_TREE.replace("%IDLE%", idle)).program
+    exact = CompiledSearch(program, "ftts").run(Limits())
+    little = {"CC": f"{os.environ.get('CC') or _COMPILERS[0]} -DLITTLE_ROOM"}
+    with mock.patch.dict(os.environ, little):
+        compacted = CompiledSearch(program, "ftts", hash_compaction=True)
+    assert _figures(compacted.run(Limits())) == _figures(exact)
 
 
 _FULL_DISK = """\

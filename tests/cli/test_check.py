@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 import pytest
 from jsonschema import validate  # type: ignore[import-untyped]
 
-from rebsync.checker.verify import CYCLE_CAVEAT
+from rebsync.checker.conclusion import CYCLE_CAVEAT
 from rebsync.cli import main
 from rebsync.cli.check import FORMATS
 from rebsync.reverse.files import parallel
