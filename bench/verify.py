@@ -2,8 +2,8 @@
 
     python bench/verify.py [PART ...] [--plot FILE]
 
-The parts are below; without one, all of them. `--plot` draws the family: docs/cost-per-state.svg. A machine that has
-other work to do makes all figures worse, so its load is printed as well.
+The parts are below; without one, all of them. `--plot` draws the family: docs/cost-per-state.svg. A
+machine that has other work to do makes all figures worse, so its load is printed as well.
 
 family   cost of a state from 10^4 to 10^7 states of models that grow with one parameter
 engines  the compiled engine and the interpreter on the same searches

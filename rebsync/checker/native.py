@@ -33,6 +33,7 @@ PARTS = (
     "visited.h",
     "frontier.h",
     "storing.h",
+    "graph.h",
     "standstill.h",
 )
 SEMANTICS: tuple[Semantics, ...] = ("tts", "ftts", "core")
