@@ -121,9 +121,7 @@ FORMULAS = ("freed", "earliest", "latest", "longest", "surest", "violated")
 
 def temporal() -> None:
     """What is computed once a search is over, for each formula in a process of its own."""
-    print(
-        "laps      states formula   Python: us, bytes   C: us, bytes   search, graph: us"
-    )
+    print("laps      states formula   Python: us, bytes   C: us, bytes   search, graph: us")
     script, model = ROOT / "bench" / "deciding.py", MODELS / "laps.rebeca"
     asked = MODELS / "temporal.property"
     for laps in (3, 4):
