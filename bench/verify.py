@@ -128,8 +128,8 @@ def temporal() -> None:
         for name in FORMULAS:
             both = []
             for means in ("python", "c"):
-                command = [sys.executable, script, means, model, asked, name, f"laps={laps}"]
-                found = json.loads(run(command).output)
+                known = means, model, asked, name, f"laps={laps}"
+                found = json.loads(run([sys.executable, script, *known]).output)
                 states = found.pop("states")
                 both.append({key: value / states for key, value in found.items()})
             one, other = both
