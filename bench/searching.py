@@ -31,13 +31,18 @@ from rebsync.static import analyse
 ENOUGH = 1.0  # seconds
 
 
-def program_of(path: Path, constants: dict[str, str]) -> Program:
-    """A model made ready, with other values for some of its env variables."""
+def source_of(path: Path, constants: dict[str, str]) -> Source:
+    """A model with other values for some of its env variables."""
     text = path.read_text(encoding="utf-8")
     for name, value in constants.items():
         text, found = re.subn(rf"(env \w+ {name} =) \w+;", rf"\1 {value};", text)
         assert found == 1, name
-    source = Source(str(path), text)
+    return Source(str(path), text)
+
+
+def program_of(path: Path, constants: dict[str, str]) -> Program:
+    """A model made ready, with other values for some of its env variables."""
+    source = source_of(path, constants)
     parsed = parse_model(source)
     analysis = analyse(parsed.model)
     assert parsed.ok and not analysis.errors

@@ -1,13 +1,14 @@
 """What verification costs: time and memory for each state, against SPIN, and whole commands.
 
-    python bench/verify.py [family] [engines] [prints] [spin] [first] [actors] [--plot FILE]
+    python bench/verify.py [PART ...] [--plot FILE]
 
-Without a name, all of them. `--plot` draws the family: docs/cost-per-state.svg. A machine that has
-other work to do makes all figures worse, so its load is printed as well.
+The parts are below; without one, all of them. `--plot` draws the family: docs/cost-per-state.svg. A
+machine that has other work to do makes all figures worse, so its load is printed as well.
 
 family   cost of a state from 10^4 to 10^7 states of models that grow with one parameter
 engines  the compiled engine and the interpreter on the same searches
 prints   whole states and fingerprints on the same searches
+temporal formulas of LTL and TCTL, in Python and in C
 spin     an untimed model against SPIN on its twin (needs spin and gcc)
 first    whole commands on the models of the thesis: nothing is compiled
 actors   whole commands on large models: built before, and with an empty cache
@@ -115,6 +116,31 @@ def prints() -> None:
     print()
 
 
+FORMULAS = ("freed", "earliest", "latest", "longest", "surest", "violated")
+
+
+def temporal() -> None:
+    """What is computed once a search is over, for each formula in a process of its own."""
+    print("laps      states formula   Python: us, bytes   C: us, bytes   search, graph: us")
+    script, model = ROOT / "bench" / "deciding.py", MODELS / "laps.rebeca"
+    asked = MODELS / "temporal.property"
+    for laps in (3, 4):
+        for name in FORMULAS:
+            both = []
+            for means in ("python", "c"):
+                known = means, model, asked, name, f"laps={laps}"
+                found = json.loads(run([sys.executable, script, *known]).output)
+                states = found.pop("states")
+                both.append({key: value / states for key, value in found.items()})
+            one, other = both
+            print(
+                f"{laps:4}{states:12,} {name:9}{one['cpu'] * 1e6:11.2f}{one['growth']:7.0f}"
+                f"{other['cpu'] * 1e6:10.2f}{other['growth']:7.0f}"
+                f"{other['search'] * 1e6:13.2f}{other['graph'] * 1e6:7.2f}"
+            )
+    print()
+
+
 KINDS = (("", 0), ("_unsafe", 3))  # with the exit status of the verdict
 THESIS = tuple((f"experiment{n}{kind}", s) for n in (1, 2, 3) for kind, s in KINDS)
 
@@ -150,6 +176,7 @@ def actors() -> None:
 PARTS: dict[str, Callable[[], object]] = {
     "engines": engines,
     "prints": prints,
+    "temporal": temporal,
     "spin": spin,
     "first": first,
     "actors": actors,

@@ -7,16 +7,16 @@ templates/kernel.h.
 from __future__ import annotations
 
 import ctypes
-import sys
 import time
 from array import array
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import fields
 from functools import partial
 from typing import Any
 
 from rebsync.checker import native
+from rebsync.checker.asking import Answer, asking
 from rebsync.checker.build import Unit, always, header, libraries
 from rebsync.checker.compile_model import model_unit
 from rebsync.checker.decoding import cause_of, covered, cut_of, risk_of_hashes
@@ -41,18 +41,9 @@ from rebsync.checker.reduction import PersistentSets
 from rebsync.checker.search import FIRST, NO_MEMORY
 from rebsync.checker.steps import Semantics
 from rebsync.checker.symmetry import Symmetry
-from rebsync.records import dataclass
 
 _SLICE = 50_000_000  # nanoseconds between two looks at the bounds
 _ENDLESS = 2**63 - 1  # states, or time: more than any search has
-
-
-@dataclass(slots=True)
-class _Answer:
-    """What C was told when it asked: why to end, or what was raised."""
-
-    reason: str | None = None
-    error: BaseException | None = None
 
 
 class CompiledSearch:
@@ -183,35 +174,9 @@ class CompiledSearch:
                     if stop := look():
                         return stop
 
-    @contextmanager
-    def _asking(self, look: Callable[[], str | None] | Look) -> Iterator[_Answer]:
-        """Lets C ask `look` now and then what ends a step that takes long.
-
-        What is raised meanwhile, as by handlers of signals, is raised after C has returned.
-        """
-        answer = _Answer()
-
-        def ask(goes_on: Any) -> None:  # noqa: ANN401 - a pointer, which is 0 until it is known
-            answer.reason = look()
-            goes_on[0] = answer.reason is None
-
-        def note(raised: sys.UnraisableHookArgs) -> None:
-            if raised.object in (ask, None):
-                answer.error = raised.exc_value
-            else:
-                before(raised)
-
-        # A handler may raise before the first line of `ask`, where nothing can catch it.
-        before, sys.unraisablehook = sys.unraisablehook, note
-        question = native.Question(ask)
-        self._library.rebsync_watch(self._engine, question)
-        try:
-            yield answer
-        finally:
-            sys.unraisablehook = before
-            self._library.rebsync_watch(self._engine, native.Question())
-        if answer.error is not None:
-            raise answer.error
+    def _asking(self, look: Callable[[], str | None] | Look) -> AbstractContextManager[Answer]:
+        """Lets C ask `look` now and then what ends a step that takes long."""
+        return asking(look, partial(self._library.rebsync_watch, self._engine))
 
     def _look(self, limits: Limits, report: Report | None, seconds: float) -> str | None:
         memory = used_memory()

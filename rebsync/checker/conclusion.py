@@ -113,10 +113,10 @@ class Conclusion:
         if exploration.semantics != "core" and self.complete and may_stand_still(self.program):
             with self._within_bounds():
                 self._standstill()
-        if self.problem.between and self.complete:
+        if (asked := self.problem.between) and self.complete:
             with self._within_bounds():
                 known = self.graph(), self.watch, self.search.path, self.teller.trace
-                self.between = times_between(self.problem.between, self.program, *known)
+                self.between = times_between(asked, self.program, self.exploration.engine, *known)
 
     def _add(self, kind: ViolationKind, name: str, message: str, line: int, trace: Trace) -> None:
         if any((v.kind, v.name) == (kind, name) for v in self.violations):

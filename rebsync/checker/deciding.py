@@ -8,6 +8,7 @@ from rebsync.checker.look import Look
 from rebsync.checker.problem import Fairness
 from rebsync.checker.temporal import Lasso, check_ltl, check_tctl
 from rebsync.checker.temporal.emptiness import Find, search
+from rebsync.checker.temporal.figures import FindFigures, in_python
 from rebsync.records import dataclass
 from rebsync.unions import assert_never
 
@@ -40,14 +41,14 @@ def refutation(
 ) -> Refutation | None:
     """Why a formula does not hold; None when it does. `branching` says that it is one of TCTL.
 
-    With `compiled` the search for it is in C where that can be had.
+    With `compiled` the work is done in C where that can be had.
 
     Raises Stopped when `look` does, or when deciding takes too much memory.
     """
     if not branching:
         run = check_ltl(graph, formula, fairness, look, _find(compiled))
         return Refutation(run, _said(run)) if run else None
-    answer = check_tctl(graph, formula, look)
+    answer = check_tctl(graph, formula, look, find_figures(compiled))
     if answer.holds:
         return None
     if answer.run is None:
@@ -63,6 +64,15 @@ def _find(compiled: bool) -> Find:
     from rebsync.checker.temporal.compiled_product import search_compiled
 
     return search_compiled
+
+
+def find_figures(compiled: bool) -> FindFigures:
+    """What decides untils, for `compiled` in C where that can be had."""
+    if not compiled:
+        return in_python
+    from rebsync.checker.temporal.compiled_figures import figures_for
+
+    return figures_for
 
 
 def _said(run: Lasso) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
+from rebsync.checker.deciding import find_figures
 from rebsync.checker.exploration import Extremes
 from rebsync.checker.graph import Graph
 from rebsync.checker.program import Program
@@ -48,6 +49,7 @@ def unmeasured(measures: tuple[Measure, ...]) -> tuple[MeasureRange, ...]:
 def times_between(
     asked: tuple[TimeBetween, ...],
     program: Program,
+    engine: str,
     graph: Graph,
     watch: Watch,
     path: Callable[[int], tuple[int, ...]],
@@ -58,10 +60,10 @@ def times_between(
     Raises Stopped when that takes too much.
     """
     predicate = len(program.predicates) - 2 * len(asked)
-    ranges = []
+    find, ranges = find_figures(engine == "compiled"), []
     for each in asked:
         watch.begin(f"measuring the {each.text}")
-        found = response_time(graph, predicate, predicate + 1, watch)
+        found = response_time(graph, predicate, predicate + 1, watch, find)
         ranges.append(_in_trace(each.text, found, path, trace))
         predicate += 2
     return tuple(ranges)

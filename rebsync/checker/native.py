@@ -6,6 +6,7 @@ import ctypes
 from collections.abc import Iterable, Iterator
 from typing import Literal
 
+from rebsync.checker.asking import Question
 from rebsync.checker.reduction import PersistentSets
 from rebsync.checker.steps import FailureKind, Semantics
 from rebsync.checker.symmetry import Symmetry, inverse
@@ -32,12 +33,12 @@ PARTS = (
     "visited.h",
     "frontier.h",
     "storing.h",
+    "graph.h",
     "standstill.h",
 )
 SEMANTICS: tuple[Semantics, ...] = ("tts", "ftts", "core")
 END = ("finished", "slice", "states", "endless", "memory", "stopped", "violated")
 NOT_FOUND = -2  # instead of a state: there is no memory, or it was ended
-Question = ctypes.CFUNCTYPE(None, ctypes.POINTER(ctypes.c_int))
 STATES_AT_ONCE = 100_000  # between two chances to interrupt the making of a graph
 
 

@@ -12,7 +12,8 @@ from collections import deque
 
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look
-from rebsync.checker.temporal.elapsed import FOREVER, earliest, latest
+from rebsync.checker.temporal.elapsed import FOREVER
+from rebsync.checker.temporal.figures import FindFigures, in_python
 from rebsync.checker.temporal.timeline import Timeline
 from rebsync.records import dataclass
 
@@ -41,17 +42,21 @@ class ResponseTime:
     greatest: ResponseRun
 
 
-def response_time(graph: Graph, start: int, end: int, look: Look) -> ResponseTime | None:
+def response_time(
+    graph: Graph, start: int, end: int, look: Look, find: FindFigures = in_python
+) -> ResponseTime | None:
     """The extremes of the time from predicate `start` to predicate `end`, by their numbers.
 
     None when the first never becomes true. Steps that fail are left out.
     """
-    line = Timeline.of(graph, _PATIENCE, look)
-    begins = _become_true(graph, line, _truth(graph, start))
+    figures = find(graph, _PATIENCE)
+    line = figures.timeline(graph, _PATIENCE, look)
+    begins = _become_true(graph, line, figures.truth(graph, start))
     if not begins:
         return None
-    everywhere, right = bytearray(b"\1") * len(line), _truth(graph, end)
-    soonest, last = earliest(line, everywhere, right), latest(line, everywhere, right)
+    everywhere, right = bytearray(b"\1") * len(line), figures.truth(graph, end)
+    soonest = figures.earliest(line, everywhere, right)
+    last = figures.latest(line, everywhere, right)
     first = min(begins, key=soonest.__getitem__)
     worst = max(begins, key=last.__getitem__)
     return ResponseTime(
@@ -60,11 +65,6 @@ def response_time(graph: Graph, start: int, end: int, look: Look) -> ResponseTim
         if last[worst] < FOREVER
         else _endless(graph, line, last, worst),
     )
-
-
-def _truth(graph: Graph, predicate: int) -> bytearray:
-    word, bit = divmod(predicate, 64)
-    return bytearray(each >> bit & 1 for each in graph.labels[word :: graph.words])
 
 
 def _become_true(graph: Graph, line: Timeline, holds: bytearray) -> list[int]:

@@ -11,10 +11,14 @@ from collections.abc import Callable, Iterator, Sequence
 from random import Random
 from typing import Literal
 
+import pytest
 from hypothesis import settings
 
+from rebsync.checker.exploration import Unavailable
 from rebsync.checker.formulas import And, Atom, Bound, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
+from rebsync.checker.temporal import compiled_figures
+from rebsync.checker.temporal.figures import FindFigures
 
 # target (-1: the step fails), actor (-1: time), time
 Edge = tuple[int, int, int]
@@ -45,6 +49,15 @@ def graph_of(
         1,
         initial,
     )
+
+
+def in_c() -> FindFigures:
+    """What finds the figures of untils in C; without a compiler the test is skipped."""
+    try:
+        compiled_figures._library()
+    except Unavailable as unavailable:
+        pytest.skip(f"no C: {unavailable}")
+    return compiled_figures.figures_for
 
 
 def draw_graph(random: Random, most: int = 4, longest: int = 5) -> Graph:
@@ -80,7 +93,7 @@ def draw_timed(random: Random, depth: int) -> Formula:
         return Atom(random.randrange(2))
     if random.random() < 0.35:
         return _boolean(draw_timed, random, depth)
-    bound = _bound(random)
+    bound = draw_bound(random)
     if random.random() < 0.5:
         return Timed(random.choice(_UNARY), bound, (draw_timed(random, depth - 1),))
     operands = draw_timed(random, depth - 1), draw_timed(random, depth - 1)
@@ -97,10 +110,10 @@ def draw_universal(random: Random, depth: int) -> Formula:
     if chance < 0.4:
         return Or(draw_state(random, 1), draw_universal(random, depth - 1))
     if chance < 0.7:
-        return Timed("AG", _bound(random), (draw_universal(random, depth - 1),))
+        return Timed("AG", draw_bound(random), (draw_universal(random, depth - 1),))
     if chance < 0.85:
-        return Timed("AF", _bound(random), (draw_state(random, 1),))
-    return Timed("AU", _bound(random), (draw_state(random, 1), draw_state(random, 1)))
+        return Timed("AF", draw_bound(random), (draw_state(random, 1),))
+    return Timed("AU", draw_bound(random), (draw_state(random, 1), draw_state(random, 1)))
 
 
 def draw_state(random: Random, depth: int) -> Formula:
@@ -121,7 +134,8 @@ def _boolean(draw: Draw, random: Random, depth: int) -> Formula:
             return Or(one, draw(random, depth - 1))
 
 
-def _bound(random: Random) -> Bound | None:
+def draw_bound(random: Random) -> Bound | None:
+    """A bound of time, or none."""
     if random.random() < 0.25:
         return None
     return random.choice(("<", "<=", ">", ">=", "==")), random.randint(0, 6)

@@ -22,6 +22,7 @@ from rebsync.model import Binary, IntLiteral, Member, Name
 from rebsync.properties import Formula, Not, TimeBetween
 from tests.checker.comparing import System
 from tests.checker.draw_systems import TIMED, Drawn, systems
+from tests.checker.temporal_graphs import in_c
 
 Edges: TypeAlias = list[list[tuple[int, int]]]
 SERVICE = """
@@ -147,6 +148,7 @@ def _compare(graph: Graph, edges: Edges, starts: tuple[bool, ...], ends: tuple[b
     begun = {n for n in graph.initial if starts[n]}
     begun |= {t for s, out in enumerate(edges) for t, _ in out if starts[t] and not starts[s]}
     times = response_time(graph, 0, 1, lambda: None)
+    assert response_time(graph, 0, 1, lambda: None, in_c()) == times
     if not begun:
         assert times is None
         return

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import pytest
 
 from rebsync.checker.formulas import And, Atom, Bound, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Stopped
-from rebsync.checker.temporal import Lasso, check_tctl
+from rebsync.checker.temporal import Lasso, check_tctl, compiled_figures
+from rebsync.checker.temporal.evaluation import Evaluation
+from rebsync.checker.temporal.figures import Figures, in_python
 from tests.checker.temporal_graphs import (
     Edge,
+    draw_bound,
     draw_graph,
     draw_timed,
     draw_universal,
     graph_of,
+    in_c,
     random_cases,
 )
 
@@ -172,6 +177,43 @@ def successors(graph: Graph, state: int, shift: int) -> list[Edge]:
     ]
 
 
+# --- in C --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("most", "longest"), [(4, 5), (60, 40), (30, 2**33)])
+def test_c_and_python_agree(most: int, longest: int) -> None:
+    """Truth in all states, and the run that is shown."""
+    find = in_c()
+    for random in random_cases(20):
+        graph, formula = draw_graph(random, most, longest), draw_timed(random, random.randint(1, 4))
+        assert isinstance(find(graph, 8), compiled_figures.CompiledFigures)
+        assert check_tctl(graph, formula, find=find) == check_tctl(graph, formula), formula
+
+
+@pytest.mark.parametrize("operator", ["EF", "AF", "EU", "AU"])
+def test_timelines_are_split_alike(operator: Literal["EF", "AF", "EU", "AU"]) -> None:
+    """All that is known of an until: its figures and timeline, its truth along edges."""
+    find, operands = in_c(), (P, Q) if operator in ("EU", "AU") else (Q,)
+    for random in random_cases(20):
+        graph, bound = draw_graph(random, 20, 30), draw_bound(random)
+        known = []
+        for figures in (in_python, find):
+            evaluation = Evaluation.of(graph, 8, find=figures)
+            truth = evaluation.truth(Timed(operator, bound, operands))
+            line, outcome = evaluation.line, evaluation.outcome(Timed(operator, bound, operands))
+            arrays = (line.first, line.source, line.target, line.time, line.step, line.origin)
+            known.append((*map(list, arrays), list(outcome.times), truth))
+        assert known[0] == known[1], (operator, bound)
+
+
+def test_what_is_too_long_for_c_is_done_in_python() -> None:
+    find = in_c()
+    graph = graph_of([[(1, -1, 2**60)], [(0, -1, 2**60)]], [1, 2])
+    assert type(find(graph, 8)) is Figures
+    assert type(find(SWITCH, 2**61)) is Figures
+    assert check_tctl(graph, AG(AF(Q, ("<=", 2**60))), find=find).holds
+
+
 # --- written down ------------------------------------------------------------------------------
 
 
@@ -293,14 +335,43 @@ def test_too_many_times_stop_it(monkeypatch: pytest.MonkeyPatch) -> None:
         check_tctl(SWITCH, EF(Q, ("==", 90_000)))
 
 
+BOUNDS: tuple[Bound | None, ...] = (None, ("<=", 3), (">", 3), ("==", 3))
+
+
 def test_long_work_looks_at_the_bounds() -> None:
     def look() -> None:
         raise Stopped("now")
 
-    for bound in (None, ("<=", 3), (">", 3), ("==", 3)):
+    for bound in BOUNDS:
         for operator in (AF, EF):
             with pytest.raises(Stopped, match="now"):
                 check_tctl(SWITCH, operator(Q, bound), look)
+
+
+def test_every_loop_in_c_looks_at_the_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whichever look it is that stops the work, it is stopped."""
+    find = in_c()
+    monkeypatch.setattr(compiled_figures, "_STRETCH", 2)
+    graph = graph_of([[(1, -1, 5), (2, 0, 0)], [(0, 0, 0)], [(2, 0, 3)]], [1, 2, 1])
+    for formula in (AG(operator(Q, bound)) for operator in (AF, EF) for bound in BOUNDS):
+        counted = Looks(0)
+        check_tctl(graph, formula, counted, find)
+        for number in range(1, counted.done + 1):
+            with pytest.raises(Stopped, match="now"):
+                check_tctl(graph, formula, Looks(number), find)
+
+
+@dataclass
+class Looks:
+    """Stops the work at a look of this number, or at none."""
+
+    stopping: int
+    done: int = 0
+
+    def __call__(self) -> None:
+        self.done += 1
+        if self.done == self.stopping:
+            raise Stopped("now")
 
 
 def test_an_operator_of_ltl_is_refused() -> None:

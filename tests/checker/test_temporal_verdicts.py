@@ -27,8 +27,8 @@ from rebsync.checker.views import view_of
 from rebsync.cli.progress import told
 from rebsync.source import Source
 from tests.checker.comparing import System
-from tests.checker.draw_systems import WITHOUT_DELAY, Drawn, systems
-from tests.checker.temporal_graphs import draw_linear, draw_timed
+from tests.checker.draw_systems import TIMED, WITHOUT_DELAY, Drawn, systems
+from tests.checker.temporal_graphs import draw_linear, draw_timed, in_c
 
 FAIRNESS: tuple[Fairness, ...] = get_args(Fairness)
 TIMED_VIEWS: tuple[Semantics, ...] = ("tts", "ftts")
@@ -291,35 +291,68 @@ def test_without_delay_the_views_agree_where_steps_are_not_counted(
         search = Interpreted(program, view)
         assume(search.run(Limits(states=300)).reason is None)
         graphs.append(search.graph())
+
+    def asked(formula: Formula) -> Formula:
+        return uncounted(over_predicates(formula, len(program.predicates)))
+
     for fairness in FAIRNESS:
-        linear = uncounted(draw_linear(random, random.randint(1, 4)), len(program.predicates))
+        linear = asked(draw_linear(random, random.randint(1, 4)))
         exact, floating = (check_ltl(graph, linear, fairness) is None for graph in graphs)
         assert exact is floating, (linear, fairness)
-        timed = uncounted(draw_timed(random, random.randint(1, 3)), len(program.predicates))
+        timed = asked(draw_timed(random, random.randint(1, 3)))
         exact, floating = (check_tctl(graph, timed).holds for graph in graphs)
         assert exact is floating, timed
 
 
-def uncounted(formula: Formula, predicates: int) -> Formula:
-    """The formula without X and without bounds, over so many predicates."""
+@given(systems(TIMED), st.randoms(use_true_random=False))
+def test_c_decides_tctl_as_python_does(drawn: Drawn, random: Random) -> None:
+    """On the state spaces of drawn models: truth in all states, and the run that is shown."""
+    program = System.of(drawn.model, drawn.properties).program
+    assume(program.predicates)
+    search, find = Interpreted(program, "tts"), in_c()
+    assume(search.run(Limits(states=300)).reason is None)
+    graph = search.graph()
+    for _ in range(5):
+        drawn_formula = draw_timed(random, random.randint(1, 4))
+        formula = over_predicates(drawn_formula, len(program.predicates))
+        assert check_tctl(graph, formula, find=find) == check_tctl(graph, formula), formula
 
-    def below(inner: Formula) -> Formula:
-        return uncounted(inner, predicates)
 
+def over_predicates(formula: Formula, predicates: int) -> Formula:
+    """The formula over so many predicates."""
     match formula:
         case Atom(predicate):
             return Atom(predicate % predicates)
         case Not(operand):
-            return Not(below(operand))
+            return Not(over_predicates(operand, predicates))
         case And(left, right):
-            return And(below(left), below(right))
+            return And(over_predicates(left, predicates), over_predicates(right, predicates))
         case Or(left, right):
-            return Or(below(left), below(right))
-        case Temporal("X", (operand,)):
-            return below(operand)
+            return Or(over_predicates(left, predicates), over_predicates(right, predicates))
         case Temporal(linear, operands):
-            return Temporal(linear, tuple(below(o) for o in operands))
+            return Temporal(linear, tuple(over_predicates(o, predicates) for o in operands))
+        case Timed(timed, bound, operands):
+            return Timed(timed, bound, tuple(over_predicates(o, predicates) for o in operands))
+        case _:
+            raise AssertionError(formula)
+
+
+def uncounted(formula: Formula) -> Formula:
+    """The formula without X and without bounds."""
+    match formula:
+        case Atom():
+            return formula
+        case Not(operand):
+            return Not(uncounted(operand))
+        case And(left, right):
+            return And(uncounted(left), uncounted(right))
+        case Or(left, right):
+            return Or(uncounted(left), uncounted(right))
+        case Temporal("X", (operand,)):
+            return uncounted(operand)
+        case Temporal(linear, operands):
+            return Temporal(linear, tuple(uncounted(o) for o in operands))
         case Timed(timed, _, operands):
-            return Timed(timed, None, tuple(below(o) for o in operands))
+            return Timed(timed, None, tuple(uncounted(o) for o in operands))
         case _:
             raise AssertionError(formula)

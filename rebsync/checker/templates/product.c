@@ -6,10 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pearce.h"
+
 enum { DONE, MORE, NO_MEMORY };
 enum { EXPLORING, JOINING, JUDGING, OVER };
 enum { NO_FAIRNESS, WEAK, PROGRESS };
-enum { SKIPPED = -1, NO_MORE = -2 };
 
 /* What the automaton can do on a class of states: its moves begin at `move`. */
 struct choice {
@@ -33,11 +34,7 @@ struct product {
     int64_t decided, entry;
     int32_t *number, *parent, *rank; /* rank is at last the component, above 0 */
     uint64_t *key, *goals;
-    /* while components are made */
-    uint32_t *position;
-    int32_t *trail, *closing, order, component;
-    uint64_t trailing, waiting;
-    unsigned char *is_root;
+    struct pearce *joining; /* while components are made */
 };
 
 /* The predicates of each state side by side, bit by bit. */
@@ -133,8 +130,9 @@ static int explore(struct product *p, uint64_t steps)
 /* --- components */
 
 /* Step i of a node within its component of the automaton. */
-static int64_t successor(const struct product *p, uint64_t node, uint64_t i)
+static int64_t successor(const void *of, uint64_t node, uint64_t i)
 {
+    const struct product *p = of;
     uint64_t state = p->key[node] / p->width;
     const struct choice *c = choice_of(p, p->key[node]);
     if (!c->inside)
@@ -152,91 +150,17 @@ static int64_t successor(const struct product *p, uint64_t node, uint64_t i)
     return p->number[to * p->width + place];
 }
 
-static int begin_joining(struct product *p)
-{
-    uint64_t count = p->nodes + 1;
-    p->rank = calloc(count, sizeof *p->rank);
-    p->position = calloc(count, sizeof *p->position);
-    p->trail = malloc(count * sizeof *p->trail);
-    p->closing = malloc(count * sizeof *p->closing);
-    p->is_root = malloc(count);
-    if (!p->rank || !p->position || !p->trail || !p->closing || !p->is_root)
-        return 0;
-    memset(p->is_root, 1, count);
-    p->order = 1;
-    p->component = (int32_t)p->nodes;
-    p->at = 0;
-    return 1;
-}
-
-static void enter(struct product *p, int64_t node)
-{
-    p->rank[node] = p->order++;
-    p->trail[p->trailing++] = (int32_t)node;
-}
-
-static void leave(struct product *p, int32_t node, int32_t low)
-{
-    p->trailing--;
-    if (!p->is_root[node]) {
-        p->closing[p->waiting++] = node;
-        return;
-    }
-    p->order--;
-    while (p->waiting && p->rank[p->closing[p->waiting - 1]] >= low) {
-        p->rank[p->closing[--p->waiting]] = p->component;
-        p->order--;
-    }
-    p->rank[node] = p->component--;
-}
-
-/* Goes on at the last node of the trail, up to the first successor that was not met. */
-static void follow(struct product *p)
-{
-    int32_t node = p->trail[p->trailing - 1], low = p->rank[node];
-    for (;; p->position[node]++) {
-        int64_t next = successor(p, (uint64_t)node, p->position[node]);
-        if (next == SKIPPED)
-            continue;
-        if (next >= 0 && !p->rank[next]) {
-            p->rank[node] = low;
-            enter(p, next); /* then this step is looked at again */
-            return;
-        }
-        if (next == NO_MORE)
-            break;
-        if (p->rank[next] < low) {
-            low = p->rank[next];
-            p->is_root[node] = 0;
-        }
-    }
-    p->rank[node] = low;
-    leave(p, node, low);
-}
-
-static void end_joining(struct product *p)
-{
-    free(p->position);
-    free(p->trail);
-    free(p->closing);
-    free(p->is_root);
-    p->position = NULL;
-    p->trail = p->closing = NULL;
-    p->is_root = NULL;
-}
-
 static int join(struct product *p, uint64_t steps)
 {
-    if (!p->rank && !begin_joining(p))
-        return NO_MEMORY;
-    for (; steps && (p->trailing || p->at < p->nodes); steps--)
-        if (p->trailing)
-            follow(p);
-        else if (!p->rank[p->at++])
-            enter(p, (int64_t)p->at - 1);
-    if (p->trailing || p->at < p->nodes)
+    if (!p->rank) {
+        p->rank = calloc(p->nodes + 1, sizeof *p->rank);
+        p->joining = calloc(1, sizeof *p->joining);
+        if (!p->rank || !p->joining || !pearce_begin(p->joining, p, p->nodes, p->rank, NULL))
+            return NO_MEMORY;
+    }
+    if (pearce_go_on(p->joining, steps))
         return MORE;
-    end_joining(p);
+    pearce_end(p->joining);
     p->goals = calloc(p->nodes + 1, sizeof *p->goals);
     p->at = 0;
     p->phase = JUDGING;
@@ -334,7 +258,9 @@ int rebsync_product_go_on(struct product *p, uint64_t steps)
 
 void rebsync_product_end(struct product *p)
 {
-    end_joining(p);
+    if (p->joining)
+        pearce_end(p->joining);
+    free(p->joining);
     free(p->number);
     free(p->parent);
     free(p->rank);

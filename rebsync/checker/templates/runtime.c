@@ -1,4 +1,5 @@
 /* The breadth-first search. */
+#include "graph.h"
 #include "standstill.h"
 #include "storing.h"
 
@@ -302,54 +303,12 @@ int64_t rebsync_before(struct search *s, uint64_t state, int64_t *code)
     return parent;
 }
 
-/* Where the steps of states go, and how many there are. */
-struct graph {
-    uint64_t *first;
-    int64_t *target;
-    int32_t *actor;
-    int64_t *time;
-    uint64_t *labels;
-    uint16_t *turn; /* of a quotient: by which permutation the target is canonical */
-};
-
-struct drawing {
-    struct search *search;
-    struct graph graph;
-    int turns; /* whether there are permutations */
-    uint64_t edges;
-};
-
-/* Notes a step that fails, or leads to a state that was seen. */
-static void draw(void *visitor, const struct transition *step)
-{
-    struct drawing *d = visitor;
-    int64_t target = step->state ? seen(d->search, step->state) : -1;
-    if (step->state && target < 0)
-        return;
-    if (d->turns && step->state)
-        d->graph.turn[d->edges] = (uint16_t)step->turn;
-    d->graph.target[d->edges] = target;
-    d->graph.actor[d->edges] = step->actor;
-    d->graph.time[d->edges++] = step->time;
-}
-
-static void label(struct search *s, uint64_t *labels, uint32_t words)
-{
-    memset(labels, 0, words * sizeof *labels);
-    kernel_observe(s->kernel, s->ids);
-    for (int32_t p = 0; p < s->model->predicates; p++) {
-        struct valuation found = value_of(s, p);
-        if (found.defined && found.value)
-            labels[p / 64] |= UINT64_C(1) << p % 64;
-    }
-}
-
 /* Expands states again, from number `from` up to `to`, into arrays that are large enough; gives
  * how many edges there are so far, or -1 without memory. */
 int64_t rebsync_graph(struct search *s, struct graph graph, uint64_t from, uint64_t to, uint64_t edges)
 {
     uint32_t words = s->model->predicates ? (uint32_t)(s->model->predicates + 63) / 64 : 1;
-    struct drawing drawing = {s, graph, s->symmetric, edges};
+    struct drawing drawing = {s, graph, s->symmetric, edges, from, from};
     size_t made;
     if (setjmp(s->escape->to))
         return -1;
@@ -358,11 +317,12 @@ int64_t rebsync_graph(struct search *s, struct graph graph, uint64_t from, uint6
     for (uint64_t state = from; state < to; state++) {
         unpack(s, words_of(s, state), s->ids);
         label(s, graph.labels + state * words, words);
-        graph.first[state] = drawing.edges;
+        drawing.from = state;
         if (state < s->expanded)
             expect(s, kernel_successors(s->kernel, s->ids, 1, &made, draw, &drawing));
     }
-    graph.first[to] = drawing.edges;
+    flush_steps(&drawing);
+    begin_steps(&drawing, to);
     return (int64_t)drawing.edges;
 }
 

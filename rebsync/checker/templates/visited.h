@@ -128,17 +128,6 @@ static int is_state(struct search *s, const uint32_t *ids, int64_t state)
     return !memcmp(s->batch_words, words_of(s, (uint64_t)state), s->words * sizeof(uint64_t));
 }
 
-/* The number of a state that was seen, or -1. */
-static int64_t seen(struct search *s, const uint32_t *ids)
-{
-    if (!fits(s, ids))
-        return -1;
-    pack(s, ids, s->batch_words);
-    uint64_t at = find(s, s->batch_words, hash_words(s, s->batch_words));
-    uint32_t numbers = (uint32_t)((UINT64_C(1) << s->number_bits) - 1);
-    return s->table[at] ? (int64_t)(s->table[at] & numbers) - 1 : -1;
-}
-
 /* --- the layout of states */
 
 /* Gives each rebec bits for the local states it has; what is left over is spread. */

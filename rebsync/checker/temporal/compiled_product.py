@@ -43,10 +43,7 @@ class _Product(ctypes.Structure):
         *((name, _LONG) for name in ("decided", "entry")),
         *((name, _INTS) for name in ("number", "parent", "rank")),
         *((name, ctypes.POINTER(_WIDE)) for name in ("key", "goals")),
-        *((name, _POINTER) for name in ("position", "trail", "closing")),
-        *((name, _INT) for name in ("order", "component")),
-        *((name, _WIDE) for name in ("trailing", "waiting")),
-        ("is_root", _POINTER),
+        ("joining", _POINTER),
     )
 
 
@@ -108,8 +105,8 @@ def search_compiled(product: Product) -> Reached:
 
 @cache
 def _library() -> ctypes.CDLL:
-    text = header("product.c")
-    (library,) = libraries((Unit("product", partial(header, "product.c"), (text,), "-O2"),))
+    parts = tuple(header(name) for name in ("product.c", "pearce.h"))
+    (library,) = libraries((Unit("product", partial(header, "product.c"), parts, "-O2"),))
     library.rebsync_classes.restype = None
     library.rebsync_classes.argtypes = [_POINTER, _WIDE, _WIDE, _POINTER, ctypes.c_uint32, _POINTER]
     library.rebsync_product_begin.argtypes = [_POINTER, _POINTER, _WIDE]

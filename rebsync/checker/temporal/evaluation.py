@@ -9,6 +9,7 @@ from dataclasses import field
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, unwatched
+from rebsync.checker.temporal.figures import Figures, FindFigures, in_python
 from rebsync.checker.temporal.outcome import Outcome, Window
 from rebsync.checker.temporal.timeline import Timeline
 from rebsync.records import dataclass
@@ -50,13 +51,17 @@ class Evaluation:
 
     graph: Graph
     line: Timeline
+    figures: Figures
     _known: dict[Formula, bytearray] = field(default_factory=dict)
     _outcomes: dict[Timed, Outcome] = field(default_factory=dict)
 
     @staticmethod
-    def of(graph: Graph, patience: int, look: Look = unwatched) -> Evaluation:
+    def of(
+        graph: Graph, patience: int, look: Look = unwatched, find: FindFigures = in_python
+    ) -> Evaluation:
         """Nothing is known yet; `patience` is more than every bound."""
-        return Evaluation(graph, Timeline.of(graph, patience, look))
+        figures = find(graph, patience)
+        return Evaluation(graph, figures.timeline(graph, patience, look), figures)
 
     def truth(self, formula: Formula, splits: bool = True) -> bytearray:
         """Where a reduced formula holds.
@@ -74,8 +79,7 @@ class Evaluation:
                 one, other = self._pair(left, right, splits)
                 return _combined(operator.or_, one, other)
             case Timed() if not splits:
-                outcome = self.outcome(formula)
-                return bytearray(outcome.holds(node) for node in range(len(self.line)))
+                return self.figures.holding(self.outcome(formula))
             case _:
                 if formula not in self._known:
                     self._known[formula] = self._first_truth(formula)
@@ -91,7 +95,8 @@ class Evaluation:
         found = self._outcomes.get(formula)
         if found is None or len(found.times) != len(self.line):
             on_all = formula.operator in ("AF", "AU")
-            found = Outcome.of(self.line, Window.of(formula.bound), left, right, on_all)
+            window = Window.of(formula.bound)
+            found = self.figures.outcome(self.line, window, left, right, on_all)
             self._outcomes[formula] = found
         return found
 
@@ -102,11 +107,9 @@ class Evaluation:
 
     def _first_truth(self, formula: Formula) -> bytearray:
         if isinstance(formula, Timed):
-            return self.outcome(formula).everywhere()
+            return self.figures.everywhere(self.outcome(formula))
         assert isinstance(formula, Atom)
-        word, bit = divmod(formula.predicate, 64)
-        words = self.graph.labels[word :: self.graph.words]
-        return self.line.extend(bytearray(each >> bit & 1 for each in words))
+        return self.line.extend(self.figures.truth(self.graph, formula.predicate))
 
 
 def _combined(operation: Callable[[int, int], int], one: bytearray, other: bytearray) -> bytearray:

@@ -2,18 +2,10 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
+from collections.abc import Sequence
 
 from rebsync.checker.formulas import Bound
-from rebsync.checker.temporal.elapsed import (
-    FOREVER,
-    NEVER,
-    earliest,
-    exact,
-    latest,
-    longest,
-    surest,
-)
+from rebsync.checker.temporal.elapsed import FOREVER, NEVER
 from rebsync.checker.temporal.timeline import Timeline
 from rebsync.records import dataclass
 
@@ -73,22 +65,8 @@ class Outcome:
     window: Window
     left: bytearray
     right: bytearray
-    times: list[int]
+    times: Sequence[int]
     exact: bool
-
-    @staticmethod
-    def of(
-        line: Timeline, window: Window, left: bytearray, right: bytearray, on_all: bool
-    ) -> Outcome:
-        """Decides `A(left U right)` (`on_all`) or `E(left U right)` within a window."""
-        if window.low == 0:
-            times = list((latest if on_all else earliest)(line, left, right))
-        elif window.is_open:
-            times = list((surest if on_all else longest)(line, left, right))
-        else:
-            times = exact(line, left, right, window.high, on_all)
-            return Outcome(line, window, left, right, times, True)
-        return Outcome(line, window, left, right, times, False)
 
     def holds(self, node: int, elapsed: int = 0) -> bool:
         """Whether it holds at a node when so much time has passed before."""
@@ -108,36 +86,3 @@ class Outcome:
             return False
         waits = self.right[node] and self.window.passed_by(0, remaining) is not None
         return waits or self.holds(self.line.target[edge], remaining)
-
-    def everywhere(self) -> bytearray:
-        """Whether it holds, for each node; edges on which that changes are split."""
-        values = bytearray(self.holds(node) for node in range(len(self.line)))
-        for edge in range(len(self.line.target)):
-            if not edge & 4095:
-                self.line.look()
-            if self.line.time[edge] > 1:
-                value = bool(values[self.line.source[edge]])
-                changes = []
-                for remaining in self._candidates(edge):
-                    if not remaining & 4095:
-                        self.line.look()
-                    if self.between(edge, remaining) is not value:
-                        value = not value
-                        changes.append((remaining, value))
-                if changes:
-                    self.line.split(edge, [remaining for remaining, _ in changes])
-                    values.extend(value for _, value in changes)
-        return values
-
-    def _candidates(self, edge: int) -> list[int]:
-        """Remaining times at which truth can change along an edge, in the order of the edge."""
-        longest = self.line.time[edge] - 1
-        if self.exact:
-            return [longest, *range(min(longest - 1, self.window.high + 1), 0, -1)]
-        last = self.between(edge, 1)
-        if self.between(edge, longest) is last:
-            return [longest]
-        # with such a bound it changes once at most
-        points = range(1, longest + 1)
-        changed = bisect_left(points, True, key=lambda rest: self.between(edge, rest) is not last)
-        return [longest, points[changed] - 1]

@@ -13,6 +13,7 @@ from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, unwatched
 from rebsync.checker.temporal.evaluation import Evaluation, reduced
 from rebsync.checker.temporal.explanation import explain
+from rebsync.checker.temporal.figures import FindFigures, in_python
 from rebsync.checker.temporal.lasso import Lasso, lasso
 from rebsync.records import dataclass
 from rebsync.unions import assert_never
@@ -30,10 +31,15 @@ class Branching:
     run: Lasso | None
 
 
-def check_tctl(graph: Graph, formula: Formula, look: Look = unwatched) -> Branching:
-    """Decides a formula; `look` is called now and then. ValueError: it has an operator of LTL."""
+def check_tctl(
+    graph: Graph, formula: Formula, look: Look = unwatched, find: FindFigures = in_python
+) -> Branching:
+    """Decides a formula by the figures that are found; `look` is called now and then.
+
+    ValueError: it has an operator of LTL.
+    """
     simple = reduced(formula)
-    evaluation = Evaluation.of(graph, _largest_limit(simple) + 2, look)
+    evaluation = Evaluation.of(graph, _largest_limit(simple) + 2, look, find)
     truth = evaluation.truth(simple, splits=False)[: len(graph)]
     for position, state in enumerate(graph.initial):
         if not truth[state]:

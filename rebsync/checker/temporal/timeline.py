@@ -16,7 +16,8 @@ class Timeline:
     While the time of an edge passes, what holds at its source goes on to hold; where it would not,
     the edge is split by a node. `step` is the edge of the graph that an edge begins, or -1.
     Failed steps are left out. A final state has an edge to itself, of more time than any bound.
-    `origin` is, for a node that splits an edge, the source of the edge.
+    `origin` is, for a node that splits an edge, the source of the edge. `entering` is known once
+    `before` was asked for.
     """
 
     first: array[int]
@@ -26,7 +27,7 @@ class Timeline:
     step: array[int]
     origin: array[int]
     look: Look = unwatched
-    _before: tuple[array[int], array[int]] | None = None
+    entering: tuple[array[int], array[int]] | None = None
 
     @staticmethod
     def of(graph: Graph, patience: int, look: Look = unwatched) -> Timeline:
@@ -64,21 +65,21 @@ class Timeline:
 
     def before(self) -> tuple[array[int], array[int]]:
         """The edges that enter each node: those of n are edges[first[n]] up to first[n + 1]."""
-        if self._before is None:
-            first = array("q", bytes(8 * (len(self) + 1)))
+        if self.entering is None:
+            code = self.first.typecode
+            first, edges = array(code, [0]) * (len(self) + 1), array(code, [0]) * len(self.target)
             for target in self.target:
                 first[target + 1] += 1
             for node in range(len(self)):
                 first[node + 1] += first[node]
-            place = array("q", first)
-            edges = array("q", bytes(8 * len(self.target)))
+            place = array(code, first)
             for edge, target in enumerate(self.target):
                 if not edge & 4095:
                     self.look()
                 edges[place[target]] = edge
                 place[target] += 1
-            self._before = first, edges
-        return self._before
+            self.entering = first, edges
+        return self.entering
 
     def split(self, edge: int, remaining: list[int]) -> None:
         """Puts nodes on an edge, where so much of its time remains; the last one comes last."""
@@ -93,7 +94,7 @@ class Timeline:
             self.step.append(-1)
             self.first.append(len(self.target))
             self.origin.append(source)
-        self._before = None
+        self.entering = None
 
     def extend(self, values: bytearray) -> bytearray:
         """The values of nodes, those of newer nodes added: as at the source of their edge."""
