@@ -42,8 +42,8 @@ class LaunchedNode:
     command line that ROS leaves to the program. `markers` are the texts of the comments
     `rebsync: ...` before it. `only_if` holds the conditions that cannot be decided: the node is
     started if all of them hold. `anonymous` says that `$(anon)` makes its name, which stands for
-    another one in each run. `test` marks a node that only `rostest` starts. `texts` are those of the
-    command line in a launch file of ROS 2, and the values of the node's environment.
+    another one in each run. `test` marks a node that only `rostest` starts. `texts` are those of
+    the command line in a launch file of ROS 2, and the values of the node's environment.
     """
 
     name: Text

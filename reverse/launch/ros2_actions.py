@@ -145,4 +145,7 @@ class Only:
     action: Action
 
 
-Action: TypeAlias = "NodeAction | Command | DeclareArgument | Let | Push | ForAll | Group | Include | Only | Unlisted"
+Action: TypeAlias = (
+    "NodeAction | Command | DeclareArgument | Let | Push | ForAll | Group | Include | Only"
+    " | Unlisted"
+)
