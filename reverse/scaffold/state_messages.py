@@ -94,7 +94,17 @@ class _Telling:
     body: str
 
     def by(self, statement: str) -> tuple[str, str] | None:
-        """The field that a statement sets and its value, or on what the message is published."""
+        """The field that a statement sets and its value, or on what the message is published.
+
+        Anything else that it does with the message is told as it is.
+        """
+        if (found := self._plain(statement)) is not None or _MADE.match(statement) is not None:
+            return found
+        is_told = re.search(rf"\b{self.message}\b(?!\s*::)", statement) is not None
+        return ("", squeezed(statement)) if self.message and is_told else None
+
+    def _plain(self, statement: str) -> tuple[str, str] | None:
+        """What a statement does that generated code may do too."""
         if (flat := _FLAT.fullmatch(statement)) is not None:
             return flat[2], f"flatten({_value(flat[1], self.served)})"
         if (sent := _SENT.match(statement)) is not None:
