@@ -1,4 +1,4 @@
-"""Where code asks an optional whether it holds a value before it looks at it.
+"""Where code asks an optional, a pointer or a sequence for what is in it before it looks at that.
 
 `x.value()` throws where there is none ([optional.observe]). It does not where a condition that
 holds there says that there is one, and nothing between could take it away.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
+from enum import Enum
 
 from tree_sitter import Node
 
@@ -18,20 +19,44 @@ from rebsync.reverse.syntax.cpp_tree import named, operator_of, text_of
 # Names in capitals are macros, which are asked elsewhere what they hide.
 _CALL = re.compile(r"\b(?:[a-z_]\w*|[A-Z]\w*[a-z]\w*)\s*(?:<[^;(){}]*>\s*)?\(|[\])]\s*\(")
 _NOTHING = re.compile(r"\bnullopt\b|=\s*\{\s*\}")  # of another name for it, perhaps
-_HARMLESS = re.compile(r"\b(?:if|while|for|switch|sizeof|value|has_value|value_or)\s*\(")
+_HARMLESS = re.compile(
+    r"\b(?:if|while|for|switch|sizeof|value|has_value|value_or|get_logger|empty|size|front|back"
+    r"|static_cast<\w+>)\s*\("
+)
 _WAYS = {"if_statement": "consequence", "while_statement": "body"}
 _AND, _OR = ("&&", "and"), ("||", "or")
 _LEAVING = ("return", "break", "continue", "throw")
 
 
-def is_asked(node: Node, optional: str) -> bool:
+class Question(Enum):
+    """What conditions ask for: each with the texts that say yes, and those that say no."""
+
+    VALUE = (
+        ("{0}", "{0}.has_value()", "{0}!=std::nullopt"),
+        (*("!{0}", "!{0}.has_value()", "{0}==std::nullopt"),),
+    )
+    OBJECT = (
+        ("{0}", "{0}!=nullptr", "{0}.has_value()", "nullptr!={0}", "{0}!=std::nullopt"),
+        (*("!{0}", "{0}==nullptr", "!{0}.has_value()", "nullptr=={0}", "{0}==std::nullopt"),),
+    )
+    ELEMENTS = (
+        ("!{0}.empty()", "{0}.size()>0", "{0}.size()!=0", "{0}.size()>=1"),
+        (*("{0}.empty()", "{0}.size()==0", "{0}.size()<1"),),
+    )
+
+    def says(self, name: str, way: bool) -> frozenset[str]:
+        """The texts that say that there is something, or that there is nothing."""
+        return frozenset(text.format(name) for text in self.value[0 if way else 1])
+
+
+def is_asked(node: Node, optional: str, question: Question = Question.VALUE) -> bool:
     """Whether a place is only reached where an optional, as it is written, holds a value."""
     name, below = _plain(optional), node
     while (at := below.parent) is not None and not at.type.endswith("_definition"):
-        asked = _says(at, below, name)
+        asked = _says(at, below, name, question)
         if asked is not None and not _may_change(asked.end_byte, node, name):
             return True
-        if at.type == "compound_statement" and _left_before(below, node, name):
+        if at.type == "compound_statement" and _left_before(below, node, name, question):
             return True
         if at.type == "lambda_expression":
             return False
@@ -39,17 +64,19 @@ def is_asked(node: Node, optional: str) -> bool:
     return False
 
 
-def _says(at: Node, below: Node, name: str) -> Node | None:
+def _says(at: Node, below: Node, name: str, question: Question) -> Node | None:
     """What says that there is a value, in a condition that holds wherever what is below runs."""
     condition = None
+    if at.type == "conditional_expression" and at.child_by_field_name("alternative") == below:
+        no = question.says(name, False)
+        return _one_of(at.child_by_field_name("condition"), _OR, no)
     if at.type == "binary_expression" and operator_of(at) in _AND:
         condition = at.child_by_field_name("left")
         condition = condition if condition != below else None
     elif at.type == "conditional_expression" or at.type in _WAYS:
         way = at.child_by_field_name(_WAYS.get(at.type, "consequence"))
         condition = at.child_by_field_name("condition") if way == below else None
-    yes = {name, f"{name}.has_value()", f"{name}!=std::nullopt"}
-    return _one_of(condition, _AND, yes)
+    return _one_of(condition, _AND, question.says(name, True))
 
 
 def _one_of(condition: Node | None, joined: tuple[str, str], texts: Collection[str]) -> Node | None:
@@ -71,9 +98,9 @@ def _parts(node: Node | None, joined: tuple[str, str]) -> Iterator[Node]:
         yield node
 
 
-def _left_before(below: Node, node: Node, name: str) -> bool:
+def _left_before(below: Node, node: Node, name: str, question: Question) -> bool:
     """Whether a statement before leaves the block wherever there is no value."""
-    no = {f"!{name}", f"!{name}.has_value()", f"{name}==std::nullopt"}
+    no = question.says(name, False)
     before = below.prev_named_sibling
     while before is not None:
         condition = before.child_by_field_name("condition")
@@ -114,7 +141,9 @@ def _between(node: Node, start: int, end: int) -> str:
 def _takes_away(code: str, name: str) -> bool:
     """Whether some code may take a value away: by a store, or a call."""
     text = _HARMLESS.sub("(", code)
-    stores = re.search(rf"{re.escape(name)}\s*(?:=(?!=)|\.\s*(?:reset|emplace|swap))", text)
+    stores = re.search(
+        rf"{re.escape(name)}\s*(?:=(?!=)|\.\s*(?:reset|emplace|swap|clear|pop|erase|resize))", text
+    )
     another = re.search(rf"(?:[\w>*]|[^&]&)\s+{re.escape(name)}\s*[;={{(,:]", text)
     found = (stores, another, _CALL.search(text), _NOTHING.search(text))
     return any(each is not None for each in found)

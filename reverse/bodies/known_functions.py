@@ -11,9 +11,10 @@ from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries import effects
 from rebsync.reverse.libraries.routines import Effect, Kind, Language
 from rebsync.reverse.libraries.tables.standard import STREAMS
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
-from rebsync.reverse.syntax.cpp_tree import Cpp, inside, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
 # Functions of the standard library that wait for somebody, start something, or end the program.
 _WAITING = frozenset(
@@ -25,6 +26,8 @@ _WAITING = frozenset(
 # Those of them that wait for a person, or for another program.
 _TYPED = frozenset({"getchar", "scanf", "gets", "system"})
 _DECLARATIONS = ("declaration", "field_declaration", "parameter_declaration")
+_STATUS = re.compile(r"\bDiagnosticStatusWrapper\b")
+_STATUS_METHODS = frozenset({"add", "addf", "summary", "summaryf", "mergeSummary"})
 UNUSED = "unused"  # of the run-time part of generated code: says that nothing uses a parameter
 # Types whose objects run what they get, now or later.
 _RUNNING = frozenset(
@@ -119,7 +122,28 @@ def is_harmless_object(name: str) -> bool:
 
 def takes_values(call: CppCall) -> bool:
     """Whether a function is known to change none of its arguments."""
-    return _takes_values(call.name, call.target is not None)
+    return _takes_values(call.name, call.target is not None) or _tells_status(call)
+
+
+def _tells_status(call: CppCall) -> bool:
+    """Whether it is a method of the status that a diagnostics updater has a callback fill."""
+    if call.target is None or call.name.rpartition("::")[2] not in _STATUS_METHODS:
+        return False
+    nodes = (
+        p
+        for n in ancestors(call.node)
+        for p in _parameters(n)
+        if _STATUS.search(text_of(p)) is not None
+    )
+    return any(text_of(n) == text_of(call.target) for p in nodes for n in inside(p, "identifier"))
+
+
+def _parameters(function: Node) -> list[Node]:
+    """The parameters of a function, or a lambda; none of other nodes."""
+    declarator = function.child_by_field_name("declarator")
+    if function.type not in ("function_definition", "lambda_expression") or declarator is None:
+        return []
+    return [p for n in inside(declarator, "parameter_list") for p in named(n)]
 
 
 @lru_cache(maxsize=1024)  # the same few names are called again and again

@@ -59,9 +59,9 @@ _HANDLES = frozenset({"", "this", "node", "ros::NodeHandle(node)", "ros::NodeHan
 
 @dataclass(slots=True)
 class Beside:
-    """Looks through the statements of one constructor, one after the other.
+    """Looks through the statements of a constructor, or of another function, one after the other.
 
-    `scope` is what people's bodies can name; what the constructor is given belongs to the model.
+    `scope` is what people's bodies can name; what the function is given belongs to the model.
     """
 
     code: Code
@@ -71,7 +71,7 @@ class Beside:
 
     @classmethod
     def of(cls, code: Code, function: CppFunction, scope: Scope) -> Beside:
-        """For a constructor, from its first statement on."""
+        """For a function, from its first statement on."""
         given = {p.name: declared_type(code, p.type) for p in function.parameters}
         known: dict[str, Variable | Outside] = {
             name: Variable(name, type_) if type_ is not None else Outside(reaches=True)
@@ -86,13 +86,17 @@ class Beside:
         """Whether a statement touches nothing of the model, now or later, and does not throw."""
         if self._raises(statement):
             return False
-        return self._calls_back(statement) or self._is_outside(statement)
+        return self._calls_back(statement) or self._touches_nothing(statement)
+
+    def is_outside(self, statement: Node) -> bool:
+        """Whether a statement after each body touches nothing of the model, nor throws."""
+        return not self._raises(statement) and self._touches_nothing(statement)
 
     def _raises(self, statement: Node) -> bool:
         form = self.scope.form
         return form is not None and form.raises(self.function.cpp, statement) is not None
 
-    def _is_outside(self, statement: Node) -> bool:
+    def _touches_nothing(self, statement: Node) -> bool:
         frames = [n for c in calls_in(statement) if _tells_frames(c) for n in c.arguments]
         made = {n.id for a in frames for n in inside(a, *_HANDS)}
         handed = [n for n in inside(statement, *_HANDS) if n.id not in made]

@@ -12,6 +12,7 @@ from collections.abc import Callable, Collection, Container, Iterable, Iterator,
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_form import CppForm
+from rebsync.reverse.bodies.cpp_lookups import unsure_lookups
 from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.scope import Scope
 from rebsync.reverse.findings import Findings, Unread
@@ -39,6 +40,7 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
 _SETS_UP = SETS_UP | {"advertise", "advertiseAll", "unused"}
 _LOST = "no subscription takes this in: the class only sends it to itself"
+_NOTHING = "what this looks at may not be there, and the node may end"
 _STARTING = frozenset({"construct", "start"})
 _ONCE = frozenset({"construct", "onServed", "start"})
 _CHANGES = ("assignment_expression", "update_expression", "delete_expression", "throw_statement")
@@ -74,16 +76,21 @@ def check_plumbing(
         if function.body is None:
             continue
         odd = _odd_in(code, owner, function, lineage, fields, by_hand)
-        for node, why in (*odd, *_failing_logs(form, function)):
+        for node, why in (*odd, *_failing_logs(code, form, owner, function)):
             unread = Unread(function.cpp.span(node), why)
             findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
 
 
-def _failing_logs(form: CppForm, function: CppFunction) -> Iterator[tuple[Node, str]]:
+def _failing_logs(
+    code: Code, form: CppForm, owner: CppClass, function: CppFunction
+) -> Iterator[tuple[Node, str]]:
     """What is logged around the bodies, and may end the program: `10 / count` where that is 0."""
     for node in inside(function.body, "expression_statement"):
-        if is_logging(node) and (why := form.raises(function.cpp, node)) is not None:
+        if not is_logging(node):
+            continue
+        if (why := form.raises(function.cpp, node)) is not None:
             yield node, why
+        yield from ((n, _NOTHING) for n in unsure_lookups(code, owner, node))
 
 
 def _odd_servers(code: Code, roles: Roles) -> Iterator[tuple[Cpp, Node, str]]:
@@ -145,7 +152,7 @@ def _odd_in(
         odd = roles.odd_sends[name]
         why = "this does more than to send its arguments"
     elif name == "publishState":
-        odd = _odd_in_state(working(function.body))
+        odd = _odd_in_state(code, function, by_hand)
         why = "this does more than to tell the state"
     elif name == "construct" and not _is_constructed(code, owner):
         odd = (function.node,)
@@ -301,22 +308,38 @@ def _hands_on(call: CppCall, function: str, given: Sequence[str] | None) -> bool
     return found is not None and found[0] == function and in_order
 
 
-def _odd_in_state(statements: Sequence[Node]) -> Iterator[Node]:
-    """What of `publishState` neither fills its message nor publishes it."""
-    names = {_declared_by(s) for s in statements}
-    return (s for s in statements if not _tells(s, names))
+def _odd_in_state(
+    code: Code, function: CppFunction, by_hand: Callable[[], Scope]
+) -> Iterator[Node]:
+    """What of `publishState` fills no message and publishes none, but for what others are told."""
+    statements = working(function.body)
+    names = {_declared_by(s) for s in statements if _is_state(s)}
+    odd = [s for s in statements if not _tells(s, names)]
+    beside = Beside.of(code, function, by_hand()) if odd else None
+    for statement in statements:
+        is_beside = beside is not None and beside.is_outside(statement)
+        if statement in odd and not is_beside:
+            yield statement
+
+
+def _is_state(statement: Node) -> bool:
+    """Whether a statement declares the message that tells the state."""
+    return statement.type == "declaration" and text_of(part(statement, "type")).endswith("State")
 
 
 def _tells(statement: Node, messages: Collection[str]) -> bool:
     if statement.type == "declaration":
-        return _only_looks(statement)
+        return _is_state(statement) and _only_looks(statement)
     expression = named(statement)[0] if named(statement) else statement
     if expression.type == "assignment_expression":
         target, value = part(expression, "left"), part(expression, "right")
         is_field = text_of(target).partition(".")[0] in messages
         return is_field and _only_looks(value)
     call = call_of(expression)
-    return call is not None and call.name in _TELLS and all(map(_only_looks, call.arguments))
+    if call is None or call.name not in _TELLS or not call.arguments:
+        return False
+    told = text_of(call.arguments[-1]).partition(".")[0]
+    return told in messages and all(map(_only_looks, call.arguments))
 
 
 def _only_looks(node: Node) -> bool:

@@ -15,7 +15,7 @@ from rebsync.reverse.launch.described import misleading
 from rebsync.reverse.launch.launch_python_values import PythonValues, called, keywords
 from rebsync.reverse.launch.ros2_actions import (
     Action,
-    Command,
+    CommandAction,
     Condition,
     DeclareArgument,
     ForAll,
@@ -271,7 +271,7 @@ class _File:
     def command(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
         described = self._values.resolved(given.get("process_description", call))
         inner = keywords(described) if isinstance(described, ast.Call) else given
-        return [Command(self._values.given_texts(inner, "cmd"), self._span(call))]
+        return [CommandAction(self._values.given_texts(inner, "cmd"), self._span(call))]
 
     def push(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
         value = call.args[0] if call.args else given.get("namespace")

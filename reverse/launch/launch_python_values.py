@@ -164,6 +164,8 @@ class PythonValues:
                 return Environment(key, inner(default)) if key else COMPUTED
             case "TextSubstitution":
                 return self._single(inner(given.get("text", first)))
+            case "FindExecutable":
+                return self._single(inner(given.get("name", first)))
             case "ThisLaunchFileDir" | "ThisLaunchFile":
                 return Here(name.endswith("Dir"))
             case "PathJoinSubstitution" if first is not None:

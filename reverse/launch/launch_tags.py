@@ -11,7 +11,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.launch.parameters import yaml_span
 from rebsync.reverse.launch.ros2_actions import (
     Action,
-    Command,
+    CommandAction,
     Condition,
     DeclareArgument,
     ForAll,
@@ -180,7 +180,7 @@ def _made(tag: Tag) -> Iterator[Action]:
             named = tuple((p["name"], p["value"]) for p in pairs if {"name", "value"} <= {*p})
             yield Include(given["file"], named, tag.span)
         case "executable":
-            yield Command(_texts(tag, "cmd"), tag.span)
+            yield CommandAction(_texts(tag, "cmd"), tag.span)
         case name if name in _SILENT:
             return
         case name:

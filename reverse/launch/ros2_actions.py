@@ -86,7 +86,7 @@ class NodeAction:
 
 
 @dataclass(frozen=True, slots=True)
-class Command:
+class CommandAction:
     """A program that is started as a shell does it, by its command line."""
 
     texts: tuple[Words, ...]
@@ -150,6 +150,6 @@ class Only:
 
 
 Action: TypeAlias = (
-    "NodeAction | Command | DeclareArgument | Let | Push | ForAll | Group | Include | Only"
+    "NodeAction | CommandAction | DeclareArgument | Let | Push | ForAll | Group | Include | Only"
     " | Unlisted"
 )

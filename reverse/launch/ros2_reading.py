@@ -18,7 +18,7 @@ from rebsync.reverse.launch.launched import (
 from rebsync.reverse.launch.parameter_sections import of_node
 from rebsync.reverse.launch.ros2_actions import (
     Action,
-    Command,
+    CommandAction,
     Condition,
     DeclareArgument,
     ForAll,
@@ -96,7 +96,7 @@ class Reader:
         match action:
             case NodeAction():
                 self.nodes.append(self._node(action, scope))
-            case Command(texts, span):
+            case CommandAction(texts, span):
                 told = _texts(texts, scope)
                 self.commands.append(LaunchedCommand(told, scope.source, span))
                 if not isinstance(told, Open) and told[:2] == ("ros2", "run") and len(told) >= 4:
@@ -139,7 +139,7 @@ class Reader:
     def _only(self, condition: Condition, action: Action, scope: Ros2Scope, depth: int) -> None:
         value = scope.text(condition.words)
         word = value.strip().lower() if isinstance(value, str) else ""
-        is_start = isinstance(action, NodeAction | Command | Group | Include)
+        is_start = isinstance(action, NodeAction | CommandAction | Group | Include)
         if word in (FALSE if condition.holds else TRUE) and not (self.any_way and is_start):
             return
         decided = word in (*TRUE, *FALSE)

@@ -149,6 +149,11 @@ def _is_idle(key: str, value: ast.expr, names: Mapping[str, ast.expr]) -> bool:
     match key:
         case "arguments":
             return _only_logs(value)
+        case "additional_env":
+            found = _resolved(value, names)
+            keys = found.keys if isinstance(found, ast.Dict) else [None]
+            told = [key.value for key in keys if isinstance(key, ast.Constant)]
+            return len(told) == len(keys) and all(str(t).startswith(SHOWN) for t in told)
         case "prefix":
             found = _resolved(value, names)
             parts = found.elts if isinstance(found, ast.List | ast.Tuple) else [found]

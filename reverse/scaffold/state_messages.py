@@ -7,22 +7,31 @@ something else than its state variable has a right run look wrong, or a wrong on
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
+from rebsync.records import dataclass
 from rebsync.reverse.scaffold.fact import TOLD, TOLD_TYPE, Fact
 from rebsync.reverse.scaffold.texts import squeezed
 from rebsync.source import Source, Span
 
 _SUFFIX = "State"
+_BLOCK = r"\{(?:[^{}]|\{[^{}]*\})*\}"
 _TELLING = re.compile(
-    r"\b(\w+)\s*::\s*publishState\s*\([^)]*?\b(\w+)\s*\)\s*(?:override\s*)?\{([^{}]*)\}"
+    r"\b(\w+)\s*::\s*publishState\s*\([^)]*?\b(\w+)\s*\)\s*(?:override\s*)?"
+    rf"\{{((?:[^{{}}]|{_BLOCK})*)\}}"
 )
-_MADE = re.compile(rf"\b(\w+){_SUFFIX}\s+\w+\s*[;({{=]")
+_INNER = re.compile(_BLOCK)
+_MADE = re.compile(rf"\b(\w+){_SUFFIX}\s+(\w+)\s*[;({{=]")
+_OFFERED = re.compile(
+    r"\b(\w+)\s*=\s*[^;=]*?\b(?:advertise|create_publisher)\s*<[^;()]*>\s*\(\s*\"([^\"]*)\""
+)
 _STATEMENT = re.compile(r"[^;]*;")
-_SET = re.compile(r"\w+\s*\.\s*(\w+)\s*([^=]*?)\s*([-+*/%&|^<>]*=)(?!=)\s*(.*?)\s*;", re.DOTALL)
+_SET = re.compile(r"(\w+)\s*\.\s*(\w+)\s*([^=]*?)\s*([-+*/%&|^<>]*=)(?!=)\s*(.*?)\s*;", re.DOTALL)
 _DECLARED = re.compile(r"(?:const\s+)?[\w:<>]+[\s&*]+(\w+)\s*(?:=|\{|\(|;)")
 _FLAT = re.compile(r"flatten\s*\(\s*(.*?)\s*,\s*\w+\s*\.\s*(\w+)\s*\)\s*;", re.DOTALL)
-_SENT = re.compile(r"(?:this\s*->\s*)?(\w+)\s*(?:\.|->)\s*publish\s*\(")
+_SENT = re.compile(
+    r"(?:this\s*->\s*)?(\w+)\s*(?:\.|->)\s*publish\s*\(\s*(?:std::move\()?\s*\*?(\w*)"
+)
 _MESSAGE = re.compile(r"^string server\nstring arguments$", re.MULTILINE)
 FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
 
@@ -41,14 +50,22 @@ def facts_of_state_message(message: str, source: Source) -> Iterator[Fact]:
 
 def told_in_cpp(source: Source, text: str) -> Iterator[Fact]:
     """What a class of C++ puts into its state message; `text` is the source without remarks."""
+    topics: dict[str, str] = {}
+    for m in _OFFERED.finditer(text):
+        topics[m[1]] = f"{topics[m[1]]} or {m[2]}" if m[1] in topics else m[2]
     for telling in _TELLING.finditer(text):
         owner, served, body = telling.groups()
+        message = ""
         if (made := _MADE.search(body)) is not None:
-            owner = made[1]  # messages of ROS have no underscores in their names
+            owner, message = made.groups()  # messages of ROS have no underscores in their names
+        others = _others(body, message)
+        if others is None:
+            continue  # in which of its blocks the message is filled depends
+        told = _Telling(served, message, topics, body)
         is_sent = False
-        for m in _STATEMENT.finditer(text, *telling.span(3)):
-            start = m.end() - len(m[0].lstrip())
-            span, found = Span(start, m.end()), _told_by(m[0].strip(), served)
+        for m in _STATEMENT.finditer(others):
+            start = telling.start(3) + m.end() - len(m[0].lstrip())
+            span, found = Span(start, telling.start(3) + m.end()), told.by(m[0].strip())
             if found is not None:
                 name, value = found
                 late = " once it is published" if is_sent else ""
@@ -56,19 +73,57 @@ def told_in_cpp(source: Source, text: str) -> Iterator[Fact]:
                 is_sent |= value.startswith("published")
 
 
-def _told_by(statement: str, served: str) -> tuple[str, str] | None:
-    """The field that a statement sets and its value, or by whom it has the message published."""
-    if (flat := _FLAT.fullmatch(statement)) is not None:
-        return flat[2], f"flatten({_value(flat[1], served)})"
-    if (sent := _SENT.match(statement)) is not None:
-        return "", f"published by {sent[1]}"
-    if (found := _SET.fullmatch(statement)) is not None:
-        name, part, operator, value = found.groups()
-        how = "" if (part, operator) == ("", "=") else f"{part} {operator} "
-        return name, f"{how}{_value(value, served)}"
-    declared = _DECLARED.match(statement)  # which may hide a state variable
-    is_message = _MADE.match(statement) is not None
-    return ("", f"local {declared[1]}") if declared is not None and not is_message else None
+def _others(body: str, message: str) -> str | None:
+    """A body without what stands in blocks of its own; None if these name the message."""
+    blocks = [m[0] for m in _INNER.finditer(body)]
+    if any(re.search(rf"\b{message}\b(?!\s*::)|\breturn\b", block) for block in blocks):
+        return None
+    return _INNER.sub(lambda m: ";".rjust(len(m[0])), body)
+
+
+@dataclass(frozen=True, slots=True)
+class _Telling:
+    """What is told after a body that was `served`, by a `message`, and what by others is left out.
+
+    `topics` are those that members publish on; `body` is all that is done.
+    """
+
+    served: str
+    message: str
+    topics: Mapping[str, str]
+    body: str
+
+    def by(self, statement: str) -> tuple[str, str] | None:
+        """The field that a statement sets and its value, or on what the message is published.
+
+        Anything else that it does with the message is told as it is.
+        """
+        if (found := self._plain(statement)) is not None or _MADE.match(statement) is not None:
+            return found
+        is_told = re.search(rf"\b{self.message}\b(?!\s*::)", statement) is not None
+        return ("", squeezed(statement)) if self.message and is_told else None
+
+    def _plain(self, statement: str) -> tuple[str, str] | None:
+        """What a statement does that generated code may do too."""
+        if (flat := _FLAT.fullmatch(statement)) is not None:
+            return flat[2], f"flatten({_value(flat[1], self.served)})"
+        if (sent := _SENT.match(statement)) is not None:
+            on = self.topics.get(sent[1], f"that of {sent[1]}").removeprefix("~/")
+            is_other = self.message and sent[2] and sent[2] != self.message
+            return None if is_other else ("", f"published on the topic {on}")
+        if (found := _SET.fullmatch(statement)) is not None:
+            of, name, part, operator, value = found.groups()
+            how = "" if (part, operator) == ("", "=") else f"{part} {operator} "
+            return (name, f"{how}{_value(value, self.served)}") if of == self.message else None
+        declared = _DECLARED.match(statement)
+        if declared is None or _MADE.match(statement) is not None or not self._hides(declared[1]):
+            return None
+        return "", f"local {declared[1]}"
+
+    def _hides(self, name: str) -> bool:
+        """Whether a local of a name may be told for a state variable."""
+        told = re.finditer(rf"\b{self.message}\s*\.[^;]*=[^;]*|flatten\s*\([^;]*", self.body)
+        return any(re.search(rf"\b{name}\b", m[0]) for m in told)
 
 
 def _value(text: str, served: str) -> str:

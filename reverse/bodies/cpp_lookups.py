@@ -1,0 +1,111 @@
+"""Elements and objects that logs of generated C++ look up in members, and that may not be there.
+
+The language leaves undefined what such a log does; the node may end. Looked at are members alone,
+by their declarations: arrays beyond their ends, sequences that may be empty, pointers and optionals
+that nothing sets. A condition around, or before, that asks for them makes them sure.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from tree_sitter import Node
+
+from rebsync.reverse.bodies.cpp_present import Question, is_asked
+from rebsync.reverse.syntax.cpp_index import Code, CppClass
+from rebsync.reverse.syntax.cpp_tree import inside, named, operator_of, part, squeezed, text_of
+
+_ARRAY = re.compile(r"(?:std::)?array<.*,(\d+)>\w+|[\w:<>,]+\[(\d+)\]")
+_SEQUENCE = re.compile(
+    r"(?:static|const|mutable)*(?:std::)?"
+    r"(?:(?:vector|deque|list|(?:unordered_)?(?:multi)?(?:map|set))<|string\w+)"
+)
+_POINTER = re.compile(r"(?:std::)?(?:shared_ptr|unique_ptr|optional)<|[\w:]+\*")
+_KINDS = ("subscript_expression", "pointer_expression", "call_expression", "field_expression")
+_ENDS = frozenset({"front", "back"})
+_FIRST = re.compile(r"(\w+)\.(?:c?begin|c?rbegin)\(\)")
+_SEARCH = re.compile(r"(?:std::)?(?:find|find_if|lower_bound|upper_bound)\(.*|\w+\.find\(.*")
+_GREATEST = re.compile(r"(?:std::)?(?:max|min)_element\((\w+)\.c?begin\(\),.*")
+
+
+def unsure_lookups(code: Code, owner: CppClass, log: Node) -> list[Node]:
+    """What a log looks up in members of a class and nothing shows to be there."""
+    line = code.lineage(owner.name)
+    declared = [d for above in line for d in inside(above.node, "field_declaration")]
+    members = {text_of(n): squeezed(d) for d in declared for n in inside(d, "field_identifier")}
+    functions = (f for above in line for f in code.functions_of(above))
+    texts = [text_of(f.node) for f in functions]
+    look = _Lookups(members, texts)
+    return [n for n in inside(log, *_KINDS) if look.is_unsure(n)]
+
+
+class _Lookups:
+    """Looks up members by their declarations, without layout; `texts` are those of functions."""
+
+    def __init__(self, members: Mapping[str, str], texts: list[str]) -> None:
+        self._members = members
+        self._texts = texts
+
+    def is_unsure(self, node: Node) -> bool:
+        """Whether what an expression looks up may not be there."""
+        match node.type:
+            case "subscript_expression":
+                return self._beyond(node)
+            case "pointer_expression" if text_of(node).startswith("*"):
+                return self._of_nothing(node, part(node, "argument"))
+            case "field_expression" if operator_of(node) == "->":
+                return self._of_nothing(node, part(node, "argument"))
+            case "call_expression" if not named(part(node, "arguments")):
+                function = part(node, "function")
+                if function.type != "field_expression":
+                    return False
+                name, _ = self._declared(part(function, "argument"))
+                return text_of(part(function, "field")) in _ENDS and self._is_empty(node, name)
+            case _:
+                return False
+
+    def _declared(self, place: Node) -> tuple[str, str]:
+        """The member that a place is, and how it is declared; empty for what is none."""
+        name = squeezed(place).removeprefix("this->")
+        return name, self._members.get(name, "")
+
+    def _beyond(self, node: Node) -> bool:
+        whole = named(node)[0]
+        name, declared = self._declared(whole)
+        index = squeezed(node).removeprefix("this->").removeprefix(name).strip("[]")
+        found = _ARRAY.match(declared)
+        if not index.isdecimal():
+            return False  # numbers that are computed are trusted
+        if found is not None:
+            return int(index) >= int(found[1] or found[2])
+        is_table = re.search(r"(?:map|set)<", declared.partition("<")[0] + "<") is not None
+        return not is_table and self._is_empty(node, name)
+
+    def _is_empty(self, node: Node, name: str) -> bool:
+        """Whether a sequence, or a table, may have no element there."""
+        if _SEQUENCE.match(self._members.get(name, "")) is None:
+            return False
+        return not is_asked(node, name, Question.ELEMENTS)
+
+    def _of_nothing(self, node: Node, argument: Node) -> bool:
+        """Whether there may be no object behind a pointer, or an iterator."""
+        text = squeezed(argument)
+        found = _FIRST.fullmatch(text) or _GREATEST.fullmatch(text)
+        if found is not None:
+            return self._is_empty(node, found[1])
+        if _SEARCH.fullmatch(text):
+            return True
+        name, declared = self._declared(argument)
+        if _POINTER.match(declared.removeprefix("const")) is None:
+            return False
+        return not self._is_set(name, declared) and not is_asked(node, name, Question.OBJECT)
+
+    def _is_set(self, name: str, declared: str) -> bool:
+        """Whether something gives a pointer or an optional what it points to."""
+        given = re.search(rf"{name}(?:=|\{{|\()(.*?)[;}})]", declared)
+        if given is not None and given[1] not in ("", "nullptr", "std::nullopt", "{"):
+            return True
+        stores = r"=(?!=)\s*(?!nullptr|std::nullopt)|\.(?:reset|emplace)\(\S|\{|\("
+        sets = re.compile(rf"\b{name}\s*(?:{stores})")
+        return any(sets.search(text) for text in self._texts)
