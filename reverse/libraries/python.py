@@ -13,6 +13,7 @@ from rebsync.reverse.libraries.routines import (
     Kind,
     Language,
     Library,
+    LogCall,
     Routine,
 )
 from rebsync.reverse.libraries.tables.standard import ACTING_WORDS
@@ -330,6 +331,12 @@ def log_words() -> re.Pattern[str]:
         rf"(?:{names}|(?:\w+\.)*(?:{loggers})\.\w+|print"
         r"|logging\.(?:getLogger\([^()]*\)\.)?\w+|(?:self\.)?_?log(?:ger)?\.\w+)\Z"
     )
+
+
+@derived
+def log_arguments() -> Mapping[str, LogCall]:
+    """What logs with the arguments that it takes, by full names: `get_logger().info`."""
+    return {n: call for library in _libraries() for n, call in library.log_arguments.items()}
 
 
 @derived

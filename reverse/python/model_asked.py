@@ -20,6 +20,7 @@ from rebsync.reverse.python.model_timers import is_heir
 from rebsync.reverse.python.model_types import call_parts, expression_in, string_value
 from rebsync.reverse.python.module_variables import imported_as
 from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.told_exceptions import ToldExceptions
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -68,6 +69,7 @@ class Answering:
         functions: Mapping[str, Scope],
         members: Mapping[str, Node],
         looks: Looks,
+        exceptions: ToldExceptions,
     ) -> Answering:
         """Those of a class by what it hands over; what an heir has instead may be anything."""
         names = {n: _SERVICES.fullmatch(imported_as(module, n)) for n in module.names}
@@ -77,7 +79,8 @@ class Answering:
         telling = {}
         for name, function in functions.items():
             others = (f for f in code.methods.get(name, ()) if f is not function)
-            if _only_tells(function, looks) and not any(map(is_heir, others)):
+            is_telling = _only_tells(function, looks) and not any(map(is_heir, others))
+            if is_telling and not exceptions.raises(field(function.node, "body")):
                 telling[name] = len(function.parameters) - 1
         made = (n for n, value in members.items() if _is_updater(module, value))
         bodies = frozenset(field(functions[n].node, "body").id for n in telling)

@@ -15,6 +15,8 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
 from rebsync.reverse.python.model_logs import own_method
+from rebsync.reverse.python.told_exceptions import ToldExceptions
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of
 
 _DIVIDING = frozenset({"/", "//", "%"})
@@ -56,6 +58,18 @@ def failing(expressions: ModelExpressionReader, node: Node) -> Iterator[m.Statem
         yield _divided(expressions, field(node, "right"))
     elif _is_element(expressions, node):
         yield m.ExpressionStatement(expressions.read(node), span=expressions.py.span(node))
+
+
+def unmodelled(
+    expressions: ModelExpressionReader, node: Node, exceptions: ToldExceptions
+) -> Iterator[str]:
+    """Why what is told may raise an exception, but for what the model has of it (`failing`)."""
+    modelled = [
+        expressions.py.span(n)
+        for n in nodes_in(node)
+        if _is_division(n) or _is_element(expressions, n)
+    ]
+    return exceptions.reasons(node, modelled)
 
 
 def methods_of(expressions: ModelExpressionReader) -> frozenset[str]:

@@ -46,6 +46,7 @@ from rebsync.reverse.python.told_containers import (
     member_of,
     stores_in,
 )
+from rebsync.reverse.python.told_exceptions import ToldExceptions
 from rebsync.reverse.python.told_locals import told_locals
 from rebsync.reverse.syntax.ancestors import ancestors, functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -62,7 +63,7 @@ class Silent:
     `ticking` are timers that only log, as `timers` tells them. `locals` are what a function makes
     or measures for people, by the function's node, and `counters` variables of the module; `form`
     tells who may wait for a lock, and `variables` the state by the names of attributes; `asked`
-    are services and diagnostics.
+    are services and diagnostics; `exceptions` say what may fail of what is told.
     """
 
     texts: frozenset[str] = frozenset()
@@ -76,6 +77,7 @@ class Silent:
     form: PyForm | None = None
     variables: Mapping[str, m.Type] = with_default(default_factory=dict)
     asked: Answering = Answering()
+    exceptions: ToldExceptions = ToldExceptions()
 
     @property
     def looks(self) -> Looks:
@@ -97,6 +99,10 @@ class Silent:
         return any(name in of for of in self._members)
 
     def holds(self, node: Node) -> bool:
+        """Whether a statement does nothing but to tell people something, and cannot fail."""
+        return self.tells(node) and not self.exceptions.raises(node)
+
+    def tells(self, node: Node) -> bool:
         """Whether a statement does nothing but to tell people something, or to keep it for that."""
         if only_logs(node, self.looks):
             return True
@@ -122,7 +128,7 @@ class Silent:
         body = field(part, "body" if part.type == "else_clause" else "consequence")
         inside = [n for n in named(body) if n.type != "pass_statement"]
         is_pure = condition is None or self.looks.is_pure(condition)
-        return is_pure and bool(inside) and all(map(self.holds, inside))
+        return is_pure and bool(inside) and all(map(self.tells, inside))
 
     def _tells(self, call: Node) -> bool:
         """`self._diagnostics_pub.publish(status)` and `self._history.append(x)`."""
@@ -211,12 +217,13 @@ def silent_in(
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
     handed = {n: functions[n] for n in roles[0].ticking}
-    timers = Timers.of(code, handed, looks)
+    exceptions = ToldExceptions.of(code, form, variables)
+    timers = Timers.of(code, handed, looks, exceptions)
     looks = replace(looks, logging=timers.logging)
     stores = stores_in(module.node for module in modules)
     looks = replace(looks, containers=containers_in(owner.module, members, stores))
     timers = replace(timers, looks=looks)  # what ticks runs while containers may change
-    asked = Answering.of(code, owner.module, handed, members, looks)
+    asked = Answering.of(code, owner.module, handed, members, looks, exceptions)
     told = frozenset(
         name
         for name, v in members.items()
@@ -238,6 +245,7 @@ def silent_in(
         form,
         variables,
         asked,
+        exceptions,
     )
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)
@@ -340,7 +348,7 @@ def _is_quiet(silent: Silent, node: Node, name: str) -> bool:
             return True
         if above.type == "global_statement":
             return name in silent.counters
-        if silent.holds(above) or above.id in silent.asked.bodies:
+        if silent.tells(above) or above.id in silent.asked.bodies:
             return True
     return False
 

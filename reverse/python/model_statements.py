@@ -25,7 +25,12 @@ from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_switches as switches
 from rebsync.reverse.python import model_users as users
 from rebsync.reverse.python.model_decorators import context_of
-from rebsync.reverse.python.model_failing import failing, may_fail, methods_of
+from rebsync.reverse.python.model_failing import (
+    failing,
+    may_fail,
+    methods_of,
+    unmodelled,
+)
 from rebsync.reverse.python.model_filled import filled
 from rebsync.reverse.python.model_kinds import is_kind
 from rebsync.reverse.python.model_logs import only_logs
@@ -57,12 +62,9 @@ class Statements(ModelStatementReader):
         waiting = list(nodes)
         while waiting:
             node = waiting.pop(0)
-            is_silent = self.expressions.names.silent.holds(node) or self._logs_methods(node)
-            if is_silent and not may_fail(self.expressions, node):
-                continue
             try:
-                if is_silent and node.type != "if_statement":
-                    found += failing(self.expressions, node)
+                if (told := self._told_people(node)) is not None:
+                    found += told
                     continue
                 if users.is_users(self.expressions, node):
                     users.check(self.expressions, node)
@@ -88,6 +90,23 @@ class Statements(ModelStatementReader):
             self.findings.statements[self.within] += 1
             found += read
         return iter(found)
+
+    def _told_people(self, node: Node) -> list[m.Statement] | None:
+        """What may fail of a statement that only tells people something; None for any other.
+
+        An `if` of which something may fail is read as others are.
+        """
+        silent = self.expressions.names.silent
+        if not (silent.tells(node) or self._logs_methods(node)):
+            return None
+        raised = next(unmodelled(self.expressions, node, silent.exceptions), None)
+        if raised is None and not may_fail(self.expressions, node):
+            return []
+        if node.type == "if_statement":
+            return None
+        if raised is not None:
+            raise self.expressions.unread(node, raised)
+        return list(failing(self.expressions, node))
 
     def _logs_methods(self, node: Node) -> bool:
         """Whether a statement logs, and calls methods of the model for what it logs."""
@@ -150,7 +169,8 @@ class Statements(ModelStatementReader):
     def _told(self, node: Node) -> Node | None:
         """What is done in a context that only tells people of it."""
         names = self.expressions.names
-        return context_of(names.code, names.constants.module, node)
+        exceptions = names.silent.exceptions
+        return context_of(names.code, names.constants.module, node, exceptions)
 
     def _return(self, node: Node) -> list[m.Statement]:
         values = [v for v in named(node) if v.type != "none"]

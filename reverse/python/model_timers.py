@@ -18,6 +18,7 @@ from rebsync.reverse.libraries.generated_calls import DURATIONS, TIMER_OF_NODE, 
 from rebsync.reverse.python.model_logs import Looks, only_logs
 from rebsync.reverse.python.model_types import call_parts, without_parentheses
 from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.told_exceptions import ToldExceptions
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -49,11 +50,15 @@ class Timers:
 
     looks: Looks = Looks()
     logging: Mapping[str, int] = with_default(default_factory=dict)
+    exceptions: ToldExceptions = ToldExceptions()
 
     @staticmethod
-    def of(code: PyCode, functions: Mapping[str, Scope], looks: Looks) -> Timers:
+    def of(
+        code: PyCode, functions: Mapping[str, Scope], looks: Looks, exceptions: ToldExceptions
+    ) -> Timers:
         """Those of a class by its functions; what an heir has in place of one may be anything."""
-        return Timers(looks).telling(code, functions, lambda node: only_logs(node, looks))
+        found = Timers(looks, exceptions=exceptions)
+        return found.telling(code, functions, lambda node: only_logs(node, looks))
 
     def telling(
         self, code: PyCode, functions: Mapping[str, Scope], tells: Callable[[Node], bool]
@@ -62,7 +67,8 @@ class Timers:
         logging = dict(self.logging)
         for name, function in functions.items():
             others = (f for f in code.methods.get(name, ()) if f is not function)
-            if _only_tells(function, tells) and not any(map(is_heir, others)):
+            is_telling = _only_tells(function, tells) and not any(map(is_heir, others))
+            if is_telling and not self.exceptions.raises(field(function.node, "body")):
                 logging[name] = len(function.parameters) - 1
         return replace(self, logging=logging)
 
@@ -93,7 +99,8 @@ class Timers:
             is_plain = all(n.type == "identifier" for n in names)
             hides = any(text_of(n) in self.looks.trusted for n in names)
             is_taking = is_plain and not hides and len(names) == count
-            return is_taking and body.type == "call" and self.looks.logs(body)
+            is_logging = is_taking and body.type == "call" and self.looks.logs(body)
+            return is_logging and not self.exceptions.raises(body)
         holder, _, name = text_of(callback).partition(".")
         return holder == "self" and self.logging.get(name) == count
 

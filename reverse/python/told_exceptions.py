@@ -1,0 +1,76 @@
+"""Exceptions that leave statements of generated Python which only tell people something.
+
+A message server ends there, with what it has done by then; a callback that runs beside the bodies
+may end the node. So what is told to people counts as nothing only if it raises nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import field as with_default
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.python.body_form import PyForm
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import Py, field, text_of, whole_number_of
+from rebsync.source import Span
+
+# What the model has of an operation: it violates what the model forbids where Python raises these.
+_MODELLED = frozenset({"builtins.IndexError", "builtins.KeyError", "builtins.ZeroDivisionError"})
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ToldExceptions:
+    """What the statements of a class may raise; `variables` are its state, by attributes."""
+
+    form: PyForm | None = None
+    files: Mapping[int, Py] = with_default(default_factory=dict)
+    variables: Mapping[str, m.Type] = with_default(default_factory=dict)
+
+    @staticmethod
+    def of(code: PyCode, form: PyForm, variables: Mapping[str, m.Type]) -> ToldExceptions:
+        """Those of a class of some code."""
+        return ToldExceptions(form, {s.node.id: s.py for s in code.modules.values()}, variables)
+
+    def raises(self, node: Node) -> bool:
+        """Whether an exception may leave a part of a function."""
+        return any(self.reasons(node))
+
+    def reasons(self, node: Node, modelled: Collection[Span] = ()) -> Iterator[str]:
+        """Why exceptions may leave a part of a function, but for what the model has of it.
+
+        `modelled` are the places of the operations that the model has.
+        """
+        py = self.files.get(_root(node).id)
+        if self.form is None or py is None:
+            return
+        known = {py.span(n) for n in nodes_in(node) if self._is_there(n)}
+        for problem, scope in self.form.raised(py, py.span(node)):
+            is_here = scope.py is py and problem.place in {*known, *modelled}
+            if not (is_here and problem.raises in _MODELLED):
+                yield problem.why
+
+    def _is_there(self, node: Node) -> bool:
+        """Whether something is an element of an array of the state by a number within it."""
+        if node.type != "subscript":
+            return False
+        dimensions, holder = list[int](), node
+        while holder.type == "subscript":
+            index = whole_number_of(field(holder, "subscript"))
+            dimensions.insert(0, -1 if index is None else index)
+            holder = field(holder, "value")
+        head, _, name = text_of(holder).partition(".")
+        type_ = self.variables.get(name) if head == "self" else None
+        lengths = type_.dimensions if type_ is not None else ()
+        pairs = zip(dimensions, lengths, strict=False)
+        return len(dimensions) <= len(lengths) and all(0 <= at < n for at, n in pairs)
+
+
+def _root(node: Node) -> Node:
+    while node.parent is not None:
+        node = node.parent
+    return node
