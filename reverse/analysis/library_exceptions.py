@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal, TypeAlias
 
-from rebsync.reverse.analysis.facts import Facts, HasKey, bare, names_of
+from rebsync.reverse.analysis.facts import Facts, HasKey, OwnType, bare, names_of
 from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
@@ -26,6 +26,7 @@ def _is_positive(value: object) -> bool:
 
 
 _OfNumbers: TypeAlias = Literal[Raises.NEGATIVE, Raises.ZERO_SECOND, Raises.ZERO_STEP, Raises.POWER]
+_Plain: TypeAlias = Literal[Raises.NO_TEXT, Raises.OBJECTS, Raises.UNWRITTEN]
 _WHOLE = (["utf-8"], ["utf8"], ["UTF-8"])  # encodings that have all characters
 
 
@@ -110,8 +111,8 @@ class LibraryExceptions:
                 )
             case Raises.CODED:
                 return any(self.expressions.texts(v) not in _WHOLE for v in values)
-            case Raises.UNWRITTEN:
-                return not all(map(self.expressions.texts, values[:1]))
+            case Raises.NO_TEXT | Raises.OBJECTS | Raises.UNWRITTEN:
+                return not self._are_plain(values, when, facts)
             case Raises.UNDECLARED | Raises.UNDECLARED_ALONE | Raises.REPEATED:
                 return self._is_odd_parameter(node, when, facts)
             case Raises.UNORDERED:
@@ -127,6 +128,19 @@ class LibraryExceptions:
         if when is Raises.REPEATED:
             return declared.may_have(self.function)
         return not self._is_there(node, facts) and declared.may_lack(node, self.function)
+
+    def _are_plain(self, values: Sequence[e.Expression], when: _Plain, facts: Facts) -> bool:
+        """Whether the arguments are of the types for which a call does not raise."""
+        kinds = self.expressions.types.kinds
+        match when:
+            case Raises.NO_TEXT:
+                return all(kinds.of(v, facts) == {OwnType.TEXT} for v in values[:1])
+            case Raises.OBJECTS:
+                return all(kinds.is_plain(v, facts) for v in values)
+            case Raises.UNWRITTEN:
+                return all(map(self.expressions.texts, values[:1]))
+            case _:
+                assert_never(when)
 
     def _are_numbers(self, values: Sequence[e.Expression], when: _OfNumbers, facts: Facts) -> bool:
         """Whether the arguments are numbers for which a rule says that a call does not raise."""

@@ -44,9 +44,13 @@ class LogArguments:
         elif message is not None and logs.only_text:
             if self._kinds.of(message, facts) - {OwnType.TEXT, None}:
                 self._notes.fails(node, _WRONG)
-        elif isinstance(message, e.Literal) and isinstance(message.value, str) and rest:
-            if refuses(message.value, [self._kinds.of(v, facts) for v in rest]):
-                self._notes.fails(node, _WRONG)
+        elif rest and isinstance(message, e.Literal) and self._refuses(message, rest, facts):
+            self._notes.fails(node, _WRONG)
+
+    def _refuses(self, message: e.Literal, rest: list[e.Expression], facts: Facts) -> bool:
+        """Whether a message does not take what is to be put into it."""
+        kinds = [self._kinds.of(v, facts) for v in rest]
+        return isinstance(message.value, str) and refuses(message.value, kinds)
 
     def _logs(self, callee: Callee) -> LogCall | None:
         """What a call that logs takes; None for any other call."""

@@ -71,13 +71,14 @@ class OperandKinds:
         """The types of what a value may be where some facts are known; None is looked for apart."""
         known = [fact.types for fact in facts if isinstance(fact, IsOf) and fact.value == value]
         if known:  # what a test says is not told apart, and is any type
-            return _ANY if _ANY in known else known[0]
+            return known[0] if _ANY not in known else self._declared(value, self._name) or _ANY
+        if declared := self._declared(value, self._name):
+            return declared
         key = key_of(value, self._name)
         if key is None or isinstance(value, e.Temporary):
             return self._of(value, self._name, frozenset())
-        declared = self._declared(value, self._name)
         if isinstance(value, e.Attribute) and not self._has_own(value.object, self._name):
-            return _ANY | declared
+            return _ANY
         found = list(self._stored(key))
         if isinstance(key, Member):
             here = self._notes.function
@@ -88,7 +89,7 @@ class OperandKinds:
             # What makes objects ran before this function stored something there.
             kinds = {n: self._graph.program.function(n).kind for n, _ in found}
             found = [s for s in found if kinds[s[0]] not in _FIRST]
-        return self._union(found, frozenset({key})) | declared
+        return self._union(found, frozenset({key}))
 
     def _declared(self, value: e.Expression, function: str) -> Kinds:
         """The types that parameters, attributes and their elements are declared with."""
@@ -109,6 +110,22 @@ class OperandKinds:
                 return [a.element for a in arrays if isinstance(a, t.Array)]
             case _:
                 return []
+
+    def is_plain(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a value is a number, a text or None, or lists and mappings of such."""
+        match value:
+            case e.Literal() | e.Format():
+                return True
+            case e.Build(t.Container(t.ContainerKind.SEQUENCE | t.ContainerKind.TUPLE), parts):
+                return all(not isinstance(p, e.Spread) and self.is_plain(p, facts) for p in parts)
+            case e.BuildMapping(_, entries):
+                pairs = [entry for entry in entries if not isinstance(entry, e.Spread)]
+                is_whole = len(pairs) == len(entries)
+                return is_whole and all(self.is_plain(part, facts) for p in pairs for part in p)
+            case e.Conditional(_, one, other):
+                return self.is_plain(one, facts) and self.is_plain(other, facts)
+            case _:
+                return self.of(value, facts) <= {OwnType.NUMBER, OwnType.TEXT}
 
     def _has_own(self, of: e.Expression, function: str) -> bool:
         """Whether attributes of an object have what the program stores, as it is."""
@@ -140,7 +157,7 @@ class OperandKinds:
                 return self._of(value, function, seen)
 
     def _of(self, value: e.Expression, function: str, seen: frozenset[Key]) -> Kinds:
-        return self._known(value, function, seen) | self._declared(value, function)
+        return self._declared(value, function) or self._known(value, function, seen)
 
     def _known(self, value: e.Expression, function: str, seen: frozenset[Key]) -> Kinds:
         match value:

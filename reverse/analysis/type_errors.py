@@ -54,14 +54,14 @@ class TypeErrors:
 
     def __init__(self, notes: ProblemNotes) -> None:
         self._notes = notes
-        self._kinds = OperandKinds(notes)
+        self.kinds = OperandKinds(notes)
         self._objects = notes.counts.rules.objects
-        self._logs = LogArguments(notes, self._kinds)
+        self._logs = LogArguments(notes, self.kinds)
         self._is_python = notes.table.language is Language.PYTHON
 
     def of(self, value: e.Expression, facts: Facts) -> Kinds | None:
         """The types that a value may be of; None in other languages."""
-        return self._kinds.of(value, facts) if self._is_python else None
+        return self.kinds.of(value, facts) if self._is_python else None
 
     def check(self, value: e.Expression, facts: Facts) -> None:
         """Notes what evaluating an expression asks of values that have it not."""
@@ -80,7 +80,7 @@ class TypeErrors:
             case e.Format(pieces):
                 for piece in pieces:
                     if piece.style is not None:
-                        self._styled(value, piece, facts)
+                        self._styled(value, piece.value, piece.style, facts)
             case e.Global(module, name):
                 self._named(value, module, name)
             case _:
@@ -98,7 +98,7 @@ class TypeErrors:
                 self._needs(node, value, set(), facts)
             case s.MethodCallee(receiver, name, _, None):
                 self._asks(node, receiver, name, facts)
-                if name == "add" and self._kinds.of(receiver, facts) == {OwnType.SET}:
+                if name == "add" and self.kinds.of(receiver, facts) == {OwnType.SET}:
                     for value in plain:
                         self._needs(node, value, set(OwnType) - _UNHASHABLE, facts)
                 if not self._notes.origins.methods_of_any(name):
@@ -109,6 +109,8 @@ class TypeErrors:
                 taken = {NUMBER, TEXT} if name in _OF_TEXTS else {NUMBER}
                 for value in plain:
                     self._needs(node, value, taken, facts)
+            case s.LibraryCallee("builtins.format") if len(plain) > 1:
+                self._styled(node, plain[0], plain[1], facts)
             case s.LibraryCallee("builtins.len"):
                 for value in plain[:1]:
                     self._needs(node, value, _SIZED, facts)
@@ -169,7 +171,7 @@ class TypeErrors:
             return
         changing = {OwnType.LIST, OwnType.MAPPING, OwnType.QUEUE, OwnType.ARRAY}
         self._needs(target, target.object, changing, facts)
-        if self._kinds.of(target.object, facts) == {OwnType.MAPPING}:
+        if self.kinds.of(target.object, facts) == {OwnType.MAPPING}:
             self._needs(target, target.index, set(OwnType) - _UNHASHABLE, facts)
 
     def _needs(
@@ -179,7 +181,7 @@ class TypeErrors:
         taken: Iterable[OwnType],
         facts: Facts,
     ) -> None:
-        if self._kinds.of(value, facts) - {*taken, None}:
+        if self.kinds.of(value, facts) - {*taken, None}:
             self._notes.fails(node, _WRONG)
 
     # --- attributes ------------------------------------------------------------------------------
@@ -188,7 +190,7 @@ class TypeErrors:
         self, node: s.Statement | e.Expression, of: e.Expression, name: str, facts: Facts
     ) -> None:
         """An attribute is asked of a value."""
-        kinds = self._kinds.of(of, facts)
+        kinds = self.kinds.of(of, facts)
         if any(kind is not None and name not in ATTRIBUTES[kind] for kind in kinds) or (
             kinds == {None} and self._is_of_none(of, name)
         ):
@@ -246,7 +248,7 @@ class TypeErrors:
         right: e.Expression,
         facts: Facts,
     ) -> None:
-        kinds = self._kinds.of(left, facts), self._kinds.of(right, facts)
+        kinds = self.kinds.of(left, facts), self.kinds.of(right, facts)
         if operator in (Operator.IN, Operator.NOT_IN):
             wrong = bool(kinds[1] & {NUMBER}) or (
                 kinds[1] == {TEXT} and bool(kinds[0] - {TEXT, None})
@@ -269,18 +271,18 @@ class TypeErrors:
 
     def _puts(self, text: str, value: e.Expression, facts: Facts) -> bool:
         """Whether `%` may not put values into a text: too many, too few, or of another type."""
-        kinds = self._kinds.of(value, facts)
+        kinds = self.kinds.of(value, facts)
         if isinstance(value, e.Build) and kinds == {OwnType.TUPLE}:
             if any(isinstance(each, e.Spread) for each in value.elements):
                 return True
-            return refuses(text, [self._kinds.of(v, facts) for v in value.elements])  # type: ignore[arg-type]
+            return refuses(text, [self.kinds.of(v, facts) for v in value.elements])  # type: ignore[arg-type]
         return kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
 
     # --- elements and texts ----------------------------------------------------------------------
 
     def _at(self, value: e.Index, of: e.Expression, index: e.Expression, facts: Facts) -> None:
         self._needs(value, of, _INDEXED, facts)
-        kinds = self._kinds.of(of, facts)
+        kinds = self.kinds.of(of, facts)
         if isinstance(index, e.Slice):
             self._needs(value, of, set(OwnType) - {OwnType.ARRAY}, facts)
             return
@@ -291,22 +293,27 @@ class TypeErrors:
         elif kinds == {OwnType.MAPPING}:
             self._needs(value, index, set(OwnType) - _UNHASHABLE, facts)
 
-    def _styled(self, value: e.Format, piece: e.FormatPiece, facts: Facts) -> None:
+    def _styled(
+        self,
+        node: s.Statement | e.Expression,
+        value: e.Expression,
+        style: e.Expression,
+        facts: Facts,
+    ) -> None:
         """A style that a value of its type has not; other types have styles of their own."""
-        style = piece.style
         if not (isinstance(style, e.Literal) and isinstance(style.value, str) and style.value):
             return
-        kinds, letter = self._kinds.of(piece.value, facts), style.value[-1]
+        kinds, letter = self.kinds.of(value, facts), style.value[-1]
         if kinds & {NUMBER, TEXT} and letter.isalpha() and letter not in _OF_NUMBER + "s":
-            self._notes.fails(value, _WRONG)
+            self._notes.fails(node, _WRONG)
         elif letter == "s":
-            self._needs(value, piece.value, {TEXT}, facts)
+            self._needs(node, value, {TEXT}, facts)
         elif letter in _OF_NUMBER:
-            self._needs(value, piece.value, {NUMBER}, facts)
-            if letter in _OF_WHOLE and _is_fraction(piece.value):
-                self._notes.fails(value, _WRONG)
+            self._needs(node, value, {NUMBER}, facts)
+            if letter in _OF_WHOLE and _is_fraction(value):
+                self._notes.fails(node, _WRONG)
         else:
-            self._needs(value, piece.value, {NUMBER, TEXT}, facts)
+            self._needs(node, value, {NUMBER, TEXT}, facts)
 
 
 def _is_star(node: Node) -> bool:

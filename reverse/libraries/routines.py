@@ -252,9 +252,9 @@ class Library:
 
     One of `marks` is in every file that uses the library, and one of `starts` in some file of every
     package that has a node with it. `logs` are the beginnings of names of macros that log, or the
-    names of methods that give what logs; `log_arguments` are in Python what logs with the arguments that
-    it takes, by full names, methods as `get_logger().info`. `registers` is the macro that makes a component of a class,
-    `commands` those of CMake that do.
+    names of methods that give what logs; `log_arguments` are in Python what logs with the arguments
+    that it takes, by full names, methods as `get_logger().info`. `registers` is the macro that
+    makes a component of a class, `commands` those of CMake that do.
 
     Of a `flat` library names are not under a handle, and parameters are the node's own. With
     `threads`, callbacks run beside each other; with `strict`, a field of a message takes no number

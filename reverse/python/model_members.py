@@ -12,10 +12,10 @@ from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1
 from rebsync.reverse.python.model_logs import Looks, looks_in
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.module_variables import (
+    computing_of,
     imported_as,
     is_clock,
     loggers_of,
-    maths_of,
     tables_of,
 )
 from rebsync.reverse.python.plain_functions import describing
@@ -148,7 +148,7 @@ def looks_of(
         loggers=loggers_of(module).difference(hidden),
         tables=tables_of(code, module).difference(hidden),
         clocks=frozenset(n for n in module.names if is_clock(module, n)).difference(hidden),
-        maths=maths_of(module) if "math" not in hidden else frozenset(),
+        computing=frozenset(n for n in computing_of(module) if n.partition(".")[0] not in hidden),
         records={name: fields for name, fields in records.items() if name not in hidden},
         describing={name: count for name, count in texts.items() if name not in hidden},
     )

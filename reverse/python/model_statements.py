@@ -25,15 +25,9 @@ from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_switches as switches
 from rebsync.reverse.python import model_users as users
 from rebsync.reverse.python.model_decorators import context_of
-from rebsync.reverse.python.model_failing import (
-    failing,
-    may_fail,
-    methods_of,
-    unmodelled,
-)
+from rebsync.reverse.python.model_failing import told_people
 from rebsync.reverse.python.model_filled import filled
 from rebsync.reverse.python.model_kinds import is_kind
-from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import (
     annotations_above,
@@ -63,7 +57,7 @@ class Statements(ModelStatementReader):
         while waiting:
             node = waiting.pop(0)
             try:
-                if (told := self._told_people(node)) is not None:
+                if (told := told_people(self.expressions, node)) is not None:
                     found += told
                     continue
                 if users.is_users(self.expressions, node):
@@ -90,28 +84,6 @@ class Statements(ModelStatementReader):
             self.findings.statements[self.within] += 1
             found += read
         return iter(found)
-
-    def _told_people(self, node: Node) -> list[m.Statement] | None:
-        """What may fail of a statement that only tells people something; None for any other.
-
-        An `if` of which something may fail is read as others are.
-        """
-        silent = self.expressions.names.silent
-        if not (silent.tells(node) or self._logs_methods(node)):
-            return None
-        raised = next(unmodelled(self.expressions, node, silent.exceptions), None)
-        if raised is None and not may_fail(self.expressions, node):
-            return []
-        if node.type == "if_statement":
-            return None
-        if raised is not None:
-            raise self.expressions.unread(node, raised)
-        return list(failing(self.expressions, node))
-
-    def _logs_methods(self, node: Node) -> bool:
-        """Whether a statement logs, and calls methods of the model for what it logs."""
-        looks = replace(self.expressions.names.silent.looks, own=methods_of(self.expressions))
-        return node.type == "expression_statement" and only_logs(node, looks)
 
     def _read(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         try:

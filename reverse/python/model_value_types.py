@@ -30,6 +30,7 @@ def typed(program: Program, roles: Iterable[PyRoles]) -> Program:
         f"{_name(each.owner)}.{name}": dict(_parameters(function))
         for each in roles
         for name, function in each.functions.items()
+        if not each.is_plumbing(name)  # what people added may be called with anything
     }
 
     def lowered(name: str) -> Function:

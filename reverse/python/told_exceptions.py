@@ -15,12 +15,14 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import Py, field, text_of, whole_number_of
 from rebsync.source import Span
 
 # What the model has of an operation: it violates what the model forbids where Python raises these.
 _MODELLED = frozenset({"builtins.IndexError", "builtins.KeyError", "builtins.ZeroDivisionError"})
+
+_DIVIDING = frozenset({"/", "//", "%", "<<", ">>", "**"})
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -48,16 +50,30 @@ class ToldExceptions:
         py = self.files.get(_root(node).id)
         if self.form is None or py is None:
             return
-        known = {py.span(n) for n in nodes_in(node) if self._is_there(n)}
         for problem, scope in self.form.raised(py, py.span(node)):
-            is_here = scope.py is py and problem.place in {*known, *modelled}
-            if not (is_here and problem.raises in _MODELLED):
+            is_modelled = scope.py is py and problem.place in modelled
+            is_modelled = is_modelled or self._is_there_at(scope, problem.place)
+            if not (is_modelled and problem.raises in _MODELLED):
                 yield problem.why
+
+    def races(self, node: Node) -> bool:
+        """Whether something beside the bodies may fail for a variable that these change meanwhile.
+
+        A test of it says nothing: it may have another value where it is asked again.
+        """
+        return any(
+            n.type == "attribute" and text_of(field(n, "attribute")) in self.variables
+            for critical in map(_decides, nodes_in(node))
+            if critical is not None
+            for n in nodes_in(critical)
+        )
+
+    def _is_there_at(self, scope: Scope, place: Span) -> bool:
+        nodes = (n for n in nodes_in(scope.node) if n.type == "subscript")
+        return any(self._is_there(n) for n in nodes if scope.py.span(n) == place)
 
     def _is_there(self, node: Node) -> bool:
         """Whether something is an element of an array of the state by a number within it."""
-        if node.type != "subscript":
-            return False
         dimensions, holder = list[int](), node
         while holder.type == "subscript":
             index = whole_number_of(field(holder, "subscript"))
@@ -68,6 +84,14 @@ class ToldExceptions:
         lengths = type_.dimensions if type_ is not None else ()
         pairs = zip(dimensions, lengths, strict=False)
         return len(dimensions) <= len(lengths) and all(0 <= at < n for at, n in pairs)
+
+
+def _decides(node: Node) -> Node | None:
+    """The operand that decides whether an operation fails, where one does."""
+    if node.type == "binary_operator" and text_of(field(node, "operator")) in _DIVIDING:
+        is_text = field(node, "left").type in ("string", "concatenated_string")
+        return None if is_text else field(node, "right")
+    return field(node, "subscript") if node.type == "subscript" else None
 
 
 def _root(node: Node) -> Node:
