@@ -52,6 +52,7 @@ ATTRIBUTES: Mapping[OwnType, frozenset[str]] = {
 }
 _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
 _ADDED = frozenset({OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
+_LISTING = frozenset({"builtins.list", "builtins.tuple", "builtins.sorted"})
 _DEEPEST = 12
 UNKNOWN = None  # in a set of kinds: a value that may be of any type
 Kinds: TypeAlias = "frozenset[OwnType | None]"
@@ -124,8 +125,23 @@ class OperandKinds:
                 return is_whole and all(self.is_plain(part, facts) for p in pairs for part in p)
             case e.Conditional(_, one, other):
                 return self.is_plain(one, facts) and self.is_plain(other, facts)
+            case e.Temporary() if self._is_listed(value):
+                return True
             case _:
                 return self.of(value, facts) <= {OwnType.NUMBER, OwnType.TEXT}
+
+    def _is_listed(self, value: e.Temporary) -> bool:
+        """Whether a value is a list of the elements of an array that is declared."""
+        key = key_of(value, self._name)
+        around = self._graph.program.function(self._name)
+        match self._graph.stores.of(key) if key is not None else ():
+            case ((_, CallResult(s.Call(_, s.LibraryCallee(name), (of,)))),):
+                arrays = self._declared_types(of.value, around)
+                plain = [a for a in arrays if isinstance(a, t.Array) and _of_type(a.element)]
+                is_flat = all(not isinstance(a.element, t.Array) for a in plain)
+                return name in _LISTING and bool(plain) and is_flat and len(plain) == len(arrays)
+            case _:
+                return False
 
     def _has_own(self, of: e.Expression, function: str) -> bool:
         """Whether attributes of an object have what the program stores, as it is."""

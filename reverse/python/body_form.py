@@ -63,7 +63,8 @@ class PyForm:
             return whole
         own = [name for name in whole.functions if not self._is_of_runtime(name)]
         classes = [c for c in whole.classes.values() if not self._is_of_runtime(c.name)]
-        return self._typed(Program(own, classes, whole.function, whole.modules.items()))
+        modules = [(name, of) for name, of in whole.modules.items() if not self._is_of_runtime(of)]
+        return self._typed(Program(own, classes, whole.function, modules))
 
     def _is_of_runtime(self, name: str) -> bool:
         module = self._code.modules.get(name.partition(":")[0])

@@ -94,7 +94,7 @@ def unmodelled(
         for n in nodes_in(node)
         if _is_division(n) or _is_element(expressions, n)
     ]
-    return exceptions.reasons(node, modelled)
+    return exceptions.reasons(node, modelled, methods_of(expressions))
 
 
 def methods_of(expressions: ModelExpressionReader) -> frozenset[str]:

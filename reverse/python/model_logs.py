@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
@@ -46,7 +46,8 @@ class Looks:
     `containers` are members that only logs look into, with their kinds; `computing` is what the
     module calls functions that only give a value, and `logging` methods that only log, with how
     many arguments each takes. `attributes` are what objects of the class have, where that is known:
-    with a slip in the name of one, what logs raises.
+    with a slip in the name of one, what logs raises. `texts` are methods that only put a text
+    together, with how many arguments each takes.
     """
 
     trusted: frozenset[str] = with_default(
@@ -64,6 +65,7 @@ class Looks:
     computing: frozenset[str] = frozenset()
     logging: Mapping[str, int] = with_default(default_factory=dict)
     attributes: frozenset[str] | None = None
+    texts: Mapping[str, int] = with_default(default_factory=dict)
 
     def is_pure(self, node: Node) -> bool:
         """Whether nothing happens where an expression is evaluated."""
@@ -126,6 +128,9 @@ class Looks:
             return self._is_node and own_method(call) not in self.functions
         if not self._calls_plain(call):
             return False
+        if (count := self.texts.get(own_method(call))) is not None:
+            given = field(call, "arguments")
+            return len(named(given)) == count and _by_position(given) and not has_splat(call)
         if called in self.computing:
             return not called.endswith("replace") or self._replaces(call)
         if called in self.clocks:
@@ -147,7 +152,7 @@ class Looks:
         if name in ON_CLOCKS:
             return holder.type == "call" and not named(field(call, "arguments"))
         is_joining = name == "join" and self._joins_texts(call)
-        return self._is_text(holder) and (name in OF_TEXTS or is_joining)
+        return self.is_text(holder) and (name in OF_TEXTS or is_joining)
 
     def _calls_plain(self, call: Node) -> bool:
         """Whether what a call itself calls of what it gets are functions of Python's own."""
@@ -161,7 +166,7 @@ class Looks:
             n.type in _PLAIN_VALUES for n in plain
         )
 
-    def _is_text(self, node: Node) -> bool:
+    def is_text(self, node: Node) -> bool:
         """Whether a value is a text by how it is made."""
         if node.type in ("string", "concatenated_string"):
             return True
@@ -170,7 +175,7 @@ class Looks:
             return text_of(function) in MAKING_TEXTS & LOOKS
         is_method = node.type == "call" and function.type == "attribute"
         is_made = is_method and text_of(field(function, "attribute")) in OF_TEXTS
-        return is_made and self._is_text(field(function, "object"))
+        return is_made and self.is_text(field(function, "object"))
 
     def _joins_texts(self, call: Node) -> bool:
         """Whether what is joined is a text for each of some elements: anything else is an error."""
@@ -185,7 +190,7 @@ class Looks:
         if given.type not in ("list_comprehension", "generator_expression"):
             return False
         body = field(given, "body")
-        return self._is_text(body) and self.is_pure(body)
+        return self.is_text(body) and self.is_pure(body)
 
     def logs(self, call: Node) -> bool:
         """Whether a call only logs what is there already."""
@@ -275,7 +280,17 @@ def looks_in(code: PyCode, modules: Sequence[Scope], makers: frozenset[str]) -> 
         for function in found
         if not (is_runtime_file(function.py.source) or _only_returns(function, looks))
     )
-    return replace(looks, functions=frozenset(own))
+    return replace(looks, functions=frozenset(own), texts=dict(_texts(code)))
+
+
+def _texts(code: PyCode) -> Iterator[tuple[str, int]]:
+    """The methods of some code that only put a text together, where no other has the name."""
+    for name, found in code.methods.items():
+        function = found[0]
+        members = function.owner.names if function.owner is not None else {}
+        by_position = all(p.star == 0 and p.default is None for p in function.parameters)
+        if len(found) == 1 and by_position and only_describes(function, members):
+            yield name, len(function.parameters) - ("staticmethod" not in function.decorators)
 
 
 def _only_returns(function: Scope, looks: Looks) -> bool:
@@ -318,20 +333,22 @@ def only_logs(node: Node, looks: Looks = _PLAIN) -> bool:
 
 
 def only_describes(function: Scope, members: Container[str]) -> bool:
-    """Whether a function is `__repr__` or `__str__`, and only puts together what is there.
+    """Whether a function only puts a text together of what is there, as `__repr__` does.
 
     `members` are the functions of the class, of which one may be a property that does something.
     """
     body = body_of(function)
-    if function.name not in _DESCRIBES or len(body) != 1 or function.node.parent is None:
+    values = named(body[0]) if len(body) == 1 and body[0].type == "return_statement" else []
+    if len(values) != 1 or not set(function.decorators) <= {"staticmethod"}:
         return False
-    values = named(body[0]) if body[0].type == "return_statement" else []
-    is_plain = (
-        function.node.parent.type == "block" and len(values) == 1 and _PLAIN.is_pure(values[0])
-    )
-    return is_plain and not any(
-        n.type == "attribute" and text_of(field(n, "attribute")) in members
-        for n in nodes_in(values[0])
+    is_text = function.name in _DESCRIBES or _PLAIN.is_text(values[0])
+    return (
+        is_text
+        and _PLAIN.is_pure(values[0])
+        and not any(
+            n.type == "attribute" and text_of(field(n, "attribute")) in members
+            for n in nodes_in(values[0])
+        )
     )
 
 

@@ -14,6 +14,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.body_form import PyForm
+from rebsync.reverse.syntax.ancestors import holds
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import Py, field, text_of, whole_number_of
@@ -42,16 +43,22 @@ class ToldExceptions:
         """Whether an exception may leave a part of a function."""
         return any(self.reasons(node))
 
-    def reasons(self, node: Node, modelled: Collection[Span] = ()) -> Iterator[str]:
+    def reasons(
+        self, node: Node, modelled: Collection[Span] = (), methods: Collection[str] = ()
+    ) -> Iterator[str]:
         """Why exceptions may leave a part of a function, but for what the model has of it.
 
-        `modelled` are the places of the operations that the model has.
+        `modelled` are the places of the operations that the model has, and `methods` its methods,
+        which are read themselves.
         """
         py = self.files.get(_root(node).id)
         if self.form is None or py is None:
             return
         for problem, scope in self.form.raised(py, py.span(node)):
-            is_modelled = scope.py is py and problem.place in modelled
+            is_here = scope.py is py and holds(scope.node, node)
+            if scope.name in methods and not is_here:
+                continue
+            is_modelled = is_here and problem.place in modelled
             is_modelled = is_modelled or self._is_there_at(scope, problem.place)
             if not (is_modelled and problem.raises in _MODELLED):
                 yield problem.why
