@@ -57,9 +57,13 @@ class LibraryExceptions:
             raised |= {"builtins.OverflowError"}
         has_default = any(a.name == "default" for a in node.arguments)
         is_many = receiver is None and (len(plain) > 1 or has_default)
-        if is_many or (of is not None and self.expressions.size(of, facts)):
+        if is_many or (of is not None and self._has_elements(of, facts)):
             return raised
         return raised | outcome.empty
+
+    def _has_elements(self, value: e.Expression, facts: Facts) -> bool:
+        kinds = self.expressions.types.kinds.of(value, facts)
+        return bool(self.expressions.size(value, facts)) or kinds == {OwnType.ARRAY}
 
     def has_pieces(self, node: s.Call, text: e.Expression) -> bool:
         """Whether a call that formats a text gets all arguments that the text names."""

@@ -71,6 +71,8 @@ class Looks:
         """Whether nothing happens where an expression is evaluated."""
         if own_method(node) in self.own:
             return self.is_pure(field(node, "arguments"))
+        if own_method(node) in self.texts:
+            return self._is_look(node) and self.is_pure(field(node, "arguments"))
         if node.type in _STORING or (node.type == "call" and not self._is_look(node)):
             return False
         if node.type == "attribute" and text_of(field(node, "attribute")) in self.functions:
