@@ -101,10 +101,11 @@ class LibraryExceptions:
                 return bool(values) and is_position(bare(values[0]))
             case Raises.TEXT:
                 first = values[:1]
-                return not all(self._is_number(v) or self._is_of_number(v, float) for v in first)
+                return not all(self._is_number_text(v, facts) for v in first)
             case Raises.INFINITE:
                 is_finite = Magnitudes(self.origins, self.function).is_finite
-                if all(self._is_of_number(v, int) for v in values[:1]):
+                is_whole = self.expressions.types.kinds.is_whole
+                if all(is_whole(v) or self._is_of_number(v, int) for v in values[:1]):
                     return False
                 return not all(self._is_number(v) and is_finite(v) for v in values[:1])
             case Raises.COMPUTED:
@@ -179,6 +180,11 @@ class LibraryExceptions:
     def _is_number(self, value: e.Expression) -> bool:
         """Whether a value is a number by how it is computed."""
         return self.origins.of(value, self.function) == {PlainOrigin()}
+
+    def _is_number_text(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a value is a number, or a text that is one."""
+        is_known = self.expressions.types.kinds.of(value, facts) == {OwnType.NUMBER}
+        return is_known or self._is_number(value) or self._is_of_number(value, float)
 
     def _is_of_number(self, value: e.Expression, kind: type[int] | type[float]) -> bool:
         """Whether a value is one of some texts in the source, which are those of numbers."""

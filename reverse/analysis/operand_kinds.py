@@ -130,6 +130,11 @@ class OperandKinds:
             case _:
                 return self.of(value, facts) <= {OwnType.NUMBER, OwnType.TEXT}
 
+    def is_whole(self, value: e.Expression) -> bool:
+        """Whether a value is declared as a whole number."""
+        types = self._declared_types(value, self._graph.program.function(self._name))
+        return bool(types) and all(isinstance(each, t.Integer | t.Truth) for each in types)
+
     def _is_listed(self, value: e.Temporary) -> bool:
         """Whether a value is a list of the elements of an array that is declared."""
         key = key_of(value, self._name)

@@ -341,6 +341,13 @@ def log_arguments() -> Mapping[str, LogCall]:
 
 
 @derived
+def broadcasters() -> frozenset[str]:
+    """The classes of what sends transforms as they change."""
+    made = (pair for library in _libraries() for pair in library.unmodelled.items())
+    return frozenset(name for name, routine in made if routine.kind is Kind.BROADCASTER)
+
+
+@derived
 def clocks() -> frozenset[str]:
     """What tells the time, as code calls it."""
     return names_of(Kind.CLOCK) | {"self.get_clock"}

@@ -127,7 +127,7 @@ class Looks:
         if called in libraries.clocks() or called in libraries.own_names():
             return called.partition(".")[0] in self.trusted
         if own_method(call) in libraries.own_name_methods():
-            return self._is_node and own_method(call) not in self.functions
+            return self.is_node and own_method(call) not in self.functions
         if not self._calls_plain(call):
             return False
         if (count := self.texts.get(own_method(call))) is not None:
@@ -208,7 +208,7 @@ class Looks:
             return False
         if head in libraries.modules_of_logs() and head not in self.trusted:
             return False
-        if called.startswith("self.get_logger") and not self._is_node:
+        if called.startswith("self.get_logger") and not self.is_node:
             return False
         return self.is_pure(field(call, "arguments"))
 
@@ -228,7 +228,7 @@ class Looks:
         return called in libraries.clocks() | self.clocks and self.is_pure(node)
 
     @property
-    def _is_node(self) -> bool:
+    def is_node(self) -> bool:
         """Whether the object is a node of ROS 2 that has its logger from there."""
         return "self" in self.trusted and "get_logger" not in self.functions
 

@@ -28,8 +28,6 @@ from rebsync.reverse.syntax.py_tree import field, named, text_of
 VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
 _NUMBERS = frozenset({"true", "false", "integer", "float"})
 _DECLARE, _GET = "self.declare_parameter", "self.get_parameter"
-# Packages whose messages tell people how a node does, and that no node of a model is sent.
-_TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
 _LIBRARY_BASES = frozenset({"Node", "LifecycleNode", "object", "ABC"})
 _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target"})
 _LOCKS = frozenset({"threading.Lock", "threading.RLock"})
@@ -105,14 +103,6 @@ def is_lock(module: Scope, node: Node) -> bool:
     head, _, rest = called.partition(".")
     whole = ".".join(filter(None, (imported_as(module, head), rest)))
     return whole in _LOCKS and not arguments
-
-
-def makers_in(module: Scope) -> Iterator[str]:
-    """The message types for people that a module imports."""
-    for name in module.names:
-        package, _, type_ = imported_as(module, name).rpartition(".")
-        if _TELLING.match(package) and type_ == name:
-            yield name
 
 
 def attributes_in(line: Sequence[Scope]) -> frozenset[str] | None:

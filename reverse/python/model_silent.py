@@ -23,14 +23,15 @@ from rebsync.reverse.python.model_members import (
     is_lock,
     is_own_parameter,
     looks_of,
-    makers_in,
 )
 from rebsync.reverse.python.model_roles import PyRoles, is_of_node
-from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
+from rebsync.reverse.python.model_shown import (
+    Shown,
+    shown_by,
+    tells_by,
+)
 from rebsync.reverse.python.model_timers import Timers
-from rebsync.reverse.python.model_types import string_value
 from rebsync.reverse.python.module_variables import (
-    call_and_arguments,
     counters_of,
     hidden_names,
 )
@@ -48,6 +49,7 @@ from rebsync.reverse.python.told_containers import (
 )
 from rebsync.reverse.python.told_exceptions import ToldExceptions
 from rebsync.reverse.python.told_locals import told_locals
+from rebsync.reverse.python.told_messages import ToldMessages, told_types
 from rebsync.reverse.syntax.ancestors import ancestors, functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
@@ -78,6 +80,7 @@ class Silent:
     variables: Mapping[str, m.Type] = with_default(default_factory=dict)
     asked: Answering = Answering()
     exceptions: ToldExceptions = ToldExceptions()
+    messages: ToldMessages = ToldMessages({}, {}, Looks())
 
     @property
     def looks(self) -> Looks:
@@ -104,6 +107,9 @@ class Silent:
 
     def tells(self, node: Node) -> bool:
         """Whether a statement does nothing but to tell people something, or to keep it for that."""
+        return self._tells_at_all(node) and self.messages.fit(node)
+
+    def _tells_at_all(self, node: Node) -> bool:
         if only_logs(node, self.looks):
             return True
         if node.type == "if_statement":
@@ -147,8 +153,11 @@ class Silent:
             return (
                 self._is_place(holder) and is_kept and STORING[kind].get(method) == len(arguments)
             )
+        is_told = text_of(holder).removeprefix("self.") in self.publishers
+        if method == "sendTransform":
+            return is_told and self.messages.sends_transform(arguments)
         if method == "publish":
-            return text_of(holder).removeprefix("self.") in self.publishers
+            return is_told
         return method in ("append", "clear") and self._is_place(holder)
 
     def _is_place(self, node: Node) -> bool:
@@ -207,7 +216,8 @@ def silent_in(
     """
     owner, functions = line[0], roles[0].functions
     taken = {n for r in roles for n in (*r.state, *r.known, *r.env, *r.publishers)}.difference(own)
-    makers = frozenset(makers_in(owner.module))
+    types = told_types(owner.module)
+    makers = frozenset(types)
     modules = [*{id(c.module): c.module for c in line}.values()]
     hidden = hidden_names(code, owner.module)
     looks = looks_of(code, line, makers, hidden)
@@ -235,7 +245,7 @@ def silent_in(
     locks = frozenset(n for n, v in members.items() if is_lock(owner.module, v))
     found = Silent(
         told,
-        frozenset(n for n, v in publishers.items() if _is_publisher(v, makers)),
+        frozenset(n for n, v in publishers.items() if tells_by(code, owner.module, v, types)),
         frozenset(n for n, v in members.items() if timers.is_idle(v) or asked.is_idle(v)),
         locks,
         {f.node.id: told_locals(f, makers, looks) for f in functions.values()},
@@ -246,6 +256,7 @@ def silent_in(
         variables,
         asked,
         exceptions,
+        ToldMessages(types, variables, looks),
     )
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)
@@ -297,17 +308,6 @@ def _made(functions: Mapping[str, Scope]) -> Iterator[tuple[str, Node]]:
             if left.type == "attribute" and text_of(field(left, "object")) == "self":
                 found.setdefault(text_of(field(left, "attribute")), []).append(value)
     yield from ((name, values[0]) for name, values in found.items() if len(values) == 1)
-
-
-# --- what members are ---------------------------------------------------------------------------
-
-
-def _is_publisher(node: Node, makers: frozenset[str]) -> bool:
-    called, arguments = call_and_arguments(node)
-    types = [a for a in arguments if text_of(a) in makers]
-    topics = [s for a in arguments if (s := string_value(a)) is not None]
-    is_named = len(topics) == 1 and is_topic(topics[0], called)
-    return called in PUBLISHERS and len(types) == 1 and is_named
 
 
 # --- where they are used ------------------------------------------------------------------------
