@@ -139,9 +139,9 @@ class LibraryExceptions:
         kinds = self.expressions.types.kinds
         match when:
             case Raises.NO_TEXT:
-                return all(kinds.of(v, facts) == {OwnType.TEXT} for v in values[:1])
+                return all(kinds.of(v, facts) <= {OwnType.TEXT, None} for v in values[:1])
             case Raises.OBJECTS:
-                return all(kinds.is_plain(v, facts) for v in values)
+                return all(kinds.may_be_plain(v, facts) for v in values)
             case Raises.UNWRITTEN:
                 return all(map(self.expressions.texts, values[:1]))
             case _:

@@ -15,7 +15,7 @@ from rebsync.reverse.analysis.stores import CallResult, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.calls import Callee
-from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.python_telling import log_arguments
 from rebsync.reverse.libraries.routines import LogCall
 
 _WRONG = "is of another type"
@@ -54,7 +54,7 @@ class LogArguments:
 
     def _logs(self, callee: Callee) -> LogCall | None:
         """What a call that logs takes; None for any other call."""
-        table = libraries.log_arguments()
+        table = log_arguments()
         match callee:
             case s.LibraryCallee(name, None):
                 return table.get(name)

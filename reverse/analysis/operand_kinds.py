@@ -52,7 +52,9 @@ ATTRIBUTES: Mapping[OwnType, frozenset[str]] = {
 }
 _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
 _ADDED = frozenset({OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
-_LISTING = frozenset({"builtins.list", "builtins.tuple", "builtins.sorted"})
+_IN_TEXTS = frozenset(
+    {OwnType.NUMBER, OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.MAPPING, None}
+)
 _DEEPEST = 12
 UNKNOWN = None  # in a set of kinds: a value that may be of any type
 Kinds: TypeAlias = "frozenset[OwnType | None]"
@@ -112,41 +114,25 @@ class OperandKinds:
             case _:
                 return []
 
-    def is_plain(self, value: e.Expression, facts: Facts) -> bool:
-        """Whether a value is a number, a text or None, or lists and mappings of such."""
+    def may_be_plain(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a value may be made of numbers, texts, lists and mappings alone."""
         match value:
-            case e.Literal() | e.Format():
-                return True
             case e.Build(t.Container(t.ContainerKind.SEQUENCE | t.ContainerKind.TUPLE), parts):
-                return all(not isinstance(p, e.Spread) and self.is_plain(p, facts) for p in parts)
+                within = [p.operand if isinstance(p, e.Spread) else p for p in parts]
+                return all(self.may_be_plain(p, facts) for p in within)
             case e.BuildMapping(_, entries):
-                pairs = [entry for entry in entries if not isinstance(entry, e.Spread)]
-                is_whole = len(pairs) == len(entries)
-                return is_whole and all(self.is_plain(part, facts) for p in pairs for part in p)
+                pairs = (entry for entry in entries if not isinstance(entry, e.Spread))
+                return all(self.may_be_plain(part, facts) for pair in pairs for part in pair)
             case e.Conditional(_, one, other):
-                return self.is_plain(one, facts) and self.is_plain(other, facts)
-            case e.Temporary() if self._is_listed(value):
-                return True
-            case _:
-                return self.of(value, facts) <= {OwnType.NUMBER, OwnType.TEXT}
+                return self.may_be_plain(one, facts) and self.may_be_plain(other, facts)
+        held = self._notes.origins.of(value, self._name)
+        is_object = any(isinstance(o, ClassOrigin) and o.of_object for o in held)
+        return not is_object and self.of(value, facts) <= _IN_TEXTS
 
     def is_whole(self, value: e.Expression) -> bool:
         """Whether a value is declared as a whole number."""
         types = self._declared_types(value, self._graph.program.function(self._name))
         return bool(types) and all(isinstance(each, t.Integer | t.Truth) for each in types)
-
-    def _is_listed(self, value: e.Temporary) -> bool:
-        """Whether a value is a list of the elements of an array that is declared."""
-        key = key_of(value, self._name)
-        around = self._graph.program.function(self._name)
-        match self._graph.stores.of(key) if key is not None else ():
-            case ((_, CallResult(s.Call(_, s.LibraryCallee(name), (of,)))),):
-                arrays = self._declared_types(of.value, around)
-                plain = [a for a in arrays if isinstance(a, t.Array) and _of_type(a.element)]
-                is_flat = all(not isinstance(a.element, t.Array) for a in plain)
-                return name in _LISTING and bool(plain) and is_flat and len(plain) == len(arrays)
-            case _:
-                return False
 
     def _has_own(self, of: e.Expression, function: str) -> bool:
         """Whether attributes of an object have what the program stores, as it is."""

@@ -13,7 +13,6 @@ from rebsync.reverse.libraries.routines import (
     Kind,
     Language,
     Library,
-    LogCall,
     Routine,
 )
 from rebsync.reverse.libraries.tables.standard import ACTING_WORDS
@@ -332,19 +331,6 @@ def log_words() -> re.Pattern[str]:
         rf"(?:{names}|(?:\w+\.)*(?:{loggers})\.(?:{_LEVELS})|print"
         rf"|logging\.(?:getLogger\([^()]*\)\.)?{levels}|(?:self\.)?_?log(?:ger)?\.{levels})\Z"
     )
-
-
-@derived
-def log_arguments() -> Mapping[str, LogCall]:
-    """What logs with the arguments that it takes, by full names: `get_logger().info`."""
-    return {n: call for library in _libraries() for n, call in library.log_arguments.items()}
-
-
-@derived
-def broadcasters() -> frozenset[str]:
-    """The classes of what sends transforms as they change."""
-    made = (pair for library in _libraries() for pair in library.unmodelled.items())
-    return frozenset(name for name, routine in made if routine.kind is Kind.BROADCASTER)
 
 
 @derived

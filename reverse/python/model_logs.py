@@ -100,10 +100,7 @@ class Looks:
 
     def _fields_of(self, local: Node) -> Sequence[str] | None:
         """The fields that a local has which only ever is a record; None for another one."""
-        function = next(functions_around(local), None)
-        nodes = nodes_in(function) if function is not None else ()
-        stores = [n for n in nodes if n.type == "assignment" and is_target(n, text_of(local))]
-        made = [text_of(field(n, "right")).partition("(")[0] for n in stores]
+        made = [text_of(value).partition("(")[0] for value in self._stores(local)]
         if len(set(made)) != 1 or made[0] not in self.records:
             return None
         return self.records[made[0]]
@@ -114,6 +111,28 @@ class Looks:
         fields = self._fields_of(of) if of.type == "identifier" else None
         names = [text_of(field(n, "name")) for n in changed if n.type == "keyword_argument"]
         return fields is not None and len(names) == len(changed) and set(names) <= set(fields)
+
+    def _is_plain(self, value: Node) -> bool:
+        """Whether a value is made of plain ones: no object that people made is in it."""
+        match value.type:
+            case "keyword_argument":
+                return self._is_plain(field(value, "value"))
+            case "dictionary" | "list" | "tuple" | "pair" | "parenthesized_expression":
+                return all(map(self._is_plain, named(value)))
+            case "call":
+                return text_of(field(value, "function")) in LOOKS or self.is_text(value)
+            case "identifier":
+                stores = [*self._stores(value)]
+                return text_of(value) != "self" and all(map(self._is_plain, stores))
+            case _:
+                return True
+
+    def _stores(self, local: Node) -> Iterator[Node]:
+        """What a function stores under the name of a local."""
+        function = next(functions_around(local), None)
+        for node in nodes_in(function) if function is not None else ():
+            if node.type == "assignment" and is_target(node, text_of(local)):
+                yield field(node, "right")
 
     def _container(self, node: Node) -> str:
         """The kind of the container that a member is; empty for all else."""
@@ -134,6 +153,8 @@ class Looks:
             given = field(call, "arguments")
             return len(named(given)) == count and _by_position(given) and not has_splat(call)
         if called in self.computing:
+            if called.rpartition(".")[2] == "dumps":
+                return all(map(self._is_plain, named(field(call, "arguments"))))
             return not called.endswith("replace") or self._replaces(call)
         if called in self.clocks:
             return not named(field(call, "arguments"))

@@ -14,7 +14,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_OF_NODE, PUBLISHER_OF_ROS_1
-from rebsync.reverse.libraries.python import broadcasters
+from rebsync.reverse.libraries.python_telling import broadcasters
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.module_variables import call_and_arguments, imported_as
 from rebsync.reverse.python.runtime_files import is_runtime_file
