@@ -14,15 +14,16 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.body_form import PyForm
-from rebsync.reverse.syntax.ancestors import holds
+from rebsync.reverse.syntax.ancestors import ancestors, holds
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
-from rebsync.reverse.syntax.py_tree import Py, field, text_of, whole_number_of
+from rebsync.reverse.syntax.py_tree import Py, field, named, text_of, whole_number_of
 from rebsync.source import Span
 
 # What the model has of an operation: it violates what the model forbids where Python raises these.
 _MODELLED = frozenset({"builtins.IndexError", "builtins.KeyError", "builtins.ZeroDivisionError"})
 
+_NO_ELEMENT = "builtins.IndexError"
 _DIVIDING = frozenset({"/", "//", "%", "<<", ">>", "**"})
 
 
@@ -60,7 +61,8 @@ class ToldExceptions:
                 continue
             is_modelled = is_here and problem.place in modelled
             is_modelled = is_modelled or self._is_there_at(scope, problem.place)
-            if not (is_modelled and problem.raises in _MODELLED):
+            is_tested = problem.raises == _NO_ELEMENT and _is_tested_at(scope, problem.place)
+            if not (is_tested or (is_modelled and problem.raises in _MODELLED)):
                 yield problem.why
 
     def races(self, node: Node) -> bool:
@@ -91,6 +93,23 @@ class ToldExceptions:
         lengths = type_.dimensions if type_ is not None else ()
         pairs = zip(dimensions, lengths, strict=False)
         return len(dimensions) <= len(lengths) and all(0 <= at < n for at, n in pairs)
+
+
+def _is_tested_at(scope: Scope, place: Span) -> bool:
+    """`names[i] if 0 <= i < len(names) else i`, where `i` is a local."""
+    nodes = (n for n in nodes_in(scope.node) if n.type == "subscript")
+    return any(_is_tested(n) for n in nodes if scope.py.span(n) == place)
+
+
+def _is_tested(element: Node) -> bool:
+    index, of = field(element, "subscript"), text_of(field(element, "value"))
+    wanted = f"0<={text_of(index)}<len({of})"
+    return index.type == "identifier" and any(
+        holds(then, element) and "".join(text_of(condition).split()) == wanted
+        for above in ancestors(element)
+        if above.type == "conditional_expression"
+        for then, condition, _ in [named(above)]
+    )
 
 
 def _decides(node: Node) -> Node | None:
