@@ -107,9 +107,6 @@ class Silent:
 
     def tells(self, node: Node) -> bool:
         """Whether a statement does nothing but to tell people something, or to keep it for that."""
-        return self._tells_at_all(node) and self.messages.fit(node)
-
-    def _tells_at_all(self, node: Node) -> bool:
         if only_logs(node, self.looks):
             return True
         if node.type == "if_statement":
@@ -227,7 +224,8 @@ def silent_in(
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
     handed = {n: functions[n] for n in roles[0].ticking}
-    exceptions = ToldExceptions.of(code, form, variables)
+    messages = ToldMessages(types, variables, looks)
+    exceptions = ToldExceptions.of(code, form, messages)
     timers = Timers.of(code, handed, looks, exceptions)
     looks = replace(looks, logging=timers.logging)
     stores = stores_in(module.node for module in modules)
@@ -256,7 +254,7 @@ def silent_in(
         variables,
         asked,
         exceptions,
-        ToldMessages(types, variables, looks),
+        messages,
     )
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)

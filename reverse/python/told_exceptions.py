@@ -14,6 +14,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.body_form import PyForm
+from rebsync.reverse.python.told_messages import ToldMessages
 from rebsync.reverse.syntax.ancestors import ancestors, holds
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
@@ -29,16 +30,20 @@ _DIVIDING = frozenset({"/", "//", "%", "<<", ">>", "**"})
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ToldExceptions:
-    """What the statements of a class may raise; `variables` are its state, by attributes."""
+    """What the statements of a class may raise; `variables` are its state, by attributes,
+    `messages` those for people.
+    """
 
     form: PyForm | None = None
     files: Mapping[int, Py] = with_default(default_factory=dict)
     variables: Mapping[str, m.Type] = with_default(default_factory=dict)
+    messages: ToldMessages | None = None
 
     @staticmethod
-    def of(code: PyCode, form: PyForm, variables: Mapping[str, m.Type]) -> ToldExceptions:
+    def of(code: PyCode, form: PyForm, messages: ToldMessages) -> ToldExceptions:
         """Those of a class of some code."""
-        return ToldExceptions(form, {s.node.id: s.py for s in code.modules.values()}, variables)
+        files = {s.node.id: s.py for s in code.modules.values()}
+        return ToldExceptions(form, files, messages.variables, messages)
 
     def raises(self, node: Node) -> bool:
         """Whether an exception may leave a part of a function."""
@@ -52,8 +57,13 @@ class ToldExceptions:
         `modelled` are the places of the operations that the model has, and `methods` its methods,
         which are read themselves.
         """
+        if self.form is None:
+            return
+        if self.messages is not None and not self.messages.fit(node):
+            yield "a message has no such field, or one that does not take this"
         py = self.files.get(_root(node).id)
-        if self.form is None or py is None:
+        if py is None:
+            yield "nobody knows what this does"
             return
         for problem, scope in self.form.raised(py, py.span(node)):
             is_here = scope.py is py and holds(scope.node, node)
