@@ -28,7 +28,7 @@ from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, has_splat
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _DESCRIBES = frozenset({"__repr__", "__str__"})
-_PLAIN_VALUES = frozenset({"string", "integer", "float", "true", "false", "none", "attribute"})
+_PLAIN_VALUES = frozenset({"string", "integer", "float", "true", "false", "none"})
 _STORING = frozenset({"named_expression", "await", "yield", "lambda"})
 
 
@@ -180,14 +180,11 @@ class Looks:
     def _calls_plain(self, call: Node) -> bool:
         """Whether what a call itself calls of what it gets are functions of Python's own."""
         given = named(field(call, "arguments"))
-        first = given[:1] if text_of(field(call, "function")) in CALLING else []
+        called = given[:1] if text_of(field(call, "function")) in CALLING else []
         by_name = [n for n in given if n.type == "keyword_argument"]
         handed = [field(n, "value") for n in by_name if text_of(field(n, "name")) in CALLED]
-        plain = [n for n in handed if n.type != "identifier"]
-        called = [n for n in (*first, *handed) if n not in plain]
-        return all(text_of(n) in LOOKS & self.trusted for n in called) and all(
-            n.type in _PLAIN_VALUES for n in plain
-        )
+        called += [n for n in handed if n.type not in _PLAIN_VALUES and not _is_own(n)]
+        return all(text_of(n) in LOOKS & self.trusted for n in called)
 
     def is_text(self, node: Node) -> bool:
         """Whether a value is a text by how it is made."""
@@ -252,6 +249,11 @@ class Looks:
     def is_node(self) -> bool:
         """Whether the object is a node of ROS 2 that has its logger from there."""
         return "self" in self.trusted and "get_logger" not in self.functions
+
+
+def _is_own(node: Node) -> bool:
+    """Whether something is an attribute of the object itself."""
+    return node.type == "attribute" and text_of(field(node, "object")) == "self"
 
 
 def is_target(assignment: Node, name: str) -> bool:
