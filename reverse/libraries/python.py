@@ -328,7 +328,7 @@ def log_words() -> re.Pattern[str]:
     loggers = "|".join(rf"{re.escape(g)}\([^()]*\)" for lib in clients() for g in lib.logs)
     levels = rf"(?:{_LEVELS}|critical|exception|log)"
     return re.compile(
-        rf"(?:{names}|(?:\w+\.)*(?:{loggers})\.(?:{_LEVELS})|print"
+        rf"(?:{names}|(?:\w+\.)*(?:{loggers})\.(?:{_LEVELS}|set_level)|print"
         rf"|logging\.(?:getLogger\([^()]*\)\.)?{levels}|(?:self\.)?_?log(?:ger)?\.{levels})\Z"
     )
 
