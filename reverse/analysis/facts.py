@@ -86,7 +86,11 @@ class IsPositive:
 
 
 class OwnType(Enum):
-    """A type of Python's own; numbers are one, with truth values."""
+    """A type of Python's own; numbers are one, with truth values.
+
+    `ARRAY` is what generated code has for arrays: it is gone through and asked for one element at a
+    time, and has no length and no parts.
+    """
 
     NUMBER = "number"
     TEXT = "str"
@@ -95,6 +99,7 @@ class OwnType(Enum):
     SET = "set"
     MAPPING = "dict"
     QUEUE = "deque"
+    ARRAY = "array"
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,10 +1,12 @@
-"""Texts that `str.format` fills in, as Python's format string syntax has them."""
+"""Texts that `str.format` and `%` fill in, as Python has them."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from string import Formatter
+
+from rebsync.reverse.analysis.facts import OwnType
 
 
 def has_pieces(text: str, by_place: int, names: Collection[str]) -> bool:
@@ -47,3 +49,23 @@ def conversions(text: str) -> list[str] | None:
         found += "d" * match[0].count("*")
         found += match[0][-1] if match[0][-1] != "%" else ""
     return found
+
+
+def refuses(text: str, values: Sequence[Collection[OwnType | None]]) -> bool:
+    """Whether `%` may not put values into a text, of which the types that each may have are known.
+
+    There may be too many of them, or too few, or one of another type than the text asks for.
+    """
+    letters = conversions(text)
+    if letters is None:
+        return False
+    if len(letters) != len(values) or "%" in _CONVERSION.sub("", text):
+        return True
+    return any(_is_refused(letter, kinds) for letter, kinds in zip(letters, values, strict=True))
+
+
+def _is_refused(letter: str, kinds: Collection[OwnType | None]) -> bool:
+    if letter in "sra":
+        return False
+    taken = {OwnType.NUMBER, OwnType.TEXT, None} if letter == "c" else {OwnType.NUMBER, None}
+    return letter not in "diouxXeEfFgGc" or not taken.issuperset(kinds)

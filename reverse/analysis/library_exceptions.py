@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal, TypeAlias
 
-from rebsync.reverse.analysis.facts import Facts, HasKey, bare, names_of
+from rebsync.reverse.analysis.facts import Facts, HasKey, OwnType, bare, names_of
 from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
@@ -26,6 +26,7 @@ def _is_positive(value: object) -> bool:
 
 
 _OfNumbers: TypeAlias = Literal[Raises.NEGATIVE, Raises.ZERO_SECOND, Raises.ZERO_STEP, Raises.POWER]
+_Plain: TypeAlias = Literal[Raises.NO_TEXT, Raises.OBJECTS, Raises.UNWRITTEN]
 _WHOLE = (["utf-8"], ["utf8"], ["UTF-8"])  # encodings that have all characters
 
 
@@ -56,9 +57,13 @@ class LibraryExceptions:
             raised |= {"builtins.OverflowError"}
         has_default = any(a.name == "default" for a in node.arguments)
         is_many = receiver is None and (len(plain) > 1 or has_default)
-        if is_many or (of is not None and self.expressions.size(of, facts)):
+        if is_many or (of is not None and self._has_elements(of, facts)):
             return raised
         return raised | outcome.empty
+
+    def _has_elements(self, value: e.Expression, facts: Facts) -> bool:
+        kinds = self.expressions.types.kinds.of(value, facts)
+        return bool(self.expressions.size(value, facts)) or kinds == {OwnType.ARRAY}
 
     def has_pieces(self, node: s.Call, text: e.Expression) -> bool:
         """Whether a call that formats a text gets all arguments that the text names."""
@@ -96,10 +101,11 @@ class LibraryExceptions:
                 return bool(values) and is_position(bare(values[0]))
             case Raises.TEXT:
                 first = values[:1]
-                return not all(self._is_number(v) or self._is_of_number(v, float) for v in first)
+                return not all(self._is_number_text(v, facts) for v in first)
             case Raises.INFINITE:
                 is_finite = Magnitudes(self.origins, self.function).is_finite
-                if all(self._is_of_number(v, int) for v in values[:1]):
+                is_whole = self.expressions.types.kinds.is_whole
+                if all(is_whole(v) or self._is_of_number(v, int) for v in values[:1]):
                     return False
                 return not all(self._is_number(v) and is_finite(v) for v in values[:1])
             case Raises.COMPUTED:
@@ -110,8 +116,8 @@ class LibraryExceptions:
                 )
             case Raises.CODED:
                 return any(self.expressions.texts(v) not in _WHOLE for v in values)
-            case Raises.UNWRITTEN:
-                return not all(map(self.expressions.texts, values[:1]))
+            case Raises.NO_TEXT | Raises.OBJECTS | Raises.UNWRITTEN:
+                return not self._are_plain(values, when, facts)
             case Raises.UNDECLARED | Raises.UNDECLARED_ALONE | Raises.REPEATED:
                 return self._is_odd_parameter(node, when, facts)
             case Raises.UNORDERED:
@@ -127,6 +133,19 @@ class LibraryExceptions:
         if when is Raises.REPEATED:
             return declared.may_have(self.function)
         return not self._is_there(node, facts) and declared.may_lack(node, self.function)
+
+    def _are_plain(self, values: Sequence[e.Expression], when: _Plain, facts: Facts) -> bool:
+        """Whether the arguments are of the types for which a call does not raise."""
+        kinds = self.expressions.types.kinds
+        match when:
+            case Raises.NO_TEXT:
+                return all(kinds.of(v, facts) <= {OwnType.TEXT, None} for v in values[:1])
+            case Raises.OBJECTS:
+                return all(kinds.may_be_plain(v, facts) for v in values)
+            case Raises.UNWRITTEN:
+                return all(map(self.expressions.texts, values[:1]))
+            case _:
+                assert_never(when)
 
     def _are_numbers(self, values: Sequence[e.Expression], when: _OfNumbers, facts: Facts) -> bool:
         """Whether the arguments are numbers for which a rule says that a call does not raise."""
@@ -161,6 +180,11 @@ class LibraryExceptions:
     def _is_number(self, value: e.Expression) -> bool:
         """Whether a value is a number by how it is computed."""
         return self.origins.of(value, self.function) == {PlainOrigin()}
+
+    def _is_number_text(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a value is a number, or a text that is one."""
+        is_known = self.expressions.types.kinds.of(value, facts) == {OwnType.NUMBER}
+        return is_known or self._is_number(value) or self._is_of_number(value, float)
 
     def _is_of_number(self, value: e.Expression, kind: type[int] | type[float]) -> bool:
         """Whether a value is one of some texts in the source, which are those of numbers."""

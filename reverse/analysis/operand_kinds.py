@@ -28,7 +28,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import COMPARISONS, Operator
-from rebsync.reverse.ir.program import FunctionKind
+from rebsync.reverse.ir.program import Function, FunctionKind
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
@@ -39,7 +39,7 @@ _CONTAINERS = {
     t.ContainerKind.SET: OwnType.SET,
     t.ContainerKind.MAPPING: OwnType.MAPPING,
 }
-_BY_NAME = {kind.value: kind for kind in OwnType}
+_BY_NAME = {kind.value: kind for kind in OwnType if kind is not OwnType.ARRAY}
 ATTRIBUTES: Mapping[OwnType, frozenset[str]] = {
     OwnType.NUMBER: frozenset(dir(int)) | frozenset(dir(float)),
     OwnType.TEXT: frozenset(dir(str)),
@@ -48,9 +48,13 @@ ATTRIBUTES: Mapping[OwnType, frozenset[str]] = {
     OwnType.SET: frozenset(dir(set)),
     OwnType.MAPPING: frozenset(dir(dict)) | {"has_key", "iteritems", "iterkeys", "itervalues"},
     OwnType.QUEUE: frozenset(dir(deque)),
+    OwnType.ARRAY: frozenset(dir(object)) | {"at"},
 }
 _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
 _ADDED = frozenset({OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
+_IN_TEXTS = frozenset(
+    {OwnType.NUMBER, OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.MAPPING, None}
+)
 _DEEPEST = 12
 UNKNOWN = None  # in a set of kinds: a value that may be of any type
 Kinds: TypeAlias = "frozenset[OwnType | None]"
@@ -70,7 +74,9 @@ class OperandKinds:
         """The types of what a value may be where some facts are known; None is looked for apart."""
         known = [fact.types for fact in facts if isinstance(fact, IsOf) and fact.value == value]
         if known:  # what a test says is not told apart, and is any type
-            return _ANY if _ANY in known else known[0]
+            return known[0] if _ANY not in known else self._declared(value, self._name) or _ANY
+        if declared := self._declared(value, self._name):
+            return declared
         key = key_of(value, self._name)
         if key is None or isinstance(value, e.Temporary):
             return self._of(value, self._name, frozenset())
@@ -87,6 +93,46 @@ class OperandKinds:
             kinds = {n: self._graph.program.function(n).kind for n, _ in found}
             found = [s for s in found if kinds[s[0]] not in _FIRST]
         return self._union(found, frozenset({key}))
+
+    def _declared(self, value: e.Expression, function: str) -> Kinds:
+        """The types that parameters, attributes and their elements are declared with."""
+        types = self._declared_types(value, self._graph.program.function(function))
+        return frozenset(kind for each in types if (kind := _of_type(each)) is not None)
+
+    def _declared_types(self, value: e.Expression, around: Function) -> list[t.Type]:
+        program = self._graph.program
+        match value:
+            case e.Local(name):
+                return [p.type for p in around.parameters if p.name == name]
+            case e.Attribute(e.Local(of), name) if of == around.receiver and around.owner:
+                classes = map(program.classes.get, self._graph.family(around.owner))
+                fields = (f for c in classes if c is not None for f in c.fields)
+                return [f.type for f in fields if f.name == name]
+            case e.Index(of, index) if not isinstance(index, e.Slice):
+                arrays = self._declared_types(of, around)
+                return [a.element for a in arrays if isinstance(a, t.Array)]
+            case _:
+                return []
+
+    def may_be_plain(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a value may be made of numbers, texts, lists and mappings alone."""
+        match value:
+            case e.Build(t.Container(t.ContainerKind.SEQUENCE | t.ContainerKind.TUPLE), parts):
+                within = [p.operand if isinstance(p, e.Spread) else p for p in parts]
+                return all(self.may_be_plain(p, facts) for p in within)
+            case e.BuildMapping(_, entries):
+                pairs = (entry for entry in entries if not isinstance(entry, e.Spread))
+                return all(self.may_be_plain(part, facts) for pair in pairs for part in pair)
+            case e.Conditional(_, one, other):
+                return self.may_be_plain(one, facts) and self.may_be_plain(other, facts)
+        held = self._notes.origins.of(value, self._name)
+        is_object = any(isinstance(o, ClassOrigin) and o.of_object for o in held)
+        return not is_object and self.of(value, facts) <= _IN_TEXTS
+
+    def is_whole(self, value: e.Expression) -> bool:
+        """Whether a value is declared as a whole number."""
+        types = self._declared_types(value, self._graph.program.function(self._name))
+        return bool(types) and all(isinstance(each, t.Integer | t.Truth) for each in types)
 
     def _has_own(self, of: e.Expression, function: str) -> bool:
         """Whether attributes of an object have what the program stores, as it is."""
@@ -118,6 +164,9 @@ class OperandKinds:
                 return self._of(value, function, seen)
 
     def _of(self, value: e.Expression, function: str, seen: frozenset[Key]) -> Kinds:
+        return self._declared(value, function) or self._known(value, function, seen)
+
+    def _known(self, value: e.Expression, function: str, seen: frozenset[Key]) -> Kinds:
         match value:
             case e.Literal(None):
                 return frozenset()
@@ -166,6 +215,19 @@ class OperandKinds:
                 if isinstance(node, s.Return) and node.value is not None:
                     found |= self._of(node.value, name, seen)
         return found
+
+
+def _of_type(type_: t.Type) -> OwnType | None:
+    """The type of Python's own that a declared one is."""
+    match type_:
+        case t.Integer() | t.Float() | t.Truth():
+            return OwnType.NUMBER
+        case t.Text():
+            return OwnType.TEXT
+        case t.Array():
+            return OwnType.ARRAY
+        case _:
+            return None
 
 
 def _computed(operator: Operator, left: Kinds, right: Kinds) -> Kinds:

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from rebsync.reverse.analysis.facts import Facts, OwnType
-from rebsync.reverse.analysis.format_strings import conversions
+from rebsync.reverse.analysis.format_strings import refuses
+from rebsync.reverse.analysis.log_arguments import LogArguments
 from rebsync.reverse.analysis.operand_kinds import ATTRIBUTES, Kinds, OperandKinds
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
@@ -27,8 +28,9 @@ _OF_MODULES = frozenset({"__name__", "__file__", "__doc__", "__package__", "__sp
 _HOOKS = ("__getattr__", "__getattribute__")
 NUMBER, TEXT = OwnType.NUMBER, OwnType.TEXT
 _SEQUENCES = frozenset({TEXT, OwnType.LIST, OwnType.TUPLE})
-_INDEXED = _SEQUENCES | {OwnType.QUEUE, OwnType.MAPPING}
-_UNHASHABLE = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
+_INDEXED = _SEQUENCES | {OwnType.QUEUE, OwnType.MAPPING, OwnType.ARRAY}
+_SIZED = frozenset(OwnType) - {NUMBER, OwnType.ARRAY}
+_UNHASHABLE = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE, OwnType.ARRAY})
 _ORDERED = (Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL)
 _EQUALITY = (Operator.EQUAL, Operator.UNEQUAL)
 _SORTING = frozenset({"builtins.sorted", "builtins.max", "builtins.min"})
@@ -36,12 +38,13 @@ _OF_SETS = (Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR, Operator.SUBTRA
 _OF_NUMBERS = frozenset(
     f"builtins.{n}" for n in ("abs", "round", "float", "int", "divmod", "pow", "range", "chr")
 )
+_OF_NUMBER, _OF_WHOLE = "bcdeEfFgGnoxX%", "bcdoxX"  # how styles end
 _OF_TEXTS = frozenset({"builtins.float", "builtins.int"})  # which take texts as well
 _OF_ELEMENTS = frozenset(
     f"builtins.{n}"
     for n in (
         *("len", "sum", "any", "all", "sorted", "list", "tuple", "set", "enumerate"),
-        *("reversed", "iter", "zip"),
+        *("iter", "zip"),
     )
 )
 
@@ -51,13 +54,14 @@ class TypeErrors:
 
     def __init__(self, notes: ProblemNotes) -> None:
         self._notes = notes
-        self._kinds = OperandKinds(notes)
+        self.kinds = OperandKinds(notes)
         self._objects = notes.counts.rules.objects
+        self._logs = LogArguments(notes, self.kinds)
         self._is_python = notes.table.language is Language.PYTHON
 
     def of(self, value: e.Expression, facts: Facts) -> Kinds | None:
         """The types that a value may be of; None in other languages."""
-        return self._kinds.of(value, facts) if self._is_python else None
+        return self.kinds.of(value, facts) if self._is_python else None
 
     def check(self, value: e.Expression, facts: Facts) -> None:
         """Notes what evaluating an expression asks of values that have it not."""
@@ -76,7 +80,7 @@ class TypeErrors:
             case e.Format(pieces):
                 for piece in pieces:
                     if piece.style is not None:
-                        self._styled(value, piece, facts)
+                        self._styled(value, piece.value, piece.style, facts)
             case e.Global(module, name):
                 self._named(value, module, name)
             case _:
@@ -88,12 +92,13 @@ class TypeErrors:
             return
         plain = [a.value for a in node.arguments if a.name is None and not a.stars]
         self._sorts(node, plain)
+        self._logs.check(node, facts)
         match node.callee:
             case s.ValueCallee(value):
                 self._needs(node, value, set(), facts)
             case s.MethodCallee(receiver, name, _, None):
                 self._asks(node, receiver, name, facts)
-                if name == "add" and self._kinds.of(receiver, facts) == {OwnType.SET}:
+                if name == "add" and self.kinds.of(receiver, facts) == {OwnType.SET}:
                     for value in plain:
                         self._needs(node, value, set(OwnType) - _UNHASHABLE, facts)
                 if not self._notes.origins.methods_of_any(name):
@@ -104,10 +109,15 @@ class TypeErrors:
                 taken = {NUMBER, TEXT} if name in _OF_TEXTS else {NUMBER}
                 for value in plain:
                     self._needs(node, value, taken, facts)
+            case s.LibraryCallee("builtins.format") if len(plain) > 1:
+                self._styled(node, plain[0], plain[1], facts)
             case s.LibraryCallee("builtins.len"):
                 for value in plain[:1]:
-                    self._needs(node, value, set(OwnType) - {NUMBER}, facts)
+                    self._needs(node, value, _SIZED, facts)
                     self._answers(node, value, ImplicitCall.LENGTH)
+            case s.LibraryCallee("builtins.reversed"):
+                for value in plain:
+                    self._needs(node, value, _SIZED, facts)
             case s.LibraryCallee(name) if name in _OF_ELEMENTS:
                 for value in plain if name == "builtins.zip" else plain[:1]:
                     self.iterates(node, value, facts)
@@ -159,9 +169,9 @@ class TypeErrors:
         """Notes that an element is stored in what takes none."""
         if not self._is_python:
             return
-        changing = {OwnType.LIST, OwnType.MAPPING, OwnType.QUEUE}
+        changing = {OwnType.LIST, OwnType.MAPPING, OwnType.QUEUE, OwnType.ARRAY}
         self._needs(target, target.object, changing, facts)
-        if self._kinds.of(target.object, facts) == {OwnType.MAPPING}:
+        if self.kinds.of(target.object, facts) == {OwnType.MAPPING}:
             self._needs(target, target.index, set(OwnType) - _UNHASHABLE, facts)
 
     def _needs(
@@ -171,7 +181,7 @@ class TypeErrors:
         taken: Iterable[OwnType],
         facts: Facts,
     ) -> None:
-        if self._kinds.of(value, facts) - {*taken, None}:
+        if self.kinds.of(value, facts) - {*taken, None}:
             self._notes.fails(node, _WRONG)
 
     # --- attributes ------------------------------------------------------------------------------
@@ -180,7 +190,7 @@ class TypeErrors:
         self, node: s.Statement | e.Expression, of: e.Expression, name: str, facts: Facts
     ) -> None:
         """An attribute is asked of a value."""
-        kinds = self._kinds.of(of, facts)
+        kinds = self.kinds.of(of, facts)
         if any(kind is not None and name not in ATTRIBUTES[kind] for kind in kinds) or (
             kinds == {None} and self._is_of_none(of, name)
         ):
@@ -238,7 +248,7 @@ class TypeErrors:
         right: e.Expression,
         facts: Facts,
     ) -> None:
-        kinds = self._kinds.of(left, facts), self._kinds.of(right, facts)
+        kinds = self.kinds.of(left, facts), self.kinds.of(right, facts)
         if operator in (Operator.IN, Operator.NOT_IN):
             wrong = bool(kinds[1] & {NUMBER}) or (
                 kinds[1] == {TEXT} and bool(kinds[0] - {TEXT, None})
@@ -261,41 +271,49 @@ class TypeErrors:
 
     def _puts(self, text: str, value: e.Expression, facts: Facts) -> bool:
         """Whether `%` may not put values into a text: too many, too few, or of another type."""
-        letters, kinds = conversions(text), self._kinds.of(value, facts)
-        if letters is None or (None in kinds and not isinstance(value, e.Build)):
-            return letters is not None and len(letters) != 1
-        values = list(value.elements) if isinstance(value, e.Build) else [value]
-        if kinds == {OwnType.TUPLE} and not isinstance(value, e.Build):
-            return False
-        if any(isinstance(each, e.Spread) for each in values) or len(letters) != len(values):
-            return True
-        pairs = zip(letters, values, strict=True)
-        return any(
-            letter not in "sra" and self._kinds.of(each, facts) - {NUMBER, None}  # type: ignore[arg-type]
-            for letter, each in pairs
-        )
+        kinds = self.kinds.of(value, facts)
+        if isinstance(value, e.Build) and kinds == {OwnType.TUPLE}:
+            if any(isinstance(each, e.Spread) for each in value.elements):
+                return True
+            return refuses(text, [self.kinds.of(v, facts) for v in value.elements])  # type: ignore[arg-type]
+        return kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
 
     # --- elements and texts ----------------------------------------------------------------------
 
     def _at(self, value: e.Index, of: e.Expression, index: e.Expression, facts: Facts) -> None:
         self._needs(value, of, _INDEXED, facts)
-        kinds = self._kinds.of(of, facts)
+        kinds = self.kinds.of(of, facts)
         if isinstance(index, e.Slice):
+            self._needs(value, of, set(OwnType) - {OwnType.ARRAY}, facts)
             return
-        if kinds and kinds <= _SEQUENCES | {OwnType.QUEUE}:
+        if kinds and kinds <= _SEQUENCES | {OwnType.QUEUE, OwnType.ARRAY}:
             self._needs(value, index, {NUMBER}, facts)
             if _is_fraction(index):
                 self._notes.fails(value, _WRONG)
         elif kinds == {OwnType.MAPPING}:
             self._needs(value, index, set(OwnType) - _UNHASHABLE, facts)
 
-    def _styled(self, value: e.Format, piece: e.FormatPiece, facts: Facts) -> None:
-        """A style that only numbers have."""
-        style = piece.style
-        if isinstance(style, e.Literal) and isinstance(style.value, str) and style.value:
-            is_of_numbers = style.value[-1] in "bcdeEfFgGnoxX%"
-            taken = {NUMBER} if is_of_numbers else {NUMBER, TEXT}
-            self._needs(value, piece.value, taken, facts)
+    def _styled(
+        self,
+        node: s.Statement | e.Expression,
+        value: e.Expression,
+        style: e.Expression,
+        facts: Facts,
+    ) -> None:
+        """A style that a value of its type has not; other types have styles of their own."""
+        if not (isinstance(style, e.Literal) and isinstance(style.value, str) and style.value):
+            return
+        kinds, letter = self.kinds.of(value, facts), style.value[-1]
+        if kinds & {NUMBER, TEXT} and letter.isalpha() and letter not in _OF_NUMBER + "s":
+            self._notes.fails(node, _WRONG)
+        elif letter == "s":
+            self._needs(node, value, {TEXT}, facts)
+        elif letter in _OF_NUMBER:
+            self._needs(node, value, {NUMBER}, facts)
+            if letter in _OF_WHOLE and _is_fraction(value):
+                self._notes.fails(node, _WRONG)
+        else:
+            self._needs(node, value, {NUMBER, TEXT}, facts)
 
 
 def _is_star(node: Node) -> bool:
@@ -332,7 +350,7 @@ def _takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> b
         case Operator.FLOOR_MODULO:
             return left is TEXT
         case _ if operator in _ORDERED:
-            return left is right and left is not OwnType.MAPPING
+            return left is right and left not in (OwnType.MAPPING, OwnType.ARRAY)
         case _ if operator in _OF_SETS:
             is_mapping = left is right is OwnType.MAPPING and operator is Operator.BIT_OR
             return left is right is OwnType.SET or is_mapping

@@ -13,6 +13,8 @@ PUBLISHER_METHOD = PUBLISHER_OF_NODE.rpartition(".")[2]
 # What makes a timer.
 TIMER_OF_ROS_1 = "rospy.Timer"
 TIMER_OF_NODE = "self.create_timer"
+# What has a function called when the node ends.
+SHUTDOWN_HOOKS = frozenset({"rospy.on_shutdown", "self.context.on_shutdown"})
 # What offers a service.
 SERVICE_OF_ROS_1 = "rospy.Service"
 SERVICE_OF_NODE = "self.create_service"

@@ -326,9 +326,10 @@ def log_words() -> re.Pattern[str]:
     """The same as generated code and what is around it may write it."""
     names = "|".join(sorted(map(re.escape, (n for n in names_of(Kind.LOG) if "builtins" not in n))))
     loggers = "|".join(rf"{re.escape(g)}\([^()]*\)" for lib in clients() for g in lib.logs)
+    levels = rf"(?:{_LEVELS}|critical|exception|log)"
     return re.compile(
-        rf"(?:{names}|(?:\w+\.)*(?:{loggers})\.\w+|print"
-        r"|logging\.(?:getLogger\([^()]*\)\.)?\w+|(?:self\.)?_?log(?:ger)?\.\w+)\Z"
+        rf"(?:{names}|(?:\w+\.)*(?:{loggers})\.(?:{_LEVELS}|set_level)|print"
+        rf"|logging\.(?:getLogger\([^()]*\)\.)?{levels}|(?:self\.)?_?log(?:ger)?\.{levels})\Z"
     )
 
 

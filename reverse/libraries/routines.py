@@ -222,6 +222,20 @@ class Table:
     spans: Mapping[str, float] = field(default_factory=dict)
 
 
+@dataclass(frozen=True, slots=True)
+class LogCall:
+    """What a call that logs takes: so many arguments `before` the message, and then the message.
+
+    The message is a text if it is `only_text`. Where it `formats`, the arguments behind it are what
+    `%` puts into the message; elsewhere it takes none. `keywords` are arguments by name.
+    """
+
+    before: int = 0
+    only_text: bool = False
+    formats: bool = True
+    keywords: frozenset[str] = frozenset()
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Library:
     """A library as it is called from one language.
@@ -238,8 +252,9 @@ class Library:
 
     One of `marks` is in every file that uses the library, and one of `starts` in some file of every
     package that has a node with it. `logs` are the beginnings of names of macros that log, or the
-    names of methods that give what logs; `registers` the macro that makes a component of a class,
-    `commands` those of CMake that do.
+    names of methods that give what logs; `log_arguments` are in Python what logs with the arguments
+    that it takes, by full names, methods as `get_logger().info`. `registers` is the macro that
+    makes a component of a class, `commands` those of CMake that do.
 
     Of a `flat` library names are not under a handle, and parameters are the node's own. With
     `threads`, callbacks run beside each other; with `strict`, a field of a message takes no number
@@ -264,6 +279,7 @@ class Library:
     marks: tuple[str, ...] = ()
     starts: tuple[str, ...] = ()
     logs: tuple[str, ...] = ()
+    log_arguments: Mapping[str, LogCall] = field(default_factory=dict)
     registers: str = ""
     commands: tuple[str, ...] = ()
     options: Mapping[str, Options] = field(default_factory=dict)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from functools import cached_property
 
 from tree_sitter import Node
@@ -40,12 +40,20 @@ _IMPORTS = re.compile(rb"^\s*(?:import|from)\s+(\w+)", re.MULTILINE)
 class PyForm:
     """The form of some modules, of which nothing is lowered before something is asked.
 
-    `without_runtime`: what the run-time part of generated code does is left out.
+    `without_runtime`: what the run-time part of generated code does is left out; `typed` adds the
+    types that values are known to have all the same.
     """
 
-    def __init__(self, code: PyCode, *, without_runtime: bool = False) -> None:
+    def __init__(
+        self,
+        code: PyCode,
+        *,
+        without_runtime: bool = False,
+        typed: Callable[[Program], Program] = lambda program: program,
+    ) -> None:
         self._code = code
         self._without_runtime = without_runtime
+        self._typed = typed
 
     @cached_property
     def program(self) -> Program:
@@ -55,7 +63,8 @@ class PyForm:
             return whole
         own = [name for name in whole.functions if not self._is_of_runtime(name)]
         classes = [c for c in whole.classes.values() if not self._is_of_runtime(c.name)]
-        return Program(own, classes, whole.function, whole.modules.items())
+        modules = [(name, of) for name, of in whole.modules.items() if not self._is_of_runtime(of)]
+        return self._typed(Program(own, classes, whole.function, modules))
 
     def _is_of_runtime(self, name: str) -> bool:
         module = self._code.modules.get(name.partition(":")[0])

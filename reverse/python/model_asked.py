@@ -16,10 +16,11 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import SERVICE_OF_NODE, SERVICE_OF_ROS_1
 from rebsync.reverse.python.model_logs import Looks, only_logs
-from rebsync.reverse.python.model_timers import is_heir
+from rebsync.reverse.python.model_timers import is_heir, tells_with
 from rebsync.reverse.python.model_types import call_parts, expression_in, string_value
 from rebsync.reverse.python.module_variables import imported_as
 from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.told_exceptions import ToldExceptions
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -68,6 +69,7 @@ class Answering:
         functions: Mapping[str, Scope],
         members: Mapping[str, Node],
         looks: Looks,
+        exceptions: ToldExceptions,
     ) -> Answering:
         """Those of a class by what it hands over; what an heir has instead may be anything."""
         names = {n: _SERVICES.fullmatch(imported_as(module, n)) for n in module.names}
@@ -77,7 +79,9 @@ class Answering:
         telling = {}
         for name, function in functions.items():
             others = (f for f in code.methods.get(name, ()) if f is not function)
-            if _only_tells(function, looks) and not any(map(is_heir, others)):
+            is_telling = _only_tells(function, looks) and not any(map(is_heir, others))
+            body = field(function.node, "body")
+            if is_telling and not (exceptions.raises(body) or exceptions.races(body)):
                 telling[name] = len(function.parameters) - 1
         made = (n for n, value in members.items() if _is_updater(module, value))
         bodies = frozenset(field(functions[n].node, "body").id for n in telling)
@@ -139,30 +143,15 @@ def _only_tells(function: Scope, looks: Looks) -> bool:
 
 def _tells(node: Node, given: str, names: set[str], looks: Looks) -> bool:
     """Whether a statement only looks at what is there, and puts it into what is given or local."""
-    if node.type in ("comment", "pass_statement") or only_logs(node, looks):
-        return True
-    if node.type == "return_statement":
-        return all(map(looks.is_pure, named(node)))
-    if node.type == "if_statement":
-        parts = [node, *node.children_by_field_name("alternative")]
-        return all(_branch_tells(part, given, names, looks) for part in parts)
-    inner = expression_in(node)
-    if inner is None:
-        return False
-    if inner.type == "call":
+
+    def tells(node: Node) -> bool:
+        if node.type == "return_statement":
+            return all(map(looks.is_pure, named(node)))
+        inner = expression_in(node)
+        if inner is None or inner.type != "call":
+            return False
         holder, _, method = text_of(field(inner, "function")).partition(".")
-        return holder == given and method in _STATED and looks.is_pure(field(inner, "arguments"))
-    value = inner.child_by_field_name("right")
-    if inner.type != "assignment" or value is None or not looks.is_pure(value):
-        return False
-    left = field(inner, "left")
-    while left.type == "attribute":
-        left = field(left, "object")
-    return left.type == "identifier" and text_of(left) in {given, *names}
+        is_stating = holder == given and method in _STATED
+        return only_logs(node, looks) or (is_stating and looks.is_pure(field(inner, "arguments")))
 
-
-def _branch_tells(part: Node, given: str, names: set[str], looks: Looks) -> bool:
-    condition = part.child_by_field_name("condition")
-    body = field(part, "body" if part.type == "else_clause" else "consequence")
-    is_pure = condition is None or looks.is_pure(condition)
-    return is_pure and all(_tells(each, given, names, looks) for each in named(body))
+    return tells_with(node, {given, *names}, looks, tells)

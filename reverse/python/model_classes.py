@@ -35,6 +35,7 @@ from rebsync.reverse.python.model_types import (
     markers_above,
     messages_of,
 )
+from rebsync.reverse.python.model_value_types import typed
 from rebsync.reverse.python.named_constants import CodeConstants
 from rebsync.reverse.python.py_evaluator import lineage
 from rebsync.reverse.python.py_values import PyValues
@@ -62,7 +63,11 @@ class ModelClasses:
     def __post_init__(self) -> None:
         self._values = PyValues(self.code)
         self._named = CodeConstants(self._values, self.messages.constants)
-        self._form = PyForm(self.code, without_runtime=True)
+        self._form = PyForm(
+            self.code,
+            without_runtime=True,
+            typed=lambda program: typed(program, self.roles.values()),
+        )
         self._owners = [c for c in classes_in(self.code) if not is_runtime_file(c.py.source)]
         self._lines: dict[int, list[Scope]] = {}
         if not any("Mailbox(" in s.py.source.text for s in self.code.modules.values()):

@@ -15,6 +15,7 @@ from rebsync.reverse.python.model_types import expression_in, stored_into
 from rebsync.reverse.python.module_variables import hidden_names, imported_as, is_clock, loggers_of
 from rebsync.reverse.python.plain_functions import function_named
 from rebsync.reverse.python.py_callbacks import body_of
+from rebsync.reverse.python.told_exceptions import ToldExceptions
 from rebsync.reverse.python.told_locals import told_locals
 from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
 from rebsync.reverse.syntax.py_tree import field, named, parse, text_of
@@ -24,7 +25,7 @@ _PLAIN = frozenset({"string", "integer", "float", "true", "false", "none"})
 _WRAPS = ("wraps", "functools.wraps")
 
 
-def is_transparent(code: PyCode, module: Scope, decorator: str) -> bool:
+def is_transparent(code: PyCode, module: Scope, decorator: str, exceptions: ToldExceptions) -> bool:
     """Whether a decorator only logs, and calls the function with all that it is given.
 
     It may be made by a function of literals: `@timed("way")`.
@@ -34,7 +35,7 @@ def is_transparent(code: PyCode, module: Scope, decorator: str) -> bool:
     if made is None or made.decorators:
         return False
     if not given:
-        return _only_tells(code, module, made)
+        return _only_tells(code, module, made, exceptions)
     call = named(parse(Source("", decorator)).root)[0]
     arguments = named(field(named(call)[0], "arguments"))
     inner = _given_back(code, made)
@@ -44,11 +45,13 @@ def is_transparent(code: PyCode, module: Scope, decorator: str) -> bool:
         and len(arguments) == len(made.parameters)
         and all(v.type in _PLAIN for v in values)
         and not inner.decorators
-        and _only_tells(code, module, inner)
+        and _only_tells(code, module, inner, exceptions)
     )
 
 
-def context_of(code: PyCode, module: Scope, statement: Node) -> Node | None:
+def context_of(
+    code: PyCode, module: Scope, statement: Node, exceptions: ToldExceptions
+) -> Node | None:
     """What is done within `with timed("question"):`, if the context only tells people of it."""
     head = next((c for c in named(statement) if c.type == "with_clause"), statement)
     items = [i for i in named(head) if i.type == "with_item"]
@@ -62,7 +65,8 @@ def context_of(code: PyCode, module: Scope, statement: Node) -> Node | None:
     values = [n.child_by_field_name("value") or n for n in given]
     is_given = len(needed) <= len(given) and all(p.star == 0 for p in made.parameters)
     is_known = is_given and all(v.type in _PLAIN for v in values)
-    return field(statement, "body") if is_known and _tells_around(code, module, made) else None
+    is_telling = is_known and _tells_around(code, module, made, exceptions)
+    return field(statement, "body") if is_telling else None
 
 
 def contexts_in(code: PyCode, module: Scope) -> dict[str, Scope]:
@@ -90,14 +94,15 @@ def is_context(module: Scope, function: Scope) -> bool:
     return whole == ["contextlib.contextmanager"]
 
 
-def _tells_around(code: PyCode, module: Scope, made: Scope) -> bool:
+def _tells_around(code: PyCode, module: Scope, made: Scope, exceptions: ToldExceptions) -> bool:
     """Whether a context manager does nothing but to tell people, before and behind its block."""
     looks = _looks(code, module, made.module)
-    around = _Around(made, "yield", looks, told_locals(made, frozenset(), looks))
+    told = told_locals(made, frozenset(), looks)
+    around = _Around(made, "yield", looks, told, exceptions)
     return around.yields(body_of(made))
 
 
-def _only_tells(code: PyCode, module: Scope, made: Scope) -> bool:
+def _only_tells(code: PyCode, module: Scope, made: Scope, exceptions: ToldExceptions) -> bool:
     """Whether what a decorator puts in place of a function does that function, and tells of it."""
     function = _given_back(code, made) if len(made.parameters) == 1 else None
     if function is None:
@@ -112,7 +117,7 @@ def _only_tells(code: PyCode, module: Scope, made: Scope) -> bool:
         return False
     looks = _looks(code, module, made.module)
     told = told_locals(function, frozenset(), looks)
-    return _Around(function, call, looks, told).gives(body_of(function))
+    return _Around(function, call, looks, told, exceptions).gives(body_of(function))
 
 
 def _whole(module: Scope, name: str) -> str:
@@ -156,6 +161,7 @@ class _Around:
     call: str
     looks: Looks
     told: frozenset[str]
+    exceptions: ToldExceptions
 
     def gives(self, body: list[Node]) -> bool:
         """Whether statements do the call once, give what it gives, and else only tell people."""
@@ -192,7 +198,11 @@ class _Around:
         return len(ends) == len(parts) == 1 and all(map(self._tells, inside)) and does(body)
 
     def _tells(self, node: Node) -> bool:
-        if node.type in ("comment", "pass_statement") or only_logs(node, self.looks):
+        if node.type in ("comment", "pass_statement"):
+            return True
+        if self.exceptions.raises(node):
+            return False
+        if only_logs(node, self.looks):
             return True
         inner = expression_in(node)
         value = inner.child_by_field_name("right") if inner is not None else None

@@ -24,6 +24,7 @@ from rebsync.reverse.python.model_sends import of_mailbox, sent
 from rebsync.reverse.python.model_types import (
     call_parts,
     in_double_quotes,
+    is_new_type,
     only_breaks_lines,
     string_value,
 )
@@ -306,6 +307,8 @@ class Expressions(ModelExpressionReader):
             return stands
         if len(arguments) == 2 and is_cast(self.names.constants.module, called):
             return self.read(arguments[1])
+        if len(arguments) == 1 and is_new_type(self.names.constants.module, called):
+            return self.read(arguments[0])
         drawn = builtins.drawn(self, node, called, arguments)
         found = drawn or builtins.of_python(self, node, called, arguments)
         if found is None:

@@ -7,6 +7,7 @@ what is told under a condition, or of a number that is never zero, can be shown 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from tree_sitter import Node
 
@@ -14,12 +15,38 @@ from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python import model_idioms as idioms
 from rebsync.reverse.python.model_expression_reader import ModelExpressionReader
-from rebsync.reverse.python.model_logs import own_method
+from rebsync.reverse.python.model_logs import only_logs, own_method
+from rebsync.reverse.python.told_exceptions import ToldExceptions
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of
 
 _DIVIDING = frozenset({"/", "//", "%"})
 _TEXTS = frozenset({"string", "concatenated_string"})
 _LATER = frozenset({"generator_expression", "lambda", "list_comprehension", "set_comprehension"})
+
+
+def told_people(expressions: ModelExpressionReader, node: Node) -> list[m.Statement] | None:
+    """What may fail of a statement that only tells people something; None for any other.
+
+    An `if` of which something may fail is read as others are. Unread: the model has not all of it.
+    """
+    silent = expressions.names.silent
+    if not (silent.tells(node) or _logs_methods(expressions, node)):
+        return None
+    raised = next(unmodelled(expressions, node, silent.exceptions), None)
+    if raised is None and not may_fail(expressions, node):
+        return []
+    if node.type == "if_statement":
+        return None
+    if raised is not None:
+        raise expressions.unread(node, raised)
+    return list(failing(expressions, node))
+
+
+def _logs_methods(expressions: ModelExpressionReader, node: Node) -> bool:
+    """Whether a statement logs, and calls methods of the model for what it logs."""
+    looks = replace(expressions.names.silent.looks, own=methods_of(expressions))
+    return node.type == "expression_statement" and only_logs(node, looks)
 
 
 def may_fail(expressions: ModelExpressionReader, node: Node) -> bool:
@@ -56,6 +83,18 @@ def failing(expressions: ModelExpressionReader, node: Node) -> Iterator[m.Statem
         yield _divided(expressions, field(node, "right"))
     elif _is_element(expressions, node):
         yield m.ExpressionStatement(expressions.read(node), span=expressions.py.span(node))
+
+
+def unmodelled(
+    expressions: ModelExpressionReader, node: Node, exceptions: ToldExceptions
+) -> Iterator[str]:
+    """Why what is told may raise an exception, but for what the model has of it (`failing`)."""
+    modelled = [
+        expressions.py.span(n)
+        for n in nodes_in(node)
+        if _is_division(n) or _is_element(expressions, n)
+    ]
+    return exceptions.reasons(node, modelled, methods_of(expressions))
 
 
 def methods_of(expressions: ModelExpressionReader) -> frozenset[str]:

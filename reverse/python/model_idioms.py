@@ -297,6 +297,8 @@ def _lasts(reader: ModelExpressionReader, subject: Node, name: str, block: Node)
     """Whether a name has the value of a local throughout a block, and is no other's."""
     stored = stored_in(block)
     is_free = name not in reader.locals and name not in reader.names.constants
+    if is_free and name not in names_in(block):  # only the guard asks it
+        return True
     return is_free and subject.type == "identifier" and not stored & {name, text_of(subject)}
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
@@ -10,15 +10,25 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.python.log_words import LEVELS, LOOKS, ON_CLOCKS
+from rebsync.reverse.python.log_words import (
+    CALLED,
+    CALLING,
+    LEVELS,
+    LOOKS,
+    MAKING_TEXTS,
+    OF_TEXTS,
+    ON_CLOCKS,
+)
 from rebsync.reverse.python.py_callbacks import body_of
 from rebsync.reverse.python.runtime_files import is_runtime_file
 from rebsync.reverse.python.told_containers import is_asked
+from rebsync.reverse.syntax.ancestors import functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, has_splat
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _DESCRIBES = frozenset({"__repr__", "__str__"})
+_PLAIN_VALUES = frozenset({"string", "integer", "float", "true", "false", "none"})
 _STORING = frozenset({"named_expression", "await", "yield", "lambda"})
 
 
@@ -33,10 +43,11 @@ class Looks:
     that stand for a logger of Python's library, a dictionary of literals, and what tells the time;
     `records` are its classes whose objects only hold what they are made of, with their fields;
     `describing` functions that only put texts together, with how many arguments they take.
-    `containers` are members that only logs look into, with their kinds; `maths` are what the module
-    calls functions of numbers, and `logging` methods that only log, with how many arguments each
-    takes. `attributes` are what objects of the class have, where that is known: with a slip in the
-    name of one, what logs raises.
+    `containers` are members that only logs look into, with their kinds; `computing` is what the
+    module calls functions that only give a value, and `logging` methods that only log, with how
+    many arguments each takes. `attributes` are what objects of the class have, where that is known:
+    with a slip in the name of one, what logs raises. `texts` are methods that only put a text
+    together, with how many arguments each takes.
     """
 
     trusted: frozenset[str] = with_default(
@@ -51,19 +62,22 @@ class Looks:
     records: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
     describing: Mapping[str, int] = with_default(default_factory=dict)
     containers: Mapping[str, str] = with_default(default_factory=dict)
-    maths: frozenset[str] = frozenset()
+    computing: frozenset[str] = frozenset()
     logging: Mapping[str, int] = with_default(default_factory=dict)
     attributes: frozenset[str] | None = None
+    texts: Mapping[str, int] = with_default(default_factory=dict)
 
     def is_pure(self, node: Node) -> bool:
         """Whether nothing happens where an expression is evaluated."""
         if own_method(node) in self.own:
             return self.is_pure(field(node, "arguments"))
+        if own_method(node) in self.texts:
+            return self._is_look(node) and self.is_pure(field(node, "arguments"))
         if node.type in _STORING or (node.type == "call" and not self._is_look(node)):
             return False
         if node.type == "attribute" and text_of(field(node, "attribute")) in self.functions:
             return text_of(field(node, "object")) not in ("self", "super()")
-        if node.type == "attribute" and self._is_absent(node):
+        if node.type == "attribute" and (self._is_absent(node) or self._is_no_field(node)):
             return False
         if node.type == "subscript" and self._container(field(node, "value")):
             return False  # it may have no such element
@@ -75,6 +89,50 @@ class Looks:
         is_own = text_of(field(node, "object")) == "self" and name.startswith("_")
         is_plain = is_own and not name.endswith("__")
         return is_plain and self.attributes is not None and name not in self.attributes
+
+    def _is_no_field(self, node: Node) -> bool:
+        """Whether an attribute is asked of a local that is a record without such a field."""
+        of, name = field(node, "object"), text_of(field(node, "attribute"))
+        if of.type != "identifier" or not self.records:
+            return False
+        fields = self._fields_of(of)
+        return fields is not None and name not in fields and not name.startswith("__")
+
+    def _fields_of(self, local: Node) -> Sequence[str] | None:
+        """The fields that a local has which only ever is a record; None for another one."""
+        made = [text_of(value).partition("(")[0] for value in self._stores(local)]
+        if len(set(made)) != 1 or made[0] not in self.records:
+            return None
+        return self.records[made[0]]
+
+    def _replaces(self, call: Node) -> bool:
+        """`replace(status, loaded=False)`, which makes another record of a local that is one."""
+        of, *changed = named(field(call, "arguments")) or [call]
+        fields = self._fields_of(of) if of.type == "identifier" else None
+        names = [text_of(field(n, "name")) for n in changed if n.type == "keyword_argument"]
+        return fields is not None and len(names) == len(changed) and set(names) <= set(fields)
+
+    def _is_plain(self, value: Node) -> bool:
+        """Whether a value is made of plain ones: no object that people made is in it."""
+        match value.type:
+            case "keyword_argument":
+                return self._is_plain(field(value, "value"))
+            case "dictionary" | "list" | "tuple" | "pair" | "parenthesized_expression":
+                return all(map(self._is_plain, named(value)))
+            case "call":
+                return text_of(field(value, "function")) in LOOKS or self.is_text(value)
+            case "identifier":
+                stores = [*self._stores(value)]
+                return text_of(value) != "self" and all(map(self._is_plain, stores))
+            case _:
+                return True
+
+    def _stores(self, local: Node) -> Iterator[Node]:
+        """What a function stores under the name of a local."""
+        function = next(functions_around(local), None)
+        for node in nodes_in(function) if function is not None else ():
+            if node.type == "assignment" and is_target(node, text_of(local)):
+                yield field(node, "right")
 
     def _container(self, node: Node) -> str:
         """The kind of the container that a member is; empty for all else."""
@@ -88,9 +146,16 @@ class Looks:
         if called in libraries.clocks() or called in libraries.own_names():
             return called.partition(".")[0] in self.trusted
         if own_method(call) in libraries.own_name_methods():
-            return self._is_node and own_method(call) not in self.functions
-        if called in self.maths:
-            return True
+            return self.is_node and own_method(call) not in self.functions
+        if not self._calls_plain(call):
+            return False
+        if (count := self.texts.get(own_method(call))) is not None:
+            given = field(call, "arguments")
+            return len(named(given)) == count and _by_position(given) and not has_splat(call)
+        if called in self.computing:
+            if called.rpartition(".")[2] == "dumps":
+                return all(map(self._is_plain, named(field(call, "arguments"))))
+            return not called.endswith("replace") or self._replaces(call)
         if called in self.clocks:
             return not named(field(call, "arguments"))
         if function.type == "identifier":
@@ -109,21 +174,43 @@ class Looks:
             return True
         if name in ON_CLOCKS:
             return holder.type == "call" and not named(field(call, "arguments"))
-        is_text = holder.type in ("string", "concatenated_string")
-        return is_text and (name == "format" or (name == "join" and self._joins_texts(call)))
+        is_joining = name == "join" and self._joins_texts(call)
+        return self.is_text(holder) and (name in OF_TEXTS or is_joining)
+
+    def _calls_plain(self, call: Node) -> bool:
+        """Whether what a call itself calls of what it gets are functions of Python's own."""
+        given = named(field(call, "arguments"))
+        called = given[:1] if text_of(field(call, "function")) in CALLING else []
+        by_name = [n for n in given if n.type == "keyword_argument"]
+        handed = [field(n, "value") for n in by_name if text_of(field(n, "name")) in CALLED]
+        called += [n for n in handed if n.type not in _PLAIN_VALUES and not _is_own(n)]
+        return all(text_of(n) in LOOKS & self.trusted for n in called)
+
+    def is_text(self, node: Node) -> bool:
+        """Whether a value is a text by how it is made."""
+        if node.type in ("string", "concatenated_string"):
+            return True
+        function = field(node, "function") if node.type == "call" else node
+        if function.type == "identifier":
+            return text_of(function) in MAKING_TEXTS & LOOKS
+        is_method = node.type == "call" and function.type == "attribute"
+        is_made = is_method and text_of(field(function, "attribute")) in OF_TEXTS
+        return is_made and self.is_text(field(function, "object"))
 
     def _joins_texts(self, call: Node) -> bool:
         """Whether what is joined is a text for each of some elements: anything else is an error."""
         given = field(call, "arguments")
         if given.type != "generator_expression":
             (given, *rest) = named(given) or [given]
-            if rest or given.type != "list_comprehension":
+            if rest:
                 return False
+        if given.type == "call" and text_of(field(given, "function")) == "map":
+            first = text_of(named(field(given, "arguments"))[0])
+            return first in MAKING_TEXTS and self._is_look(given)
+        if given.type not in ("list_comprehension", "generator_expression"):
+            return False
         body = field(given, "body")
-        if body.type == "string":
-            return True
-        makes_text = body.type == "call" and text_of(field(body, "function")) in ("str", "repr")
-        return makes_text and self._is_look(body)
+        return self.is_text(body) and self.is_pure(body)
 
     def logs(self, call: Node) -> bool:
         """Whether a call only logs what is there already."""
@@ -139,7 +226,7 @@ class Looks:
             return False
         if head in libraries.modules_of_logs() and head not in self.trusted:
             return False
-        if called.startswith("self.get_logger") and not self._is_node:
+        if called.startswith("self.get_logger") and not self.is_node:
             return False
         return self.is_pure(field(call, "arguments"))
 
@@ -159,9 +246,21 @@ class Looks:
         return called in libraries.clocks() | self.clocks and self.is_pure(node)
 
     @property
-    def _is_node(self) -> bool:
+    def is_node(self) -> bool:
         """Whether the object is a node of ROS 2 that has its logger from there."""
         return "self" in self.trusted and "get_logger" not in self.functions
+
+
+def _is_own(node: Node) -> bool:
+    """Whether something is an attribute of the object itself."""
+    return node.type == "attribute" and text_of(field(node, "object")) == "self"
+
+
+def is_target(assignment: Node, name: str) -> bool:
+    """Whether an assignment stores something under a name."""
+    return text_of(field(assignment, "left")) == name and (
+        assignment.child_by_field_name("right") is not None
+    )
 
 
 def _by_position(given: Node) -> bool:
@@ -206,7 +305,17 @@ def looks_in(code: PyCode, modules: Sequence[Scope], makers: frozenset[str]) -> 
         for function in found
         if not (is_runtime_file(function.py.source) or _only_returns(function, looks))
     )
-    return replace(looks, functions=frozenset(own))
+    return replace(looks, functions=frozenset(own), texts=dict(_texts(code)))
+
+
+def _texts(code: PyCode) -> Iterator[tuple[str, int]]:
+    """The methods of some code that only put a text together, where no other has the name."""
+    for name, found in code.methods.items():
+        function = found[0]
+        members = function.owner.names if function.owner is not None else {}
+        by_position = all(p.star == 0 and p.default is None for p in function.parameters)
+        if len(found) == 1 and by_position and only_describes(function, members):
+            yield name, len(function.parameters) - ("staticmethod" not in function.decorators)
 
 
 def _only_returns(function: Scope, looks: Looks) -> bool:
@@ -249,20 +358,22 @@ def only_logs(node: Node, looks: Looks = _PLAIN) -> bool:
 
 
 def only_describes(function: Scope, members: Container[str]) -> bool:
-    """Whether a function is `__repr__` or `__str__`, and only puts together what is there.
+    """Whether a function only puts a text together of what is there, as `__repr__` does.
 
     `members` are the functions of the class, of which one may be a property that does something.
     """
     body = body_of(function)
-    if function.name not in _DESCRIBES or len(body) != 1 or function.node.parent is None:
+    values = named(body[0]) if len(body) == 1 and body[0].type == "return_statement" else []
+    if len(values) != 1 or not set(function.decorators) <= {"staticmethod"}:
         return False
-    values = named(body[0]) if body[0].type == "return_statement" else []
-    is_plain = (
-        function.node.parent.type == "block" and len(values) == 1 and _PLAIN.is_pure(values[0])
-    )
-    return is_plain and not any(
-        n.type == "attribute" and text_of(field(n, "attribute")) in members
-        for n in nodes_in(values[0])
+    is_text = function.name in _DESCRIBES or _PLAIN.is_text(values[0])
+    return (
+        is_text
+        and _PLAIN.is_pure(values[0])
+        and not any(
+            n.type == "attribute" and text_of(field(n, "attribute")) in members
+            for n in nodes_in(values[0])
+        )
     )
 
 

@@ -12,10 +12,10 @@ from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1
 from rebsync.reverse.python.model_logs import Looks, looks_in
 from rebsync.reverse.python.model_types import call_parts, string_value
 from rebsync.reverse.python.module_variables import (
+    computing_of,
     imported_as,
     is_clock,
     loggers_of,
-    maths_of,
     tables_of,
 )
 from rebsync.reverse.python.plain_functions import describing
@@ -28,8 +28,6 @@ from rebsync.reverse.syntax.py_tree import field, named, text_of
 VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
 _NUMBERS = frozenset({"true", "false", "integer", "float"})
 _DECLARE, _GET = "self.declare_parameter", "self.get_parameter"
-# Packages whose messages tell people how a node does, and that no node of a model is sent.
-_TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)\.msg\Z")
 _LIBRARY_BASES = frozenset({"Node", "LifecycleNode", "object", "ABC"})
 _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target"})
 _LOCKS = frozenset({"threading.Lock", "threading.RLock"})
@@ -107,14 +105,6 @@ def is_lock(module: Scope, node: Node) -> bool:
     return whole in _LOCKS and not arguments
 
 
-def makers_in(module: Scope) -> Iterator[str]:
-    """The message types for people that a module imports."""
-    for name in module.names:
-        package, _, type_ = imported_as(module, name).rpartition(".")
-        if _TELLING.match(package) and type_ == name:
-            yield name
-
-
 def attributes_in(line: Sequence[Scope]) -> frozenset[str] | None:
     """What objects of a class have by itself and those above it; None where others are above."""
     names = {owner.name for owner in line} | _LIBRARY_BASES
@@ -148,7 +138,7 @@ def looks_of(
         loggers=loggers_of(module).difference(hidden),
         tables=tables_of(code, module).difference(hidden),
         clocks=frozenset(n for n in module.names if is_clock(module, n)).difference(hidden),
-        maths=maths_of(module) if "math" not in hidden else frozenset(),
+        computing=frozenset(n for n in computing_of(module) if n.partition(".")[0] not in hidden),
         records={name: fields for name, fields in records.items() if name not in hidden},
         describing={name: count for name, count in texts.items() if name not in hidden},
     )

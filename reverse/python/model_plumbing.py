@@ -66,6 +66,7 @@ _AT_TOP = frozenset(
 )
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
 DECORATORS = frozenset({"abstractmethod", "final", "override", "staticmethod", "classmethod"})
+_PLAIN = frozenset({"__init__", "_wire", "_publish_state", "mailbox"})
 _STORING = frozenset({"assignment", "named_expression", "lambda", "await", "yield"})
 _LOOKING = frozenset({"flatten"})
 _WHY = "what this does is not in the model"
@@ -101,11 +102,13 @@ class Plumbing:
             why = _LOST if sends is not None and self.is_lost(sends) else _WHY
             for node in self._odd(function):
                 self._list(owner.py, node, why, function.name)
+            for node, reason in self._failing(function):
+                self._list(owner.py, node, reason, function.name)
         for function in self.roles.functions.values():
             if any(c.type == "async" for c in function.node.children):
                 self._list(owner.py, function.node, _LATE, function.name)
             odd = [d for d in function.decorators if not self._is_plain(function, d)]
-            if odd := [d for d in odd if not is_transparent(self.constants.code, owner.module, d)]:
+            if odd := [d for d in odd if not self._is_transparent(d)]:
                 why = f'nobody knows what "@{odd[0]}" makes of it'
                 self._list(owner.py, function.node, why, function.name)
         for node, why in self._overridden():
@@ -115,6 +118,11 @@ class Plumbing:
                 continue
             if not self.constants.is_quiet(owner, statement):
                 self._list(owner.py, statement, _WHY, "")
+
+    def _is_transparent(self, decorator: str) -> bool:
+        """Whether a decorator only tells people of the function."""
+        code, module = self.constants.code, self.roles.owner.module
+        return is_transparent(code, module, decorator, self.silent.exceptions)
 
     def _is_plain(self, function: Scope, decorator: str) -> bool:
         """Whether the model knows what a function is with it: what is called is no property."""
@@ -140,7 +148,7 @@ class Plumbing:
 
     def _odd(self, function: Scope) -> Iterator[Node]:
         name = function.name
-        body = [s for s in body_of(function) if not self.silent.holds(s)]
+        body = [s for s in body_of(function) if not self.silent.tells(s)]
         if name in ("__init__", "_wire"):
             yield from self._odd_in_set_up(function, body)
         elif name in self.roles.shims:
@@ -155,6 +163,15 @@ class Plumbing:
             yield from (s for s in body if not _is_of_state(s))
         elif name == "mailbox":
             yield from (s for s in body if text_of(s) != "return self._mailbox")
+
+    def _failing(self, function: Scope) -> Iterator[tuple[Node, str]]:
+        """What only tells people where no body of the model is, and may raise an exception."""
+        others = (self.roles.shims, self.roles.sends, self.roles.functions.keys() & _PLAIN)
+        if any(function.name in names for names in others):
+            for statement in filter(self.silent.tells, body_of(function)):
+                reason = next(self.silent.exceptions.reasons(statement), None)
+                if reason is not None:
+                    yield statement, reason
 
     # --- set up ---------------------------------------------------------------------------------
 

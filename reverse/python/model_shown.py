@@ -14,9 +14,11 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_OF_NODE, PUBLISHER_OF_ROS_1
+from rebsync.reverse.libraries.python_telling import broadcasters
 from rebsync.reverse.python.model_types import call_parts, string_value
-from rebsync.reverse.python.module_variables import imported_as
+from rebsync.reverse.python.module_variables import call_and_arguments, imported_as
 from rebsync.reverse.python.runtime_files import is_runtime_file
+from rebsync.reverse.python.told_messages import is_for_people
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
@@ -165,6 +167,37 @@ def is_topic(name: str, offered_by: str) -> bool:
     return _TOPIC.fullmatch(name) is not None and not (
         is_private and offered_by == PUBLISHER_OF_NODE
     )
+
+
+def tells_by(code: PyCode, module: Scope, node: Node, types: Mapping[str, str]) -> bool:
+    """Whether something makes a publisher for people, of messages of some types.
+
+    `types` are by what the module calls them. So is a broadcaster of transforms that nobody asks
+    for.
+    """
+    called, arguments = call_and_arguments(node)
+    head, _, rest = called.partition(".")
+    if ".".join(filter(None, (imported_as(module, head), rest))) in broadcasters():
+        return not any("TransformListener" in s.py.source.text for s in code.modules.values())
+    given = [name for a in arguments if (name := text_of(a)) in types]
+    topics = [s for a in arguments if (s := string_value(a)) is not None]
+    is_named = len(topics) == 1 and is_topic(topics[0], called)
+    if called not in PUBLISHERS or len(given) != 1 or not is_named:
+        return False
+    return is_for_people(types[given[0]]) or is_private(code, module, topics[0], given[0])
+
+
+def is_private(code: PyCode, module: Scope, topic: str, type_: str) -> bool:
+    """Whether a topic is a node's own, and nothing in the package asks for messages of its type.
+
+    `type_` is what the module calls that.
+    """
+    name = topic.lstrip("~/")
+    if not topic.startswith("~") or "/" in name or name in _RUNTIME or not code.alone:
+        return False
+    others = (s.py.source.text for s in code.modules.values() if s is not module)
+    uses = (n for n in nodes_in(module.node) if n.type == "identifier" and text_of(n) == type_)
+    return not any(type_ in text for text in others) and all(map(_is_sent, uses))
 
 
 def _is_standard(module: Scope, name: str) -> bool:

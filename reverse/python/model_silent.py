@@ -23,14 +23,15 @@ from rebsync.reverse.python.model_members import (
     is_lock,
     is_own_parameter,
     looks_of,
-    makers_in,
 )
 from rebsync.reverse.python.model_roles import PyRoles, is_of_node
-from rebsync.reverse.python.model_shown import PUBLISHERS, Shown, is_topic, shown_by
+from rebsync.reverse.python.model_shown import (
+    Shown,
+    shown_by,
+    tells_by,
+)
 from rebsync.reverse.python.model_timers import Timers
-from rebsync.reverse.python.model_types import string_value
 from rebsync.reverse.python.module_variables import (
-    call_and_arguments,
     counters_of,
     hidden_names,
 )
@@ -46,7 +47,9 @@ from rebsync.reverse.python.told_containers import (
     member_of,
     stores_in,
 )
+from rebsync.reverse.python.told_exceptions import ToldExceptions
 from rebsync.reverse.python.told_locals import told_locals
+from rebsync.reverse.python.told_messages import ToldMessages, told_types
 from rebsync.reverse.syntax.ancestors import ancestors, functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
@@ -62,7 +65,7 @@ class Silent:
     `ticking` are timers that only log, as `timers` tells them. `locals` are what a function makes
     or measures for people, by the function's node, and `counters` variables of the module; `form`
     tells who may wait for a lock, and `variables` the state by the names of attributes; `asked`
-    are services and diagnostics.
+    are services and diagnostics; `exceptions` say what may fail of what is told.
     """
 
     texts: frozenset[str] = frozenset()
@@ -76,6 +79,8 @@ class Silent:
     form: PyForm | None = None
     variables: Mapping[str, m.Type] = with_default(default_factory=dict)
     asked: Answering = Answering()
+    exceptions: ToldExceptions = ToldExceptions()
+    messages: ToldMessages = ToldMessages({}, {}, Looks())
 
     @property
     def looks(self) -> Looks:
@@ -97,6 +102,10 @@ class Silent:
         return any(name in of for of in self._members)
 
     def holds(self, node: Node) -> bool:
+        """Whether a statement does nothing but to tell people something, and cannot fail."""
+        return self.tells(node) and not self.exceptions.raises(node)
+
+    def tells(self, node: Node) -> bool:
         """Whether a statement does nothing but to tell people something, or to keep it for that."""
         if only_logs(node, self.looks):
             return True
@@ -122,7 +131,7 @@ class Silent:
         body = field(part, "body" if part.type == "else_clause" else "consequence")
         inside = [n for n in named(body) if n.type != "pass_statement"]
         is_pure = condition is None or self.looks.is_pure(condition)
-        return is_pure and bool(inside) and all(map(self.holds, inside))
+        return is_pure and bool(inside) and all(map(self.tells, inside))
 
     def _tells(self, call: Node) -> bool:
         """`self._diagnostics_pub.publish(status)` and `self._history.append(x)`."""
@@ -141,8 +150,11 @@ class Silent:
             return (
                 self._is_place(holder) and is_kept and STORING[kind].get(method) == len(arguments)
             )
+        is_told = text_of(holder).removeprefix("self.") in self.publishers
+        if method == "sendTransform":
+            return is_told and self.messages.sends_transform(arguments)
         if method == "publish":
-            return text_of(holder).removeprefix("self.") in self.publishers
+            return is_told
         return method in ("append", "clear") and self._is_place(holder)
 
     def _is_place(self, node: Node) -> bool:
@@ -201,7 +213,8 @@ def silent_in(
     """
     owner, functions = line[0], roles[0].functions
     taken = {n for r in roles for n in (*r.state, *r.known, *r.env, *r.publishers)}.difference(own)
-    makers = frozenset(makers_in(owner.module))
+    types = told_types(owner.module)
+    makers = frozenset(types)
     modules = [*{id(c.module): c.module for c in line}.values()]
     hidden = hidden_names(code, owner.module)
     looks = looks_of(code, line, makers, hidden)
@@ -211,12 +224,14 @@ def silent_in(
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
     handed = {n: functions[n] for n in roles[0].ticking}
-    timers = Timers.of(code, handed, looks)
+    messages = ToldMessages(types, variables, looks)
+    exceptions = ToldExceptions.of(code, form, messages)
+    timers = Timers.of(code, handed, looks, exceptions)
     looks = replace(looks, logging=timers.logging)
     stores = stores_in(module.node for module in modules)
     looks = replace(looks, containers=containers_in(owner.module, members, stores))
     timers = replace(timers, looks=looks)  # what ticks runs while containers may change
-    asked = Answering.of(code, owner.module, handed, members, looks)
+    asked = Answering.of(code, owner.module, handed, members, looks, exceptions)
     told = frozenset(
         name
         for name, v in members.items()
@@ -228,7 +243,7 @@ def silent_in(
     locks = frozenset(n for n, v in members.items() if is_lock(owner.module, v))
     found = Silent(
         told,
-        frozenset(n for n, v in publishers.items() if _is_publisher(v, makers)),
+        frozenset(n for n, v in publishers.items() if tells_by(code, owner.module, v, types)),
         frozenset(n for n, v in members.items() if timers.is_idle(v) or asked.is_idle(v)),
         locks,
         {f.node.id: told_locals(f, makers, looks) for f in functions.values()},
@@ -238,6 +253,8 @@ def silent_in(
         form,
         variables,
         asked,
+        exceptions,
+        messages,
     )
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)
@@ -291,17 +308,6 @@ def _made(functions: Mapping[str, Scope]) -> Iterator[tuple[str, Node]]:
     yield from ((name, values[0]) for name, values in found.items() if len(values) == 1)
 
 
-# --- what members are ---------------------------------------------------------------------------
-
-
-def _is_publisher(node: Node, makers: frozenset[str]) -> bool:
-    called, arguments = call_and_arguments(node)
-    types = [a for a in arguments if text_of(a) in makers]
-    topics = [s for a in arguments if (s := string_value(a)) is not None]
-    is_named = len(topics) == 1 and is_topic(topics[0], called)
-    return called in PUBLISHERS and len(types) == 1 and is_named
-
-
 # --- where they are used ------------------------------------------------------------------------
 
 
@@ -340,7 +346,7 @@ def _is_quiet(silent: Silent, node: Node, name: str) -> bool:
             return True
         if above.type == "global_statement":
             return name in silent.counters
-        if silent.holds(above) or above.id in silent.asked.bodies:
+        if silent.tells(above) or above.id in silent.asked.bodies:
             return True
     return False
 

@@ -25,10 +25,9 @@ from rebsync.reverse.python import model_stored as stored
 from rebsync.reverse.python import model_switches as switches
 from rebsync.reverse.python import model_users as users
 from rebsync.reverse.python.model_decorators import context_of
-from rebsync.reverse.python.model_failing import failing, may_fail, methods_of
+from rebsync.reverse.python.model_failing import told_people
 from rebsync.reverse.python.model_filled import filled
 from rebsync.reverse.python.model_kinds import is_kind
-from rebsync.reverse.python.model_logs import only_logs
 from rebsync.reverse.python.model_statement_reader import ModelStatementReader
 from rebsync.reverse.python.model_types import (
     annotations_above,
@@ -57,12 +56,9 @@ class Statements(ModelStatementReader):
         waiting = list(nodes)
         while waiting:
             node = waiting.pop(0)
-            is_silent = self.expressions.names.silent.holds(node) or self._logs_methods(node)
-            if is_silent and not may_fail(self.expressions, node):
-                continue
             try:
-                if is_silent and node.type != "if_statement":
-                    found += failing(self.expressions, node)
+                if (told := told_people(self.expressions, node)) is not None:
+                    found += told
                     continue
                 if users.is_users(self.expressions, node):
                     users.check(self.expressions, node)
@@ -88,11 +84,6 @@ class Statements(ModelStatementReader):
             self.findings.statements[self.within] += 1
             found += read
         return iter(found)
-
-    def _logs_methods(self, node: Node) -> bool:
-        """Whether a statement logs, and calls methods of the model for what it logs."""
-        looks = replace(self.expressions.names.silent.looks, own=methods_of(self.expressions))
-        return node.type == "expression_statement" and only_logs(node, looks)
 
     def _read(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         try:
@@ -150,7 +141,8 @@ class Statements(ModelStatementReader):
     def _told(self, node: Node) -> Node | None:
         """What is done in a context that only tells people of it."""
         names = self.expressions.names
-        return context_of(names.code, names.constants.module, node)
+        exceptions = names.silent.exceptions
+        return context_of(names.code, names.constants.module, node, exceptions)
 
     def _return(self, node: Node) -> list[m.Statement]:
         values = [v for v in named(node) if v.type != "none"]

@@ -56,6 +56,7 @@ def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
         pairs = zip(lefts, elements, strict=True)
         return [s for left, e in pairs for s in _given(reader, left, e, node)]
     values = named(right) if right.type in ("expression_list", "tuple") else []
+    lefts, values = _flat(lefts, values)
     if len(lefts) != len(values) or "list_splat" in {v.type for v in (*lefts, *values)}:
         raise expressions.unread(node, "the model has no such assignment")
     needed = [i for i, v in enumerate(values) if _is_needed(lefts[:i], v)]
@@ -71,6 +72,21 @@ def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
         else:
             found += _stored(reader, left, value, node)
     return found
+
+
+def _flat(lefts: list[Node], values: list[Node]) -> tuple[list[Node], list[Node]]:
+    """`a, (b, c) = x, (y, z)` as three: all values are there before the first is stored."""
+    if len(lefts) != len(values):
+        return lefts, values
+    flat: tuple[list[Node], list[Node]] = [], []
+    for left, value in zip(lefts, values, strict=True):
+        parts = named(left), named(value)
+        is_tuple = left.type == "tuple_pattern" and value.type == "tuple"
+        is_pair = is_tuple and len(parts[0]) == len(parts[1])
+        inner = _flat(*parts) if is_pair else ([left], [value])
+        flat[0].extend(inner[0])
+        flat[1].extend(inner[1])
+    return flat
 
 
 def _is_needed(before: list[Node], value: Node) -> bool:

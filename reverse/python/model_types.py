@@ -29,6 +29,7 @@ _PLAIN = {
 }
 _CHARACTERS = re.compile(r"\\.|[^\\]", re.DOTALL)
 _MARKER = re.compile(r"#\s*rebsync:\s*(.*?)\s*$")
+_OF_TYPING = re.compile(r"from\s+typing\s|import\s+typing\Z")
 _QUOTES = "\"'"
 _UNSET = re.compile(r"(?:int|Byte|Short|Float|float|bool|Rebec)\(\)\Z|array\(")
 
@@ -78,15 +79,41 @@ def alias_of(statement: Node) -> tuple[str, str] | None:
         return None
     said, value = inner.child_by_field_name("type"), inner.child_by_field_name("right")
     is_said = said is None or text_of(said).rpartition(".")[2] == "TypeAlias"
+    if value is not None and (made := _new_type(value)) is not None:
+        is_whole = made[0] == text_of(field(inner, "left")) and said is None
+        return made if is_whole and made[1] in _PLAIN else None
     is_name = is_said and value is not None and value.type == "identifier"
     if not is_name or value is None or field(inner, "left").type != "identifier":
         return None
     return (text_of(field(inner, "left")), text_of(value)) if text_of(value) in _PLAIN else None
 
 
+def _new_type(value: Node) -> tuple[str, str] | None:
+    """The name and the type of `NewType("Cell", int)`."""
+    called, arguments = call_parts(value) or ("", [])
+    if called.rpartition(".")[2] != "NewType" or len(arguments) != 2:
+        return None
+    return string_value(arguments[0]) or "", text_of(arguments[1])
+
+
+def is_new_type(module: Scope, name: str) -> bool:
+    """Whether a name is a type of its own for who checks types: a call gives what it gets."""
+    bindings = module.names.get(name, [])
+    if len(bindings) != 1 or bindings[0].how != "value":
+        return False
+    called, _ = call_parts(bindings[0].value) or ("", [])
+    made = module.names.get(called.partition(".")[0], [])
+    is_library = len(made) == 1 and _OF_TYPING.match(text_of(made[0].node)) is not None
+    return is_library and _new_type(bindings[0].value) is not None
+
+
 def is_alias(module: Scope, statement: Node) -> bool:
     """Whether a statement gives a plain type another name, which means nothing else."""
     name = (alias_of(statement) or ("", ""))[0]
+    value = expression_in(statement)
+    made = value.child_by_field_name("right") if value is not None else None
+    if made is not None and made.type == "call" and not is_new_type(module, name):
+        return False
     return len(module.names.get(name, ())) == 1 and not hasattr(builtins, name)
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.python.log_words import TOTAL
+from rebsync.reverse.python.log_words import COMPUTING
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding
 from rebsync.reverse.syntax.py_index import PyCode, Scope
@@ -80,11 +80,14 @@ def is_clock(module: Scope, name: str) -> bool:
     return imported_as(module, name) in libraries.clocks()
 
 
-def maths_of(module: Scope) -> frozenset[str]:
-    """What a module calls those functions of Python's mathematics that do not fail."""
-    names = {n for n in TOTAL if imported_as(module, n) == f"math.{n}"}
+def computing_of(module: Scope) -> frozenset[str]:
+    """What a module calls those functions of Python's library that only give a value."""
+    found = {name: imported_as(module, name) for name in module.names}
     return frozenset(
-        {*names, *(f"math.{n}" for n in TOTAL if imported_as(module, "math") == "math")}
+        f"{name}{full[len(whole) :]}"
+        for name, whole in found.items()
+        for full in COMPUTING
+        if whole and (full == whole or full.startswith(f"{whole}."))
     )
 
 

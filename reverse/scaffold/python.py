@@ -108,8 +108,10 @@ class _Class:
         """What it puts into its state message, and by whom it has that published."""
         names = {a.arg: "served" for a in function.args.args[1:]}
         named = replace(self, owner=_message_of(function).removesuffix("State"))
-        late, is_made = "", False
+        late, is_made, message = "", False, _message_in(function)
         for statement in said(function.body):
+            if message and not any(_is_named(n, message) for n in ast.walk(statement)):
+                continue  # extraction lists what does more than to tell people something
             match statement:
                 case ast.Assign([ast.Attribute(ast.Name(), name)], value):
                     yield named.fact(TOLD, name, f"{plain(value, names)}{late}", statement)
@@ -321,3 +323,25 @@ def _is_private(topic: str) -> bool:
 def _private(topic: str) -> str:
     """A topic below the node's own name without the sign of that."""
     return topic.removeprefix("~").removeprefix("/") if topic.startswith("~") else topic
+
+
+def _message_in(function: ast.FunctionDef) -> str:
+    """The local that a function has published as the state; empty where it does so otherwise."""
+    calls = (n for n in ast.walk(function) if isinstance(n, ast.Call))
+    published = [c.args for c in calls if ast.unparse(c.func) == "self._state_pub.publish"]
+    match published:
+        case [[ast.Name(message)]]:
+            return message
+        case _:
+            return ""
+
+
+def _is_named(node: ast.AST, message: str) -> bool:
+    """Whether something is a message, or what publishes it."""
+    match node:
+        case ast.Name(name):
+            return name == message
+        case ast.Attribute(_, name):
+            return name == "_state_pub"
+        case _:
+            return False

@@ -8,6 +8,7 @@ from rebsync.reverse.libraries.routines import (
     Kind,
     Language,
     Library,
+    LogCall,
     Routine,
     Table,
 )
@@ -70,6 +71,9 @@ _NODE = {
     "add_post_set_parameters_callback": _CALLED,
     "set_parameters_callback": _CALLED,
 }
+_LOG_KEYWORDS = frozenset(
+    {"throttle_duration_sec", "throttle_time_source_type", "skip_first", "once", "name"}
+)
 _SPAN = Routine(Kind.SPAN, ("seconds", "nanoseconds"))
 _NODES = (
     *("rclpy.node.Node", "rclpy.Node", "rclpy.lifecycle.Node", "rclpy.lifecycle.LifecycleNode"),
@@ -203,6 +207,11 @@ LIBRARIES = (
         marks=("rclpy", "message_filters"),
         table=Table(profiles=_PROFILES, policies=_POLICIES),
         logs=("get_logger",),
+        log_arguments={
+            f"{made}().{level}": LogCall(only_text=True, formats=False, keywords=_LOG_KEYWORDS)
+            for made in ("get_logger", "rclpy.logging.get_logger")
+            for level in ("debug", "info", "warn", "warning", "error", "fatal")
+        },
         strict=True,
     ),
 )

@@ -8,6 +8,7 @@ from rebsync.reverse.libraries.routines import (
     Kind,
     Language,
     Library,
+    LogCall,
     Routine,
 )
 
@@ -34,6 +35,12 @@ _SLEEP = Routine(Kind.SLEEP, ("period",))
 _STOPPED = Routine(Kind.RUNNING, result="!bool")
 _SPAN = Routine(Kind.SPAN, ("secs", "nsecs"))
 _LOG = Routine(Kind.LOG)
+_LOG_KEYWORDS = frozenset({"exc_info", "extra", "logger_name", "logger_level"})
+_LOG_CALLS = {
+    f"rospy.log{level}{often}": LogCall(int("throttle" in often), keywords=_LOG_KEYWORDS)
+    for level in ("debug", "info", "warn", "err", "fatal")
+    for often in ("", "_once", "_throttle", "_throttle_identical")
+}
 _DONE = tuple((name, "callback") for name in ("done_cb", "active_cb", "feedback_cb"))
 _FUNCTIONS = {
     "rospy.init_node": _asks(Kind.NODE, "name", "", "anonymous"),
@@ -69,11 +76,7 @@ _FUNCTIONS = {
     "rospy.Duration.from_sec": _SPAN,
     "rospy.rostime.Duration": _SPAN,
     "genpy.Duration": _SPAN,
-    **{
-        f"rospy.log{level}{often}": _LOG
-        for level in ("debug", "info", "warn", "err", "fatal")
-        for often in ("", "_once", "_throttle", "_throttle_identical")
-    },
+    **dict.fromkeys(_LOG_CALLS, _LOG),
     "rospy.numpy_msg.numpy_msg": Routine(arguments=("type",), result="type"),
     "message_filters.Subscriber": _asks(Kind.SUBSCRIPTION, "name", "type", "depth"),
     "actionlib.SimpleActionServer": _hook("", "", "callback", execute_cb="callback"),
@@ -103,6 +106,7 @@ LIBRARIES = (
         _FUNCTIONS,
         _METHODS,
         marks=("rospy", "message_filters"),
+        log_arguments=_LOG_CALLS,
         plain=frozenset({"rospy.AnyMsg", "rospy.msg.AnyMsg"}),
         flat=False,
         threads=True,

@@ -17,6 +17,7 @@ from rebsync.reverse.libraries.routines import (
     Kind,
     Language,
     Library,
+    LogCall,
     Routine,
 )
 
@@ -169,6 +170,15 @@ SLEEPS = {"sleep": UNITS["seconds"], "usleep": UNITS["microseconds"]}
 LOCKS = r"(threading|_thread|thread)\.(R?Lock|Condition|(Bounded)?Semaphore|allocate_lock)"
 
 
+# What logs in Python, with the arguments that it takes.
+_LOG_KEYWORDS = frozenset({"exc_info", "stack_info", "stacklevel", "extra"})
+LOG_CALLS = {
+    f"{of}.{level}": LogCall(keywords=_LOG_KEYWORDS)
+    for of in ("logging", "logging.getLogger()")
+    for level in ("debug", "info", "warning", "warn", "error", "critical", "fatal", "exception")
+} | {f"{of}.log": LogCall(1, keywords=_LOG_KEYWORDS) for of in ("logging", "logging.getLogger()")}
+
+
 def _named(rules: Sequence[Rule], language: Language) -> Mapping[str, Routine]:
     is_cpp = language is Language.CPP
     return {n: r.routine for r in rules for n in (r.cpp if is_cpp else r.python).split()}
@@ -186,6 +196,7 @@ def _library(name: str, language: Language, containers: str) -> Library:
         methods,
         copying=copying,
         threaded=threaded if language is Language.CPP else frozenset(),
+        log_arguments=LOG_CALLS if language is Language.PYTHON else {},
         flat=False,
     )
 
