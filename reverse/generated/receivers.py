@@ -20,7 +20,7 @@ Receivers: TypeAlias = "dict[str, tuple[str | None, str]]"
 
 def add_receiver(receivers: Receivers, name: str, member: str, message: str, key: str) -> None:
     """Notes a publisher to a known rebec; `key` is the last part of its topic."""
-    if (class_name := message_class(message, key)) is not None:
+    if name.isidentifier() and (class_name := message_class(message, key)) is not None:
         receivers.setdefault(name, (class_name, member))
 
 
