@@ -10,8 +10,9 @@ from rebsync.forward.cpp_types import class_type, is_text, parameter_type
 from rebsync.forward.cpp_warnings import silenced
 from rebsync.forward.cpp_wiring import members, ros_members, seen_functions, state_lines
 from rebsync.forward.lineage import base_of, shared_interfaces
+from rebsync.forward.sends import bodies
 from rebsync.forward.templating import fill
-from rebsync.model import Cast, Declaration, Parameter, walk
+from rebsync.model import Cast, Declaration, Interface, Parameter, walk
 from rebsync.package import NodeClass
 from rebsync.printing import print_line
 
@@ -136,14 +137,15 @@ def _rebec_types(c: CppClass) -> list[str]:
     types += [p.type for q in c.node.publishers for p in q.parameters]
     types += [p.type for s in c.node.self_sends for p in s.parameters]
     types += [s.type for s in c.node.members]
-    names = {t.name for t in types if is_text(t)} | {k.type for k in c.node.known}
+    names = {t.name for t in types if is_text(t)} | {k.type for k in c.node.values_known}
     return sorted(class_type(n) for n in names - {c.node.name})
 
 
 def _declared_types(c: CppClass) -> list[str]:
     """The other classes that only the source names, as those of locals or of casts."""
     declaration = c.statements.expressions.analysis.classes[c.node.name].declaration
-    types = [n.type for n in walk(declaration) if isinstance(n, Cast | Declaration)]
+    own = [] if isinstance(declaration, Interface) else bodies(declaration)
+    types = [n.type for body in own for n in walk(body) if isinstance(n, Cast | Declaration)]
     names = {class_type(t.name) for t in types if is_text(t)} - {class_type(c.node.name)}
     return sorted(names - set(_rebec_types(c)))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from rebsync.forward.class_names import publisher_place
 from rebsync.forward.cpp_class import CppClass
@@ -10,7 +10,7 @@ from rebsync.forward.cpp_layout import indented, statement_lines, with_trailing_
 from rebsync.forward.cpp_messages import own_subscriptions, stored_in
 from rebsync.forward.cpp_types import cpp_type, cpp_value
 from rebsync.model import Annotation, Type
-from rebsync.package import Draw, Sensor
+from rebsync.package import Draw, Publisher, Sensor
 from rebsync.printing import print_line
 
 
@@ -21,7 +21,7 @@ def members(c: CppClass) -> list[str]:
         lines += _annotations(member.annotations)
         declared = f"{cpp_type(member.type)} {c.names.members[member.name]}{{}};"
         lines.append((declared, f"rebsync: statevar {member.path}"))
-    for known in c.node.known:
+    for known in c.node.values_known:
         lines += _annotations(known.annotations)
         declared = f"{cpp_type(Type(known.type))} {c.names.members[known.name]};"
         lines.append((declared, f"rebsync: knownrebec {known.path}"))
@@ -43,6 +43,7 @@ def ros_members(c: CppClass) -> list[str]:
         f"  Sensor<{c.words.message(s.type)}> {c.names.sensors[s.server]};" for s in c.node.sensors
     ]
     for publisher in c.node.publishers:
+        lines += [f"  // rebsync: knownrebec {k.path}" for k in c.node.told_by(publisher)]
         kind = c.words.publisher if publisher.known is not None else c.words.publishers
         lines.append(
             f"  {kind(publisher.message.name)} {c.names.publishers[publisher_place(publisher)]};"
@@ -60,14 +61,14 @@ def ros_members(c: CppClass) -> list[str]:
 
 
 def wiring(c: CppClass) -> list[str]:
-    """The part of the constructor's body that makes publishers and subscriptions."""
-    return [*_advertised(c), *_subscribed(c), *_offered(c)]
+    """The part of the constructor's body that makes the other publishers and subscriptions."""
+    return [*advertised(c, c.node.other_publishers), *_subscribed(c), *_offered(c)]
 
 
-def _advertised(c: CppClass) -> list[str]:
-    """Makes the publishers."""
+def advertised(c: CppClass, publishers: Iterable[Publisher]) -> list[str]:
+    """Makes publishers."""
     lines = []
-    for publisher in c.node.publishers:
+    for publisher in publishers:
         member = c.names.publishers[publisher_place(publisher)]
         message = c.words.message(publisher.message.name)
         if publisher.known is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Protocol
 
 from rebsync.forward.class_names import publisher_place
@@ -12,7 +13,7 @@ from rebsync.forward.py_messages import own_subscriptions, to_message
 from rebsync.forward.py_types import first_value, py_type
 from rebsync.model import Type
 from rebsync.names import graph_name
-from rebsync.package import ConstructorOf, GlobalParameter, Offer
+from rebsync.package import ConstructorOf, GlobalParameter, Offer, Publisher
 
 
 class PyWords(Protocol):
@@ -134,7 +135,7 @@ def _wired(c: PyClass, words: PyWords, queue: str, best: str) -> list[str]:
     return [
         *lines,
         *_members(c, words),
-        *_publishers(c, words),
+        *_publishers(c, words, c.node.other_publishers),
         *_subscriptions(c, words),
         *_offers(c, words),
     ]
@@ -150,6 +151,10 @@ def _members(c: PyClass, words: PyWords) -> list[str]:
         value = first_value(member.type)
         lines.append(f"{typed} = {value}  # rebsync: statevar {member.path}")
     for known in c.node.known:
+        if not known.is_value:
+            first, *rest = _publishers(c, words, c.node.publishers_to(known))
+            lines += [f"{first}  # rebsync: knownrebec {known.path}", *rest]
+            continue
         lines += (f"# rebsync: {a}" for a in annotation_markers(known.annotations))
         value = words.known(f"knownrebecs/{graph_name(known.name)}")
         typed = f"self.{names.members[known.name]}: {py_type(Type(known.type))}"
@@ -161,9 +166,9 @@ def _members(c: PyClass, words: PyWords) -> list[str]:
     return lines
 
 
-def _publishers(c: PyClass, words: PyWords) -> list[str]:
+def _publishers(c: PyClass, words: PyWords, publishers: Iterable[Publisher]) -> list[str]:
     lines = []
-    for publisher in c.node.publishers:
+    for publisher in publishers:
         member = c.names.publishers[publisher_place(publisher)]
         topic, message = words.private(publisher.topic), publisher.message.name
         if publisher.known is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rebsync.forward.cpp_class import CppClass, braced
 from rebsync.forward.cpp_layout import call_lines
 from rebsync.forward.cpp_types import cpp_type, cpp_value, parameter_type
-from rebsync.forward.cpp_wiring import wiring
+from rebsync.forward.cpp_wiring import advertised, wiring
 from rebsync.forward.templating import fill
 from rebsync.model import Type
 from rebsync.names import graph_name
@@ -60,7 +60,7 @@ def constructor_definitions(c: CppClass) -> list[list[str]]:
         head = call_lines(f"{c.type_name}::{c.type_name}", _wiring_parameters(), "")
         initial = _initialisers(c, ("inherited", "queue_length", "best_priority"))
         unused = ["unused(inherited);"] if c.owns_mailbox else []
-        lines = [*unused, *_parameters_read(c), *wiring(c)]
+        lines = [*unused, *_set_up(c), *wiring(c)]
         definitions.append(with_initialisers(head, initial, lines))
     return definitions
 
@@ -74,7 +74,7 @@ def _constructor(c: CppClass, constructor: ConstructorOf, wires_itself: bool) ->
         initial = _initialisers(c, ("Inherited()", queue[0], best or "kNoPriority"))
     else:
         initial = [f"{c.type_name}(Inherited(), node, {queue[0]}, {best or 'kNoPriority'})"]
-    lines = [*_parameters_read(c), *wiring(c)] if wires_itself else []
+    lines = [*_set_up(c), *wiring(c)] if wires_itself else []
     state = f'advertise<{c.node.state.name}>("state", kQueueSize, true)'
     lines.append(f"state_pub_ = ros::NodeHandle(node).{state};")
     lines.append("mailbox_.onServed([this](const Served& served) { publishState(served); });")
@@ -103,10 +103,13 @@ def _initialisers(c: CppClass, values: tuple[str, str, str]) -> list[str]:
     return found
 
 
-def _parameters_read(c: CppClass) -> list[str]:
-    """Reads what the launch file and config/params.yaml set."""
+def _set_up(c: CppClass) -> list[str]:
+    """Publishers to known rebecs, and what the launch file and config/params.yaml set."""
     lines = []
     for known in c.node.known:
+        if not known.is_value:
+            lines += advertised(c, c.node.publishers_to(known))
+            continue
         key = f"knownrebecs/{graph_name(known.name)}"
         lines.append(f'{c.names.members[known.name]} = node.param<std::string>("{key}", "");')
     if c.node.env:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rebsync.forward.cpp_class import CppClass
 from rebsync.forward.cpp_layout import call_lines, statement_lines
 from rebsync.forward.cpp_types import cpp_type, cpp_value
-from rebsync.forward.cpp_wiring import wiring
+from rebsync.forward.cpp_wiring import advertised, wiring
 from rebsync.forward.lineage import base_of
 from rebsync.forward.ros1_constructors import best_priority, with_initialisers
 from rebsync.forward.templating import fill
@@ -69,7 +69,7 @@ def constructor_definitions(c: CppClass) -> list[list[str]]:
     if c.node.inherited_from or not c.node.executable:
         head = call_lines(f"{c.type_name}::{c.type_name}", _wiring_parameters(c), "")
         initial = _initialisers(c, "inherited", "queue_length", "best_priority")
-        definitions.append(with_initialisers(head, initial, [*_parameters_read(c), *wiring(c)]))
+        definitions.append(with_initialisers(head, initial, [*_set_up(c), *wiring(c)]))
     return definitions
 
 
@@ -82,7 +82,7 @@ def _constructor(c: CppClass, wires_itself: bool) -> list[str]:
         initial = _initialisers(c, own, length, best)
     else:
         initial = [f"{c.type_name}({own}, options, {length}, {best})"]
-    lines = [*_parameters_read(c), *wiring(c)] if wires_itself else []
+    lines = [*_set_up(c), *wiring(c)] if wires_itself else []
     kept = "rclcpp::QoS(kQueueSize).transient_local()"
     state = f"create_publisher<{c.words.message(c.node.state.name)}>"
     lines += statement_lines(f"state_pub_ = {state}", ['"~/state"', kept], ";")
@@ -132,10 +132,13 @@ def _constructed(c: CppClass) -> list[str]:
     return [*lines, f"mailbox_.construct([=] {{ {call} }});"]
 
 
-def _parameters_read(c: CppClass) -> list[str]:
-    """Declares what the launch file and config/params.yaml set."""
+def _set_up(c: CppClass) -> list[str]:
+    """Publishers to known rebecs, and what the launch file and config/params.yaml set."""
     lines = []
     for known in c.node.known:
+        if not known.is_value:
+            lines += advertised(c, c.node.publishers_to(known))
+            continue
         key, type_ = f"knownrebecs.{graph_name(known.name)}", Type(known.type)
         lines += _declared(c.names.members[known.name], key, type_, None, "known rebec")
     for env in c.node.env:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 from rebsync.model import (
@@ -75,6 +76,26 @@ def send_of(call: Call, analysis: Analysis) -> Send | None:
     if not isinstance(server, ServerSymbol):
         return None
     return Send(_target(call.target, server, analysis), server)
+
+
+def known_as_values(declaration: ReactiveClass, analysis: Analysis) -> Iterator[KnownRebecSymbol]:
+    """The known rebecs with which the bodies of a class do more than send to them."""
+    nodes = [node for body in bodies(declaration) for node in walk(body)]
+    names = Counter(id(n) for n in nodes if isinstance(n, Name))
+    receivers = (r for n in nodes if isinstance(n, Call) and (r := _receiver(n, analysis)))
+    names.subtract(map(id, receivers))  # one node may stand at several places
+    for node in nodes:
+        symbol = analysis.symbols.get(id(node)) if names[id(node)] > 0 else None
+        if isinstance(symbol, KnownRebecSymbol):
+            yield symbol
+
+
+def _receiver(call: Call, analysis: Analysis) -> Expression | None:
+    """What a send names as its receiver, parentheses apart."""
+    target = call.target if send_of(call, analysis) is not None else None
+    while isinstance(target, Paren):
+        target = target.inner
+    return target
 
 
 def _target(target: Expression | None, server: ServerSymbol, analysis: Analysis) -> Target:

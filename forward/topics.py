@@ -26,6 +26,7 @@ from rebsync.names import (
     free_name,
     graph_name,
     header_stem,
+    message_name,
     unique,
 )
 from rebsync.package import Field, MessageType, StateType
@@ -161,7 +162,7 @@ class Topics:
         key = self._keys[root]
         family = self._family(root)
         message = MessageType(
-            self._new_type(camel_case(class_name) + camel_case(key)),
+            self._new_type(message_name(class_name, key)),
             message_fields(parameters, (*RUNTIME_FIELDS, RESPONSE_FIELD)),
             any(map(self._uses_sender, family)),
             f"{class_name}.{name}",

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from rebsync import package as p
 from rebsync.config import Config
 from rebsync.forward.incoming import Incoming
 from rebsync.forward.instances import Instances
 from rebsync.forward.outgoing import Outgoing
-from rebsync.forward.sends import bodies
+from rebsync.forward.sends import bodies, known_as_values
 from rebsync.forward.sensors import sensors_of
 from rebsync.forward.topics import Topics
 from rebsync.model import (
@@ -23,7 +25,7 @@ from rebsync.model import (
     StateVars,
     walk,
 )
-from rebsync.names import free_name, graph_name, node_name, snake_case
+from rebsync.names import free_name, graph_name, message_class, node_name, snake_case
 from rebsync.reserved import MONITOR_FILES, RESERVED_GLOBALS, RUNTIME_CLASSES, RUNTIME_HEADERS
 from rebsync.static import Analysis
 from rebsync.static.symbols import EnvSymbol
@@ -60,6 +62,9 @@ class _View:
         self._sensor_names: dict[str, set[str]] = {}
         self._incoming = Incoming(self.topics, analysis)
         self._outgoing = Outgoing(self.topics, analysis)
+        reactive = (c for c in model.classes if isinstance(c, ReactiveClass))
+        used = (s for c in reactive for s in known_as_values(c, analysis))
+        self._values = frozenset((s.owner, s.name) for s in used)
 
     def package(self, name: str) -> p.Package:
         config = self.config
@@ -137,7 +142,7 @@ class _View:
             any(name in i.ancestors for i in self.analysis.classes.values()),
             declaration.annotations,
             self._members(reactive),
-            self._known(reactive),
+            self._known(reactive, publishers),
             self._env_of(reactive),
             self._constructors(reactive),
             self._incoming.subscriptions(declaration),
@@ -180,10 +185,18 @@ class _View:
             if declaration is not None
         )
 
-    def _known(self, declaration: ReactiveClass | None) -> tuple[p.KnownRebec, ...]:
+    def _known(
+        self, declaration: ReactiveClass | None, publishers: Sequence[p.Publisher]
+    ) -> tuple[p.KnownRebec, ...]:
         return tuple(
             p.KnownRebec(
-                d.name, section.type.name, f"{declaration.name}.{d.name}", section.annotations
+                d.name,
+                section.type.name,
+                f"{declaration.name}.{d.name}",
+                section.annotations,
+                bool(section.annotations)
+                or (declaration.name, d.name) in self._values
+                or not _tell_class(d.name, section.type.name, publishers),
             )
             for member in (declaration.members if declaration else ())
             if isinstance(member, KnownRebecs)
@@ -239,3 +252,9 @@ def _bases(declaration: ReactiveClass | Interface) -> tuple[str, ...]:
         return declaration.extends
     extends = (declaration.extends,) if declaration.extends else ()
     return (*extends, *declaration.implements)
+
+
+def _tell_class(known: str, class_name: str, publishers: Sequence[p.Publisher]) -> bool:
+    """Whether publishers to a known rebec tell its class, all by their message types."""
+    own = [q for q in publishers if q.known == known]
+    return bool(own) and all(message_class(q.message.name, q.key) == class_name for q in own)

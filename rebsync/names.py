@@ -129,6 +129,17 @@ def camel_case(name: str) -> str:
     return "".join(part[:1].upper() + part[1:] for part in plain.split("_") if part)
 
 
+def message_name(class_name: str, key: str) -> str:
+    """The message type of a server, if no other has that name: its class and topic's last part."""
+    return camel_case(class_name) + camel_case(key)
+
+
+def message_class(message: str, key: str) -> str | None:
+    """The class whose server a message type is named after, if the name tells it."""
+    name = message.removesuffix(camel_case(key))
+    return name if name and name != message and message_name(name, key) == message else None
+
+
 def header_stem(name: str) -> str:
     """What rosidl calls the header of a message type: `HTTPState` has `http_state`."""
     words = re.sub(r"(.)([A-Z][a-z]+)", r"\1_\2", name)

@@ -158,12 +158,17 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class KnownRebec:
-    """A known rebec: a member with the rebec's name, set by the launch file."""
+    """A known rebec: whom the launch file's remappings lead to.
+
+    `is_value`: its name is a member, set by the launch file, as bodies do more than send to it or
+    its publishers do not tell its class.
+    """
 
     name: str
     type: str
     path: str
     annotations: tuple[Annotation, ...] = ()
+    is_value: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,6 +233,27 @@ class NodeClass:
     state: StateType
     executable: bool
     tests_types: bool
+
+    @property
+    def values_known(self) -> tuple[KnownRebec, ...]:
+        """The known rebecs whose names are members."""
+        return tuple(k for k in self.known if k.is_value)
+
+    def publishers_to(self, known: KnownRebec) -> tuple[Publisher, ...]:
+        """Those to a known rebec of the class itself."""
+        return tuple(p for p in self.publishers if p.known == known.name)
+
+    @property
+    def other_publishers(self) -> tuple[Publisher, ...]:
+        """Those that do not stand for a known rebec that is no member."""
+        standing = {k.name for k in self.known if not k.is_value}
+        return tuple(p for p in self.publishers if p.known not in standing)
+
+    def told_by(self, publisher: Publisher) -> tuple[KnownRebec, ...]:
+        """The known rebec that is no member and that a publisher is the first one to."""
+        return tuple(
+            k for k in self.known if not k.is_value and self.publishers_to(k)[0] == publisher
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,16 +15,10 @@ from rebsync.reverse.bodies.cpp_form import CppForm
 from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.runtime_part import runtime_part
-from rebsync.reverse.bodies.scope import (
-    Around,
-    Called,
-    Function,
-    Ignored,
-    Member,
-    Scope,
-)
+from rebsync.reverse.bodies.scope import Around, Called, Function, Ignored, Member, Scope
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.own_parameters import with_own
+from rebsync.reverse.generated.receivers import known_rebecs
 from rebsync.reverse.generated.ros1_annotations import (
     annotations_in,
     class_annotations,
@@ -212,6 +206,7 @@ class Classes:
         known: list[m.Declaration] = []
         state: list[m.Declaration] = []
         others = roles.globals.keys() | roles.odd_globals | roles.silent
+        spans = {f.name: f.cpp.span(f.node) for f in owner.fields}
         for member in owner.fields:
             if runtime_of(member) or member.name in others:
                 continue
@@ -219,15 +214,16 @@ class Classes:
             if type_ is None:
                 if not is_of_ros(text_of(member.type)) and not is_passive(text_of(member.type)):
                     why = f'the model has no type "{text_of(member.type)}"'
-                    unread = Unread(member.cpp.span(member.node), why)
+                    unread = Unread(spans[member.name], why)
                     self.findings.unreadable(member.cpp.source, unread, owner.name)
                 continue
-            span = member.cpp.span(member.node)
+            span = spans[member.name]
             declarator = m.Declarator(variable_name(roles, member), None, span)
             notes = annotations_in(member.markers, owner)
             kind = known if member.name in roles.known else state
             kind.append(m.Declaration(type_, (declarator,), notes, span))
-        return known, state
+        above = (self.roles[c.name].receivers for c in self.code.lineage(owner.name)[1:])
+        return known_rebecs(known, state, roles.receivers, spans, above), state
 
     # --- functions ------------------------------------------------------------------------------
 

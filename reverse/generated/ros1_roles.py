@@ -19,6 +19,7 @@ from rebsync.reserved import OWN_TOPICS
 from rebsync.reverse.bodies.scope import Sends
 from rebsync.reverse.generated.own_parameters import OwnParameter
 from rebsync.reverse.generated.parameters import READS, read_by
+from rebsync.reverse.generated.receivers import Receivers, add_receiver
 from rebsync.reverse.generated.ros1_dead import dead_members
 from rebsync.reverse.generated.ros1_descriptors import priority_of, server_of, tells_priority
 from rebsync.reverse.generated.ros1_idle import working
@@ -93,9 +94,10 @@ class Roles:
     `handlers` and `messages` give the server's name in the model, `globals` the entry of the
     parameter server and the default, `odd_globals` are members that get more than that,
     `annotations` those that the set-up of a server shows; of overloads that take equally many
-    arguments the first one's first. `topics` are those of shims by their names, `offers` as what
-    those of shims are offered, `wired` the calls that make them and publishers of the rebec; `own`
-    are parameters of the node that state variables get, `reading` the statements that do that, and
+    arguments the first one's first. `receivers` are known rebecs by their names. `topics` are
+    those of shims by their names, `offers` as what those of shims are offered, `wired` the calls
+    that make them and publishers of the rebec; `own` are parameters of the node that state
+    variables get, `reading` the statements that do that, and
     `asked` those that read constants in people's words, with the members that get these; `told` are
     those that people are told of,
     `silent` the variables of them that are only logged; `passing` are callbacks of timers that only
@@ -110,6 +112,7 @@ class Roles:
     odd_sends: dict[str, list[Node]] = field(default_factory=dict)
     publishers: dict[str, Advertised] = field(default_factory=dict)
     known: dict[str, str] = field(default_factory=dict)
+    receivers: Receivers = field(default_factory=dict)
     globals: dict[str, tuple[str, Node]] = field(default_factory=dict)
     odd_globals: set[str] = field(default_factory=set)
     constants: set[str] = field(default_factory=set)
@@ -231,11 +234,11 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
         return
     match call.name, call.on:
         case "param", "node" if first.startswith("knownrebecs/"):
-            roles.known[member] = original(first.partition("/")[2])
+            _known(roles, member, original(first.partition("/")[2]))
         case "param", "global" if len(call.arguments) == 2:
             roles.globals[member] = first, call.arguments[1]
         case "declare_parameter", "" | "this" if (known := known_rebec(first)) is not None:
-            roles.known[member] = original(known)
+            _known(roles, member, original(known))
         case "declare_parameter", "" | "this" if (env := constant_of_model(first)) is not None:
             roles.globals[member] = env, call.arguments[1]
         case "subscribe", on if on in _OWN_HANDLES and len(call.arguments) in (3, 4):
@@ -245,8 +248,9 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
         case "advertise", "mailbox_" if call.types:
             roles.wired.add(call.node.id)
             known, _, key = first.rpartition("/")
-            to = uncarry(known, OWN_TOPICS)
-            roles.publishers[member] = Advertised(to, key, message_name(text_of(call.types[0])))
+            to, message = uncarry(known, OWN_TOPICS), message_name(text_of(call.types[0]))
+            roles.publishers[member] = Advertised(to, key, message)
+            add_receiver(roles.receivers, to, member, message, key)
         case "subscribe" | "subscribeOnBridge", "mailbox_" if len(call.arguments) == 3:
             roles.wired.add(call.node.id)
             roles.on_bridge = roles.on_bridge or call.name == "subscribeOnBridge"
@@ -259,6 +263,11 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
             roles.wired.add(call.node.id)
             key = string_of(call.arguments[1]) or ""
             roles.publishers[member] = Advertised(None, key, message_name(text_of(call.types[0])))
+
+
+def _known(roles: Roles, member: str, name: str) -> None:
+    roles.known[member] = name
+    roles.receivers.setdefault(name, (None, member))
 
 
 # --- what functions do --------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 from functools import cached_property
@@ -19,6 +19,7 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.annotations import of_class, of_server
 from rebsync.reverse.generated.messages import NO_MESSAGES, OwnMessages
 from rebsync.reverse.generated.own_parameters import Stored, with_own
+from rebsync.reverse.generated.receivers import known_rebecs
 from rebsync.reverse.python import model_first_values as first_values
 from rebsync.reverse.python.body_form import PyForm
 from rebsync.reverse.python.class_creation import list_creation
@@ -229,8 +230,8 @@ class ModelClasses:
             *(names.posts, self._is_lost, self.constants),
         ).check()
         members: list[m.ClassMember] = []
-        known = [self._variable(owner, *v) for v in roles.known.values()]
         state = [self._variable(owner, *v) for v in roles.state.values()]
+        known = self._known(owner, state)
         members += [m.KnownRebecs(tuple(known))] if known else []
         members += [m.StateVars(tuple(state))] if state else []
         constructors = tuple(self._constructors(owner))
@@ -279,6 +280,14 @@ class ModelClasses:
         roles = self._of(owner)
         marked = annotations_above(owner.py, owner.node) if is_marked else None
         return of_class(marked, has_drive=roles.has_drive, on_bridge=roles.on_bridge)
+
+    def _known(self, owner: Scope, state: Sequence[m.Declaration]) -> list[m.Declaration]:
+        """The known rebecs of a class with some state variables."""
+        roles = self._of(owner)
+        members = [self._variable(owner, *v) for v in roles.known.values()]
+        spans = {name: owner.py.span(node) for name, node in roles.connected.items()}
+        above = (self._of(c).receivers for c in self.line(owner)[1:])
+        return known_rebecs(members, state, roles.receivers, spans, above)
 
     def _variable(self, owner: Scope, name: str, type_: m.Type, statement: Node) -> m.Declaration:
         span = owner.py.span(statement)

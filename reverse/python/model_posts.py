@@ -9,7 +9,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.generated.annotations import PRIORITIES, best_priority
-from rebsync.reverse.python.model_roles import PyRoles, plain_name, servers_of
+from rebsync.reverse.python.model_descriptors import servers_of
+from rebsync.reverse.python.model_roles import PyRoles, plain_name
 from rebsync.reverse.python.model_types import call_parts, passed_on, string_value
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.py_index import Scope

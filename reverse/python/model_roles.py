@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from dataclasses import field as with_default
 
 from tree_sitter import Node
@@ -19,14 +19,14 @@ from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS, PYTHON_FUNCTIONS, PYTHON_MEMBERS
 from rebsync.reverse.bodies.overloads import Signature
 from rebsync.reverse.build.field_order import are_named
-from rebsync.reverse.generated.annotations import priority
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
+from rebsync.reverse.generated.receivers import Receivers, add_receiver
 from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.python.model_asked import asked_back
+from rebsync.reverse.python.model_descriptors import servers_of
 from rebsync.reverse.python.model_logs import only_describes, only_logs_by_words
 from rebsync.reverse.python.model_parameters import (
     ParameterRead,
-    constant,
     declared_by,
     parameter_read,
 )
@@ -56,7 +56,6 @@ OFFERING = {
     **dict.fromkeys(("offer", "offer_on_bridge"), (6,)),
     **dict.fromkeys(("offer_action", "offer_action_on_bridge"), (6, 8)),
 }
-_PRIORITIES = {"priority": "priority", "global_priority": "globalPriority"}
 _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
 
 
@@ -96,6 +95,8 @@ class PyRoles:
     state: dict[str, tuple[str, m.Type, Node]] = with_default(default_factory=dict)
     initial: list[tuple[str, Node, Scope]] = with_default(default_factory=list)
     known: dict[str, tuple[str, m.Type, Node]] = with_default(default_factory=dict)
+    receivers: Receivers = with_default(default_factory=dict)
+    connected: dict[str, Node] = with_default(default_factory=dict)  # what sets members up
     env: dict[str, EnvUse] = with_default(default_factory=dict)
     publishers: dict[str, tuple[str | None, str, str]] = with_default(default_factory=dict)
     handlers: dict[str, str] = with_default(default_factory=dict)
@@ -187,28 +188,6 @@ def is_of_node(name: str) -> bool:
     return name in PYTHON_FUNCTIONS or name.removeprefix("_") in PYTHON_MEMBERS
 
 
-def servers_of(module: Scope) -> dict[str, tuple[str, tuple[m.Annotation, ...]]]:
-    """The descriptors of a module: `_X = Server("x", priority(1))`."""
-    found = {}
-    for name, bindings in module.names.items():
-        for binding in bindings:
-            parts = call_parts(binding.value) if binding.how == "value" else None
-            if parts is None or parts[0] != "Server" or not parts[1]:
-                continue
-            server = string_value(parts[1][0])
-            if server is not None:
-                found[name] = server, tuple(_priority(parts[1][1:]))
-    return found
-
-
-def _priority(arguments: list[Node]) -> Iterator[m.Annotation]:
-    for node in arguments:
-        kind, given = call_parts(node) or ("", [])
-        number = constant(given[0]) if len(given) == 1 else None
-        if kind in _PRIORITIES and type(number) is int:
-            yield priority(_PRIORITIES[kind], number)
-
-
 # --- set up -------------------------------------------------------------------------------------
 
 
@@ -260,6 +239,7 @@ def _member(roles: PyRoles, function: Scope, name: str, statement: Node, value: 
     elif called == "Sensor":
         roles.sensors.add(sensor_of(name) or original(name.removeprefix("_")))
     elif called.startswith("self._mailbox."):
+        roles.connected[name] = statement
         _connected(roles, name, called.removeprefix("self._mailbox."), arguments)
     elif type_ is not None and name not in _RUNTIME:
         _variable(roles, function, name, statement, value, type_)
@@ -271,7 +251,9 @@ def _connected(roles: PyRoles, member: str, method: str, arguments: list[Node]) 
     if method == "advertise" and len(arguments) == 2:
         known, _, key = topic.rpartition("/")
         message = text_of(arguments[1])
-        roles.publishers[member] = uncarry(known, OWN_TOPICS), key, message
+        to = uncarry(known, OWN_TOPICS)
+        roles.publishers[member] = to, key, message
+        add_receiver(roles.receivers, to, member, message, key)
     elif method == "advertise_all" and len(arguments) == 3:
         key = string_value(arguments[1]) or ""
         roles.publishers[member] = None, key, text_of(arguments[2])
@@ -300,6 +282,7 @@ def _variable(
     elif read is not None and read.is_own and read.key.startswith("knownrebecs/"):
         known = original(read.key.partition("/")[2])
         roles.known[attribute] = known, type_, statement
+        roles.receivers.setdefault(known, (None, attribute))
     elif read is not None and not read.is_own:
         roles.env[attribute] = EnvUse(read.key, name, type_, read.default, statement)
     elif read is not None and (own := read.own()) is not None and own.fits(type_):

@@ -31,6 +31,12 @@ class Editor(LanguageClient):
         def register(params: lsp.RegistrationParams) -> None:
             self.registered |= {each.method: each for each in params.registrations}
 
+    @property
+    def process_id(self) -> int:
+        """The server's process."""
+        assert self._server is not None
+        return self._server.pid
+
     def open(self, path: Path, text: str | None = None) -> str:
         """Opens a file, with another text if it is not as on the disk; gives its address."""
         uri = path.as_uri()

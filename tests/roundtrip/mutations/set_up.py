@@ -13,7 +13,7 @@ _CONSTANT = {
 }
 _KNOWN = {
     "cpp": r"^(  (\w+_) = )((?:node\.param|declare_parameter)<std::string>\(\"knownrebecs.*\));$",
-    "py": r"^(        (self\._\w+): Rebec\[\w+\] = )(Rebec\(.*\))",
+    "py": r"^(        (self\._\w+): Rebec\[\w+\] = )(Rebec\((?:.*\)$|\n.*\n +\)))",
 }
 _ARGUMENT = {  # with the type for which a default of 0 or false stands
     "ros1-cpp": (r"_node.cpp", r"node\.param\(\"\w+\", 0\)"),

@@ -27,16 +27,14 @@ constexpr Server kControlTask{"ControlTask", kNoPriority};
 ControlNode::ControlNode(const ros::NodeHandle& node, int32_t r1x, int32_t r1y, int32_t r2x,
     int32_t r2y)
     : mailbox_(node, 4) {
-  robot1_ = node.param<std::string>("knownrebecs/robot1", "");
-  robot2_ = node.param<std::string>("knownrebecs/robot2", "");
+  robot1_P1_pub_ = mailbox_.advertise<R1P1>("robot1/P1");
+  robot2_P2_pub_ = mailbox_.advertise<R2P2>("robot2/P2");
   const ros::NodeHandle global;
   ec1_ = global.param("ec1", 1);
   r1_goalX_ = global.param("r1_goalX", 4);
   r1_goalY_ = global.param("r1_goalY", 2);
   r2_goalX_ = global.param("r2_goalX", 2);
   r2_goalY_ = global.param("r2_goalY", 4);
-  robot1_P1_pub_ = mailbox_.advertise<R1P1>("robot1/P1");
-  robot2_P2_pub_ = mailbox_.advertise<R2P2>("robot2/P2");
   ControlTask_sub_ = mailbox_.subscribeOnBridge("ControlTask", &ControlNode::receiveControlTask, this);
   state_pub_ = ros::NodeHandle(node).advertise<ControlNodeState>("state", kQueueSize, true);
   mailbox_.onServed([this](const Served& served) { publishState(served); });

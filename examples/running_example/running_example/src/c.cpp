@@ -28,8 +28,8 @@ constexpr Server kCT3{"CT3", kNoPriority};
 
 C::C(const ros::NodeHandle& node, int32_t x1, int32_t y1, int32_t x2, int32_t y2)
     : mailbox_(node, 4) {
-  robot1_ = node.param<std::string>("knownrebecs/robot1", "");
-  robot2_ = node.param<std::string>("knownrebecs/robot2", "");
+  robot1_P1_pub_ = mailbox_.advertise<R1P1>("robot1/P1");
+  robot2_P2_pub_ = mailbox_.advertise<R2P2>("robot2/P2");
   const ros::NodeHandle global;
   ec1_ = global.param("ec1", 1);
   ec2_ = global.param("ec2", 1);
@@ -38,8 +38,6 @@ C::C(const ros::NodeHandle& node, int32_t x1, int32_t y1, int32_t x2, int32_t y2
   r1_goal_y_ = global.param("r1_goal_y", 2);
   r2_goal_x_ = global.param("r2_goal_x", 2);
   r2_goal_y_ = global.param("r2_goal_y", 4);
-  robot1_P1_pub_ = mailbox_.advertise<R1P1>("robot1/P1");
-  robot2_P2_pub_ = mailbox_.advertise<R2P2>("robot2/P2");
   CT1_sub_ = mailbox_.subscribeOnBridge("CT1", &C::receiveCT1, this);
   CT2_sub_ = mailbox_.subscribeOnBridge("CT2", &C::receiveCT2, this);
   CT3_sub_ = mailbox_.subscribeOnBridge("CT3", &C::receiveCT3, this);

@@ -32,12 +32,11 @@ R1::R1(const ros::NodeHandle& node, int32_t robot_id, int32_t init_x, int32_t in
     : mailbox_(node, 3),
       drive_(node, mailbox_),
       S11_sensor_(node, "sensor/s11") {
-  controller_ = node.param<std::string>("knownrebecs/controller", "");
+  controller_CT3_pub_ = mailbox_.advertise<CCT3>("controller/CT3");
+  controller_CT1_pub_ = mailbox_.advertise<CCT1>("controller/CT1");
   const ros::NodeHandle global;
   e11_ = global.param("e11", 2);
   sr11_ = global.param("sr11", 2);
-  controller_CT3_pub_ = mailbox_.advertise<CCT3>("controller/CT3");
-  controller_CT1_pub_ = mailbox_.advertise<CCT1>("controller/CT1");
   begin_sub_ = mailbox_.subscribe("begin", &R1::receiveBegin, this);
   P1_sub_ = mailbox_.subscribe("port/P1", &R1::receiveP1, this);
   A11_sub_ = mailbox_.subscribe("A11", &R1::receiveA11, this);

@@ -32,12 +32,11 @@ R2::R2(const ros::NodeHandle& node, int32_t robot_id, int32_t init_x, int32_t in
     : mailbox_(node, 3),
       drive_(node, mailbox_),
       S21_sensor_(node, "sensor/s21") {
-  controller_ = node.param<std::string>("knownrebecs/controller", "");
+  controller_CT3_pub_ = mailbox_.advertise<CCT3>("controller/CT3");
+  controller_CT1_pub_ = mailbox_.advertise<CCT1>("controller/CT1");
   const ros::NodeHandle global;
   e21_ = global.param("e21", 2);
   sr21_ = global.param("sr21", 2);
-  controller_CT3_pub_ = mailbox_.advertise<CCT3>("controller/CT3");
-  controller_CT1_pub_ = mailbox_.advertise<CCT1>("controller/CT1");
   begin_sub_ = mailbox_.subscribe("begin", &R2::receiveBegin, this);
   P2_sub_ = mailbox_.subscribe("port/P2", &R2::receiveP2, this);
   A21_sub_ = mailbox_.subscribe("A21", &R2::receiveA21, this);

@@ -30,12 +30,11 @@ constexpr Server kServed{"served", kNoPriority};
 Carrier::Carrier(const ros::NodeHandle& node, int32_t number, int32_t start, int32_t load_bay)
     : mailbox_(node, 2),
       drive_(node, mailbox_) {
-  dispatcher_ = node.param<std::string>("knownrebecs/dispatcher", "");
-  const ros::NodeHandle global;
-  drive_time_ = global.param("drive_time", 2);
   dispatcher_enter_pub_ = mailbox_.advertise<DispatcherEnter>("dispatcher/enter");
   dispatcher_left_pub_ = mailbox_.advertise<DispatcherLeft>("dispatcher/left");
   dispatcher_ready_pub_ = mailbox_.advertise<DispatcherReady>("dispatcher/ready");
+  const ros::NodeHandle global;
+  drive_time_ = global.param("drive_time", 2);
   begin_sub_ = mailbox_.subscribe("begin", &Carrier::receiveBegin, this);
   go_sub_ = mailbox_.subscribe("port/go", &Carrier::receiveGo, this);
   drive_sub_ = mailbox_.subscribe("drive", &Carrier::receiveDrive, this);

@@ -33,12 +33,10 @@ Dispatcher::Dispatcher(const ros::NodeHandle& node, int32_t cell1, int32_t cell2
   carrier2_ = node.param<std::string>("knownrebecs/carrier2", "");
   carrier3_ = node.param<std::string>("knownrebecs/carrier3", "");
   carrier4_ = node.param<std::string>("knownrebecs/carrier4", "");
-  picker_ = node.param<std::string>("knownrebecs/picker", "");
-  packer_ = node.param<std::string>("knownrebecs/packer", "");
-  const ros::NodeHandle global;
-  patience_ = global.param("patience", 4);
   picker_serve_pub_ = mailbox_.advertise<LifterServe>("picker/serve");
   packer_serve_pub_ = mailbox_.advertise<LifterServe>("packer/serve");
+  const ros::NodeHandle global;
+  patience_ = global.param("patience", 4);
   Carrier_go_pubs_ = mailbox_.advertiseAll<CarrierGo>("Carrier", "go");
   left_sub_ = mailbox_.subscribeOnBridge("left", &Dispatcher::receiveLeft, this);
   enter_sub_ = mailbox_.subscribeOnBridge("enter", &Dispatcher::receiveEnter, this);

@@ -36,8 +36,6 @@
 
 namespace running_example {
 
-class C;
-
 // rebsync: annotation @Robot
 // rebsync: reactiveclass R2
 class R2 {
@@ -74,11 +72,11 @@ class R2 {
   bool stopped_{};                // rebsync: statevar R2.stopped
   std::array<int32_t, 2> pos_{};  // rebsync: statevar R2.pos
   int32_t data_{};                // rebsync: statevar R2.data
-  Rebec<C> controller_;           // rebsync: knownrebec R2.controller
   int32_t e21_{};                 // rebsync: env e21
   int32_t sr21_{};                // rebsync: env sr21
 
   Sensor<R2S21Data> S21_sensor_;
+  // rebsync: knownrebec R2.controller
   ros::Publisher controller_CT3_pub_;
   ros::Publisher controller_CT1_pub_;
   ros::Subscriber begin_sub_;

@@ -33,7 +33,6 @@
 namespace warehouse {
 
 class Carrier;
-class Lifter;
 
 // rebsync: annotation @Controller
 // rebsync: reactiveclass Dispatcher
@@ -72,11 +71,11 @@ class Dispatcher {
   Rebec<Carrier> carrier2_;          // rebsync: knownrebec Dispatcher.carrier2
   Rebec<Carrier> carrier3_;          // rebsync: knownrebec Dispatcher.carrier3
   Rebec<Carrier> carrier4_;          // rebsync: knownrebec Dispatcher.carrier4
-  Rebec<Lifter> picker_;             // rebsync: knownrebec Dispatcher.picker
-  Rebec<Lifter> packer_;             // rebsync: knownrebec Dispatcher.packer
   int32_t patience_{};               // rebsync: env patience
 
+  // rebsync: knownrebec Dispatcher.picker
   ros::Publisher picker_serve_pub_;
+  // rebsync: knownrebec Dispatcher.packer
   ros::Publisher packer_serve_pub_;
   Publishers Carrier_go_pubs_;
   ros::Subscriber left_sub_;

@@ -29,10 +29,9 @@ constexpr Server kMoveInX{"MoveInX", kNoPriority};
 R1::R1(const ros::NodeHandle& node, int32_t robot_id, int32_t init_x, int32_t init_y)
     : mailbox_(node, 2),
       drive_(node, mailbox_) {
-  controller_ = node.param<std::string>("knownrebecs/controller", "");
+  controller_ControlTask_pub_ = mailbox_.advertise<ControlNodeControlTask>("controller/ControlTask");
   const ros::NodeHandle global;
   e1_ = global.param("e1", 1);
-  controller_ControlTask_pub_ = mailbox_.advertise<ControlNodeControlTask>("controller/ControlTask");
   begin_sub_ = mailbox_.subscribe("begin", &R1::receiveBegin, this);
   P1_sub_ = mailbox_.subscribe("port/P1", &R1::receiveP1, this);
   MoveInX_sub_ = mailbox_.subscribe("MoveInX", &R1::receiveMoveInX, this);

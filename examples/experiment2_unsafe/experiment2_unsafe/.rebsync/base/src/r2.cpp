@@ -29,10 +29,9 @@ constexpr Server kMoveInY{"MoveInY", kNoPriority};
 R2::R2(const ros::NodeHandle& node, int32_t robot_id, int32_t init_x, int32_t init_y)
     : mailbox_(node, 2),
       drive_(node, mailbox_) {
-  controller_ = node.param<std::string>("knownrebecs/controller", "");
+  controller_ControlTask_pub_ = mailbox_.advertise<ControlNodeControlTask>("controller/ControlTask");
   const ros::NodeHandle global;
   e2_ = global.param("e2", 1);
-  controller_ControlTask_pub_ = mailbox_.advertise<ControlNodeControlTask>("controller/ControlTask");
   begin_sub_ = mailbox_.subscribe("begin", &R2::receiveBegin, this);
   P2_sub_ = mailbox_.subscribe("port/P2", &R2::receiveP2, this);
   MoveInY_sub_ = mailbox_.subscribe("MoveInY", &R2::receiveMoveInY, this);

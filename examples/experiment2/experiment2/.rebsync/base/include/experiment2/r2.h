@@ -32,8 +32,6 @@
 
 namespace experiment2 {
 
-class ControlNode;
-
 // rebsync: annotation @Robot
 // rebsync: reactiveclass R2
 class R2 {
@@ -63,12 +61,12 @@ class R2 {
   Mailbox mailbox_;
   Drive drive_;
 
-  int32_t id_{};                   // rebsync: statevar R2.id
-  bool stopped_{};                 // rebsync: statevar R2.stopped
-  std::array<int32_t, 2> pos_{};   // rebsync: statevar R2.pos
-  Rebec<ControlNode> controller_;  // rebsync: knownrebec R2.controller
-  int32_t e2_{};                   // rebsync: env e2
+  int32_t id_{};                  // rebsync: statevar R2.id
+  bool stopped_{};                // rebsync: statevar R2.stopped
+  std::array<int32_t, 2> pos_{};  // rebsync: statevar R2.pos
+  int32_t e2_{};                  // rebsync: env e2
 
+  // rebsync: knownrebec R2.controller
   ros::Publisher controller_ControlTask_pub_;
   ros::Subscriber begin_sub_;
   ros::Subscriber P2_sub_;

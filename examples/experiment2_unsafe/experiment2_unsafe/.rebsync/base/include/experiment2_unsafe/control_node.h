@@ -30,9 +30,6 @@
 
 namespace experiment2_unsafe {
 
-class R1;
-class R2;
-
 // rebsync: annotation @Controller
 // rebsync: reactiveclass ControlNode
 class ControlNode {
@@ -57,15 +54,15 @@ class ControlNode {
 
   std::array<int32_t, 2> pos_r1_{};  // rebsync: statevar ControlNode.pos_r1
   std::array<int32_t, 2> pos_r2_{};  // rebsync: statevar ControlNode.pos_r2
-  Rebec<R1> robot1_;                 // rebsync: knownrebec ControlNode.robot1
-  Rebec<R2> robot2_;                 // rebsync: knownrebec ControlNode.robot2
   int32_t ec1_{};                    // rebsync: env ec1
   int32_t r1_goalX_{};               // rebsync: env r1_goalX
   int32_t r1_goalY_{};               // rebsync: env r1_goalY
   int32_t r2_goalX_{};               // rebsync: env r2_goalX
   int32_t r2_goalY_{};               // rebsync: env r2_goalY
 
+  // rebsync: knownrebec ControlNode.robot1
   ros::Publisher robot1_P1_pub_;
+  // rebsync: knownrebec ControlNode.robot2
   ros::Publisher robot2_P2_pub_;
   ros::Subscriber ControlTask_sub_;
   ros::Publisher state_pub_;

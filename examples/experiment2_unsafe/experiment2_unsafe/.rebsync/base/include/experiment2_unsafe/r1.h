@@ -32,8 +32,6 @@
 
 namespace experiment2_unsafe {
 
-class ControlNode;
-
 // rebsync: annotation @Robot
 // rebsync: reactiveclass R1
 class R1 {
@@ -63,12 +61,12 @@ class R1 {
   Mailbox mailbox_;
   Drive drive_;
 
-  int32_t id_{};                   // rebsync: statevar R1.id
-  bool stopped_{};                 // rebsync: statevar R1.stopped
-  std::array<int32_t, 2> pos_{};   // rebsync: statevar R1.pos
-  Rebec<ControlNode> controller_;  // rebsync: knownrebec R1.controller
-  int32_t e1_{};                   // rebsync: env e1
+  int32_t id_{};                  // rebsync: statevar R1.id
+  bool stopped_{};                // rebsync: statevar R1.stopped
+  std::array<int32_t, 2> pos_{};  // rebsync: statevar R1.pos
+  int32_t e1_{};                  // rebsync: env e1
 
+  // rebsync: knownrebec R1.controller
   ros::Publisher controller_ControlTask_pub_;
   ros::Subscriber begin_sub_;
   ros::Subscriber P1_sub_;

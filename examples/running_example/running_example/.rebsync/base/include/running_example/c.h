@@ -32,9 +32,6 @@
 
 namespace running_example {
 
-class R1;
-class R2;
-
 // rebsync: annotation @Controller
 // rebsync: reactiveclass C
 class C {
@@ -69,8 +66,6 @@ class C {
   std::array<int32_t, 2> pos1_{};  // rebsync: statevar C.pos1
   std::array<int32_t, 2> pos2_{};  // rebsync: statevar C.pos2
   int32_t moving_{};               // rebsync: statevar C.moving
-  Rebec<R1> robot1_;               // rebsync: knownrebec C.robot1
-  Rebec<R2> robot2_;               // rebsync: knownrebec C.robot2
   int32_t ec1_{};                  // rebsync: env ec1
   int32_t ec2_{};                  // rebsync: env ec2
   int32_t ec3_{};                  // rebsync: env ec3
@@ -79,7 +74,9 @@ class C {
   int32_t r2_goal_x_{};            // rebsync: env r2_goal_x
   int32_t r2_goal_y_{};            // rebsync: env r2_goal_y
 
+  // rebsync: knownrebec C.robot1
   ros::Publisher robot1_P1_pub_;
+  // rebsync: knownrebec C.robot2
   ros::Publisher robot2_P2_pub_;
   ros::Subscriber CT1_sub_;
   ros::Subscriber CT2_sub_;

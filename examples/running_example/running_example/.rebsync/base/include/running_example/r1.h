@@ -36,8 +36,6 @@
 
 namespace running_example {
 
-class C;
-
 // rebsync: annotation @Robot
 // rebsync: reactiveclass R1
 class R1 {
@@ -74,11 +72,11 @@ class R1 {
   bool stopped_{};                // rebsync: statevar R1.stopped
   std::array<int32_t, 2> pos_{};  // rebsync: statevar R1.pos
   int32_t data_{};                // rebsync: statevar R1.data
-  Rebec<C> controller_;           // rebsync: knownrebec R1.controller
   int32_t e11_{};                 // rebsync: env e11
   int32_t sr11_{};                // rebsync: env sr11
 
   Sensor<R1S11Data> S11_sensor_;
+  // rebsync: knownrebec R1.controller
   ros::Publisher controller_CT3_pub_;
   ros::Publisher controller_CT1_pub_;
   ros::Subscriber begin_sub_;

@@ -34,8 +34,6 @@
 
 namespace warehouse {
 
-class Dispatcher;
-
 // rebsync: annotation @Robot
 // rebsync: reactiveclass Carrier
 class Carrier {
@@ -70,13 +68,13 @@ class Carrier {
   Mailbox mailbox_;
   Drive drive_;
 
-  int32_t id_{};                  // rebsync: statevar Carrier.id
-  int32_t cell_{};                // rebsync: statevar Carrier.cell
-  int32_t bay_{};                 // rebsync: statevar Carrier.bay
-  bool loaded_{};                 // rebsync: statevar Carrier.loaded
-  Rebec<Dispatcher> dispatcher_;  // rebsync: knownrebec Carrier.dispatcher
-  int32_t drive_time_{};          // rebsync: env drive_time
+  int32_t id_{};          // rebsync: statevar Carrier.id
+  int32_t cell_{};        // rebsync: statevar Carrier.cell
+  int32_t bay_{};         // rebsync: statevar Carrier.bay
+  bool loaded_{};         // rebsync: statevar Carrier.loaded
+  int32_t drive_time_{};  // rebsync: env drive_time
 
+  // rebsync: knownrebec Carrier.dispatcher
   ros::Publisher dispatcher_enter_pub_;
   ros::Publisher dispatcher_left_pub_;
   ros::Publisher dispatcher_ready_pub_;
