@@ -11,7 +11,8 @@ from rebsync.reverse.analysis.given_counts import count_given, is_position, take
 from rebsync.reverse.analysis.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import PlainOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
-from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.problems import BEYOND_TIMES, ProblemNotes
+from rebsync.reverse.analysis.time_arguments import OF_TIMES, TimeArguments
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -59,6 +60,11 @@ class LibraryExceptions:
         if is_many or (of is not None and self.expressions.size(of, facts)):
             return raised
         return raised | outcome.empty
+
+    def why(self, name: str, outcome: CallOutcome) -> str:
+        """What is said of a call that may raise something."""
+        is_of_time = outcome.when in OF_TIMES
+        return BEYOND_TIMES if is_of_time else f'"{name}" may raise an exception'
 
     def has_pieces(self, node: s.Call, text: e.Expression) -> bool:
         """Whether a call that formats a text gets all arguments that the text names."""
@@ -117,7 +123,7 @@ class LibraryExceptions:
             case Raises.UNORDERED:
                 return not self._are_ordered(values, facts)
             case _:
-                assert_never(when)
+                return TimeArguments(self.origins, self.function).are_beyond(values, when)
 
     def _is_odd_parameter(self, node: s.Call, when: Raises, facts: Facts) -> bool:
         """Whether a parameter may not be declared that is asked for, or is declared again."""

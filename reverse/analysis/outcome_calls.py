@@ -395,4 +395,4 @@ class OutcomeCalls:
         if any(has_own_iterator(self.origins, value, self.function) for value in values):
             self.notes.problem(node, f'"{name}" may never come to the end')
         for raised in self._exceptions.of(node, outcome, receiver, facts):
-            self.notes.problem(node, f'"{name}" may raise an exception', raised)
+            self.notes.problem(node, self._exceptions.why(name, outcome), raised)

@@ -14,6 +14,8 @@ from rebsync.reverse.ir.program import Function
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.source import Span
 
+BEYOND_TIMES = "this may be no time, or compare times of other clocks: then it throws"
+
 
 @dataclass(frozen=True, slots=True)
 class ParameterNeed:

@@ -11,7 +11,7 @@ from tree_sitter import Node
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes import RECURSES, OutcomeAnalysis
-from rebsync.reverse.analysis.problems import Problem
+from rebsync.reverse.analysis.problems import BEYOND_TIMES, Problem
 from rebsync.reverse.bodies.cpp_unread_calls import UnreadCalls
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.cpp.functions import lambda_names
@@ -205,12 +205,21 @@ class CppForm:
 
     def raises(self, cpp: Cpp, statement: Node) -> str | None:
         """What an exception is that a statement of a function may end with; None if it has none."""
+        return min((p.why for p in self.raised(cpp, statement)), default=None)
+
+    def raised(self, cpp: Cpp, statement: Node) -> frozenset[Problem]:
+        """The exceptions that a statement of a function may end with, by their places."""
         name = self._around(statement)
         if name is None:
-            return None
+            return frozenset()
         function = self._program.function(name)
-        found = self._outcomes.raised_by(function, cpp.span(statement))
-        return min((p.why for p in found), default=None)
+        return self._outcomes.raised_by(function, cpp.span(statement))
+
+    def beyond_times(self, cpp: Cpp, statement: Node) -> list[Span]:
+        """The places in a statement itself that throw for a time, perhaps."""
+        name = self._around(statement)
+        found = (p for p in self.raised(cpp, statement) if p.function == name)
+        return [p.place for p in found if p.why == BEYOND_TIMES]
 
     def recurses(self, function: CppFunction) -> bool:
         """Whether a function may call itself, perhaps by others."""

@@ -26,6 +26,7 @@ from rebsync.reverse.bodies import (
     cpp_sequencing,
     cpp_special,
     cpp_texts,
+    cpp_time_range,
     cpp_trying,
     cpp_users,
 )
@@ -148,6 +149,7 @@ class CppStatements(CppStatementReader):
             if not read:
                 self._check_names(node)
                 self.check_comes_back(node)
+            cpp_time_range.check(self, node)
             return read
         except Unread as unread:
             return self._listed(node, unread)

@@ -59,6 +59,10 @@ class Raises(Enum):
     REPEATED = "any, where the call may not be the first one"
     UNDECLARED_ALONE = "the name alone of a parameter that nobody declares in the source"
     UNORDERED = "two of which the second may be the smaller one"
+    BEFORE_START = "seconds that may be negative, or more than 32 bits have"
+    BEYOND_SPAN = "seconds that may be more than 32 bits have"
+    NEGATIVE_PAIR = "two numbers, of which the first one may be negative"
+    NO_RATE = "a number that may not be greater than zero"
 
 
 @dataclass(frozen=True, slots=True)
