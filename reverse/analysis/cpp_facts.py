@@ -36,6 +36,23 @@ class CppFacts:
         return frozenset(found)
 
     @cached_property
+    def constructors(self) -> Mapping[str, tuple[str, ...]]:
+        """By each class the constructors that it has, or the implicit one."""
+        found: dict[str, tuple[str, ...]] = {}
+        for f in self._functions:
+            if f.kind is FunctionKind.CONSTRUCTOR and f.owner is not None:
+                found[f.owner] = (*found.get(f.owner, ()), f.name)
+        return found
+
+    @cached_property
+    def has_throwing_streams(self) -> bool:
+        """Whether a stream is asked to throw where an operation on it fails."""
+        calls = (n for f in self._functions for n in walk(f) if isinstance(n, s.Call))
+        asking = (c for c in calls if c.arguments)
+        names = (getattr(c.callee, "name", "").rpartition("::")[2] for c in asking)
+        return "exceptions" in names
+
+    @cached_property
     def declared_parameters(self) -> frozenset[str]:
         """The names that stand in calls which declare a parameter of a node in C++."""
         every = (self._program.function(name) for name in self._program.functions)
@@ -55,7 +72,8 @@ class CppFacts:
         """By each variable in how many places its address is taken only to look at it.
 
         Classes of times look at what they get by its address; functions of the program do if
-        none of them stores through their parameter. Through a temporary `stored_through` says what is stored.
+        none of them stores through their parameter. `stored_through` says what is stored through
+        a temporary.
         """
         places = ((key_of(of, f.name)) for f in self._functions for of in self._looked_at(f))
         return Counter(key for key in places if key is not None)

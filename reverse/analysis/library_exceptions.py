@@ -12,6 +12,7 @@ from rebsync.reverse.analysis.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import PlainOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.problems import BEYOND_TIMES, ProblemNotes
+from rebsync.reverse.analysis.stream_failures import STREAM_FAILURE, may_fail
 from rebsync.reverse.analysis.time_arguments import OF_TIMES, TimeArguments
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -46,6 +47,8 @@ class LibraryExceptions:
         plain = [a.value for a in node.arguments if a.name is None]
         if receiver is not None and self.expressions.foreign.has(receiver, self.function):
             return frozenset()
+        if may_fail(self.origins, node):
+            return outcome.raises | {STREAM_FAILURE}
         raised = outcome.raises if self._may_raise(node, outcome.when, facts) else frozenset()
         of = receiver
         if of is None and node.arguments:

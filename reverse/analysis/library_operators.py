@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rebsync.reverse.analysis.client_times import ClientTimes
 from rebsync.reverse.analysis.problems import BEYOND_TIMES, ProblemNotes
+from rebsync.reverse.analysis.stream_failures import STREAM_FAILURE, may_fail
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.libraries.client_times import THROWN
@@ -36,6 +37,8 @@ class LibraryOperators:
         """Operators and conversion functions that classes of libraries have."""
         if isinstance(value, e.Binary) and self._is_beyond(value):
             self.notes.problem(value, BEYOND_TIMES, THROWN)
+        if may_fail(self.notes.origins, value):
+            self.notes.problem(value, "a stream may raise an exception", STREAM_FAILURE)
         match value:
             case e.Binary(operator, left, right):
                 found = [(left, operator.value), (right, operator.value)]

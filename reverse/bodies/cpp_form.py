@@ -13,16 +13,17 @@ from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes import RECURSES, OutcomeAnalysis
 from rebsync.reverse.analysis.problems import BEYOND_TIMES, Problem
 from rebsync.reverse.bodies.cpp_unread_calls import UnreadCalls
+from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.cpp.functions import lambda_names
 from rebsync.reverse.ir.cpp.lowering import CppLowering
-from rebsync.reverse.ir.cpp.symbols import FunctionSymbol
-from rebsync.reverse.ir.program import Program
+from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
+from rebsync.reverse.ir.program import Function, FunctionKind, Program
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.syntax.ancestors import ancestors
-from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside
 from rebsync.source import NOWHERE, Span
 
@@ -215,6 +216,28 @@ class CppForm:
         function = self._program.function(name)
         return self._outcomes.raised_by(function, cpp.span(statement))
 
+    def raised_at_start(self, owner: CppClass, member: str) -> str | None:
+        """What an exception is that a class's member may end with where it is made."""
+        every = map(self._program.function, self._program.functions)
+        made = [f for f in every if f.kind is FunctionKind.CONSTRUCTOR and f.owner]
+        names = {c.name for c in self._classes if c.node.id == owner.node.id}
+        for constructor in (f for f in made if f.owner in names):
+            if (why := self._raised_making(constructor, member)) is not None:
+                return why
+        return None
+
+    def raised_before(self, cpp: Cpp, variable: str) -> str | None:
+        """What an exception is that a variable of a file may end with where it is made."""
+        return self._raised_making(self._program.function(cpp.source.path), variable)
+
+    def _raised_making(self, function: Function, name: str) -> str | None:
+        found = self._outcomes.of_body(function, _making(function, name))
+        return min((p.why for p in found if p.raises), default=None)
+
+    @property
+    def _classes(self) -> Iterable[ClassSymbol]:
+        return self._lowering.world.symbols.classes.values()
+
     def beyond_times(self, cpp: Cpp, statement: Node) -> list[Span]:
         """The places in a statement itself that throw for a time, perhaps."""
         name = self._around(statement)
@@ -290,3 +313,21 @@ class CppForm:
                 place = node.place if node.place != NOWHERE else function.cpp.span(function.node)
                 if _LOCKS.search(function.cpp.source.text[place.start : place.end].encode()):
                     yield place
+
+
+def _making(function: Function, name: str) -> s.Body:
+    """The statements of a constructor or file that make a member or variable, with those before."""
+    found: list[s.Statement] = []
+    for statement in function.body:
+        found.append(statement)
+        match getattr(statement, "target", None):
+            case e.Attribute(e.Local(owner), made) if owner == function.receiver:
+                pass
+            case e.Attribute(e.ClassReference(), made) | e.Global(_, made):
+                pass
+            case _:
+                continue
+        if made.rpartition("::")[2] == name:
+            return tuple(found)
+        found.clear()
+    return ()

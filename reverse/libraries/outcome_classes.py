@@ -152,3 +152,13 @@ CLASSES: Mapping[str, str] = {
     "queue.PriorityQueue": "queue.Queue",
     "multiprocessing.Queue": "queue.Queue",
 }
+
+# Streams of C++; some of which exist from the start.
+_STREAMS = frozenset({"std::ostream", "std::istream", "std::iostream", "std::ios", "std::ios_base"})
+STREAM_OBJECTS = frozenset({f"std::{name}" for name in ("cout", "cerr", "clog", "cin")})
+STREAM_FUNCTIONS = frozenset({"std::getline", "std::endl", "std::flush", "std::ws"})
+
+
+def is_stream(name: str) -> bool:
+    """Whether a class is one of streams."""
+    return name in _STREAMS or CLASSES.get(name) == "file"
