@@ -13,6 +13,9 @@ from rebsync.reverse.ir.program import Function, FunctionKind, Program
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.client_times import is_of_times
 
+# The types of parameters, by how the form writes those of C++.
+_TYPES = (("float", float), ("truth", bool), ("i", int), ("text", str), ("bytes", str))
+
 
 class CppFacts:
     """Of one program; each is looked for when it is first asked for."""
@@ -68,6 +71,24 @@ class CppFacts:
         return frozenset(text for text in texts if isinstance(text, str))
 
     @cached_property
+    def parameter_types(self) -> Mapping[str, frozenset[type | None]]:
+        """By the names of parameters the types that they are declared with; None if not known."""
+        found: dict[str, frozenset[type | None]] = {}
+        calls = (n for f in self._functions for n in walk(f) if isinstance(n, s.Call))
+        for call in calls:
+            name, _, given = getattr(call.callee, "name", "").partition("<")
+            values = [a.value for a in call.arguments]
+            if name.rpartition("::")[2] != "declare_parameter" or not values:
+                continue
+            match values[0]:
+                case e.Literal(str() as text):
+                    types = found.get(text, frozenset())
+                    found[text] = types | {_declared_type(given, values[1:2])}
+                case _:
+                    pass
+        return found
+
+    @cached_property
     def unchanging_addresses(self) -> Mapping[Key, int]:
         """By each variable in how many places its address is taken only to look at it.
 
@@ -120,6 +141,18 @@ class CppFacts:
                     yield of
                 case _:
                     pass
+
+
+def _declared_type(given: str, values: list[e.Expression]) -> type | None:
+    """The type of a parameter, by the argument of the template, or by its first value."""
+    if given:
+        return next((type_ for text, type_ in _TYPES if given.startswith(text)), None)
+    for value in values:
+        while isinstance(value, e.Convert):
+            value = value.operand
+        if isinstance(value, e.Literal) and isinstance(value.value, bool | int | float | str):
+            return type(value.value)
+    return None
 
 
 def _stored_through(function: Function) -> dict[int, list[e.Expression]]:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal, TypeAlias
 
+from rebsync.reverse.analysis.cpp_parameters import CppParameters
 from rebsync.reverse.analysis.facts import Facts, HasKey, bare, names_of
 from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import PlainOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
-from rebsync.reverse.analysis.problems import BEYOND_TIMES, ProblemNotes
+from rebsync.reverse.analysis.problems import BEYOND_TIMES, ODD_PARAMETER, ProblemNotes
 from rebsync.reverse.analysis.stream_failures import STREAM_FAILURE, may_fail
 from rebsync.reverse.analysis.time_arguments import OF_TIMES, TimeArguments
 from rebsync.reverse.ir import expressions as e
@@ -66,6 +67,8 @@ class LibraryExceptions:
 
     def why(self, name: str, outcome: CallOutcome) -> str:
         """What is said of a call that may raise something."""
+        if outcome.when in (Raises.OTHER_TYPE, Raises.REPEATED):
+            return ODD_PARAMETER
         is_of_time = outcome.when in OF_TIMES
         return BEYOND_TIMES if is_of_time else f'"{name}" may raise an exception'
 
@@ -121,7 +124,7 @@ class LibraryExceptions:
                 return any(self.expressions.texts(v) not in _WHOLE for v in values)
             case Raises.UNWRITTEN:
                 return not all(map(self.expressions.texts, values[:1]))
-            case Raises.UNDECLARED | Raises.UNDECLARED_ALONE | Raises.REPEATED:
+            case Raises.UNDECLARED | Raises.UNDECLARED_ALONE | Raises.REPEATED | Raises.OTHER_TYPE:
                 return self._is_odd_parameter(node, when, facts)
             case Raises.UNORDERED:
                 return not self._are_ordered(values, facts)
@@ -132,6 +135,10 @@ class LibraryExceptions:
         """Whether a parameter may not be declared that is asked for, or is declared again."""
         if when is Raises.UNDECLARED_ALONE:
             return len(node.arguments) == 1 and not self._are_declared(node.arguments[0].value)
+        if when is Raises.OTHER_TYPE:
+            return CppParameters(self.origins).is_of_other_type(node, self.function)
+        if self.table.language is Language.CPP:
+            return CppParameters(self.origins).is_declared_again(self.function)
         declared = self.expressions.notes.counts.rules.declared
         if when is Raises.REPEATED:
             return declared.may_have(self.function)

@@ -11,7 +11,7 @@ from tree_sitter import Node
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes import RECURSES, OutcomeAnalysis
-from rebsync.reverse.analysis.problems import BEYOND_TIMES, Problem
+from rebsync.reverse.analysis.problems import UNSAID, Problem
 from rebsync.reverse.bodies.cpp_unread_calls import UnreadCalls
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -238,11 +238,11 @@ class CppForm:
     def _classes(self) -> Iterable[ClassSymbol]:
         return self._lowering.world.symbols.classes.values()
 
-    def beyond_times(self, cpp: Cpp, statement: Node) -> list[Span]:
-        """The places in a statement itself that throw for a time, perhaps."""
+    def unsaid(self, cpp: Cpp, statement: Node) -> list[Problem]:
+        """What in a statement itself may throw, of which models say nothing."""
         name = self._around(statement)
         found = (p for p in self.raised(cpp, statement) if p.function == name)
-        return [p.place for p in found if p.why == BEYOND_TIMES]
+        return sorted((p for p in found if p.why in UNSAID), key=lambda p: p.place.start)
 
     def recurses(self, function: CppFunction) -> bool:
         """Whether a function may call itself, perhaps by others."""

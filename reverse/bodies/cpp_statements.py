@@ -26,8 +26,8 @@ from rebsync.reverse.bodies import (
     cpp_sequencing,
     cpp_special,
     cpp_texts,
-    cpp_time_range,
     cpp_trying,
+    cpp_unsaid_failures,
     cpp_users,
 )
 from rebsync.reverse.bodies.cpp_effects import Effects, touching
@@ -149,7 +149,7 @@ class CppStatements(CppStatementReader):
             if not read:
                 self._check_names(node)
                 self.check_comes_back(node)
-            cpp_time_range.check(self, node)
+            cpp_unsaid_failures.check(self, node)
             return read
         except Unread as unread:
             return self._listed(node, unread)

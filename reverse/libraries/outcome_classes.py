@@ -52,6 +52,8 @@ EXCEPTIONS: Mapping[str, str] = {
     **dict.fromkeys(("cv::Exception", "image_geometry::Exception"), "std::runtime_error"),
     **dict.fromkeys(("std::bad_typeid",), "std::exception"),
     "rclcpp::exceptions::ParameterNotDeclaredException": "std::runtime_error",
+    "rclcpp::exceptions::ParameterAlreadyDeclaredException": "std::runtime_error",
+    "rclcpp::ParameterTypeException": "std::runtime_error",
     **dict.fromkeys(("std::ios_base::failure", "pcl::PCLException"), "std::runtime_error"),
     # One of these names stands for the other.
     "tf2::TransformException": "tf::TransformException",

@@ -58,6 +58,7 @@ class Raises(Enum):
     UNDECLARED = "the name of a parameter that the node may not have declared"
     REPEATED = "any, where the call may not be the first one"
     UNDECLARED_ALONE = "the name alone of a parameter that nobody declares in the source"
+    OTHER_TYPE = "none, of a parameter that is declared with another type in the source"
     UNORDERED = "two of which the second may be the smaller one"
     BEFORE_START = "seconds that may be negative, or more than 32 bits have"
     BEYOND_SPAN = "seconds that may be more than 32 bits have"
@@ -282,9 +283,14 @@ RULES = (
     OutcomeRule(".resize", raises="std::length_error", size=Size.ANY, when=Raises.NEGATIVE),
     OutcomeRule(".reserve", raises="std::length_error", when=Raises.NEGATIVE),
     OutcomeRule("new[]", raises="std::bad_array_new_length", when=Raises.NEGATIVE),
+    OutcomeRule("bitset", raises="std::invalid_argument", when=Raises.TEXT),
     OutcomeRule(".test", raises="std::out_of_range"),
     OutcomeRule("std::atomic.test"),
     OutcomeRule(".erase std::vector.erase", size=Size.ANY),
+    OutcomeRule("std::vector.assign", raises="std::length_error", size=Size.ANY, when=Raises.COUNT),
+    OutcomeRule(
+        "std::vector.insert", raises="std::length_error", size=Size.GROWS, when=Raises.COUNT
+    ),
     OutcomeRule("std::map.erase std::set.erase", size=Size.ANY),
     OutcomeRule(
         "std::string.erase std::string.insert std::string.replace std::string.compare",
