@@ -124,7 +124,7 @@ RULES = (
     ),
     OutcomeRule("dynamic_pointer_cast in_place nullopt make_optional optional numeric_limits"),
     OutcomeRule("array map set unordered_map unordered_set multimap multiset"),
-    OutcomeRule("queue stack priority_queue string_view bitset initializer_list span"),
+    OutcomeRule("queue stack priority_queue string_view initializer_list span"),
     OutcomeRule("mutex recursive_mutex shared_mutex atomic atomic_bool atomic_int atomic_flag"),
     OutcomeRule("lock_guard scoped_lock unique_lock shared_lock condition_variable hash less"),
     OutcomeRule("greater plus minus equal_to function ifstream ofstream fstream stringstream"),
