@@ -20,9 +20,11 @@ from rebsync.reverse.ir.cpp.lowering import CppLowering
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
 from rebsync.reverse.ir.program import Function, FunctionKind, Program
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
-from rebsync.reverse.libraries.routines import Language
+from rebsync.reverse.libraries.routines import Kind, Language
 from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside
 from rebsync.source import NOWHERE, Span
@@ -209,12 +211,19 @@ class CppForm:
         return min((p.why for p in self.raised(cpp, statement)), default=None)
 
     def raised(self, cpp: Cpp, statement: Node) -> frozenset[Problem]:
-        """The exceptions that a statement of a function may end with, by their places."""
+        """The exceptions that a statement of a function may end with, by their places.
+
+        Periods of timers are facts of the graph, which says of each whether it is known.
+        """
         name = self._around(statement)
         if name is None:
             return frozenset()
         function = self._program.function(name)
-        return self._outcomes.raised_by(function, cpp.span(statement))
+        found = self._outcomes.raised_by(function, cpp.span(statement))
+        odd = {p for p in found if p.why in UNSAID and p.function == name}
+        timers = list(map(cpp.span, _timers(statement))) if odd else []
+        within = (p for p in odd for t in timers if t.start <= p.place.start < t.end)
+        return found.difference(within)
 
     def raised_at_start(self, owner: CppClass, member: str) -> str | None:
         """What an exception is that a class's member may end with where it is made."""
@@ -313,6 +322,15 @@ class CppForm:
                 place = node.place if node.place != NOWHERE else function.cpp.span(function.node)
                 if _LOCKS.search(function.cpp.source.text[place.start : place.end].encode()):
                     yield place
+
+
+def _timers(node: Node) -> Iterator[Node]:
+    """The calls that make timers."""
+    for place in inside(node, "call_expression"):
+        call = call_of(place)
+        name = call.name.partition("<")[0].rpartition("::")[2] if call is not None else ""
+        if name in libraries.named(Kind.TIMER):
+            yield place
 
 
 def _making(function: Function, name: str) -> s.Body:

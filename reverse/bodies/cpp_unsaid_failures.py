@@ -7,14 +7,10 @@ that they are asked for.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import inside
 
 _CAUSES = re.compile(rb"\b(?:(?:Wall)?(?:Time|Duration|Rate)|declare_parameter|as_\w+)\b")
@@ -24,15 +20,6 @@ _STATEMENTS = (
 )
 
 
-def _timers(node: Node) -> Iterator[Node]:
-    """The calls that make timers: their periods are facts of the graph, and known or unreadable."""
-    for place in inside(node, "call_expression"):
-        call = call_of(place)
-        name = call.name.partition("<")[0].rpartition("::")[2] if call is not None else ""
-        if name in libraries.named(Kind.TIMER):
-            yield place
-
-
 def check(reader: CppStatementReader, node: Node) -> None:
     """Raises `Unread` where a statement, but for those in it, may throw so."""
     form, cpp = reader.scope.form, reader.cpp
@@ -40,7 +27,7 @@ def check(reader: CppStatementReader, node: Node) -> None:
         return
     found = form.unsaid(cpp, node)
     nested = [inner for inner in inside(node, *_STATEMENTS) if inner != node] if found else []
-    spans = [cpp.span(inner) for inner in (*nested, *_timers(node))]
+    spans = [cpp.span(inner) for inner in nested]
     for problem in found:
         start, end = problem.place.start, problem.place.end
         if not any(s.start <= start and end <= s.end for s in spans):
