@@ -83,7 +83,6 @@ def _made_before(code: Code) -> Iterator[CppField]:
     """The variables outside of objects: of files, and of classes."""
     for each in code.variables.values():
         yield from each
-    yield from code.statics.values()
     for owner in code.classes.values():
         fields = (*owner.fields, *owner.others)
         yield from (f for f in fields if "static" in map(text_of, f.node.named_children))
