@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 
+from rebsync.reverse.analysis.stores import Key, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.program import FunctionKind, Program
+from rebsync.reverse.ir.program import Function, FunctionKind, Program
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.client_times import is_of_times
+
+# The types of parameters, by how the form writes those of C++.
+_TYPES = (("float", float), ("truth", bool), ("i", int), ("text", str), ("bytes", str))
 
 
 class CppFacts:
@@ -32,6 +39,23 @@ class CppFacts:
         return frozenset(found)
 
     @cached_property
+    def constructors(self) -> Mapping[str, tuple[str, ...]]:
+        """By each class the constructors that it has, or the implicit one."""
+        found: dict[str, tuple[str, ...]] = {}
+        for f in self._functions:
+            if f.kind is FunctionKind.CONSTRUCTOR and f.owner is not None:
+                found[f.owner] = (*found.get(f.owner, ()), f.name)
+        return found
+
+    @cached_property
+    def has_throwing_streams(self) -> bool:
+        """Whether a stream is asked to throw where an operation on it fails."""
+        calls = (n for f in self._functions for n in walk(f) if isinstance(n, s.Call))
+        asking = (c for c in calls if c.arguments)
+        names = (getattr(c.callee, "name", "").rpartition("::")[2] for c in asking)
+        return "exceptions" in names
+
+    @cached_property
     def declared_parameters(self) -> frozenset[str]:
         """The names that stand in calls which declare a parameter of a node in C++."""
         every = (self._program.function(name) for name in self._program.functions)
@@ -45,3 +69,117 @@ class CppFacts:
             if isinstance(n, e.Literal)
         )
         return frozenset(text for text in texts if isinstance(text, str))
+
+    @cached_property
+    def parameter_types(self) -> Mapping[str, frozenset[type | None]]:
+        """By the names of parameters the types that they are declared with; None if not known."""
+        found: dict[str, frozenset[type | None]] = {}
+        calls = (n for f in self._functions for n in walk(f) if isinstance(n, s.Call))
+        for call in calls:
+            name, _, given = getattr(call.callee, "name", "").partition("<")
+            values = [a.value for a in call.arguments]
+            if name.rpartition("::")[2] != "declare_parameter" or not values:
+                continue
+            match values[0]:
+                case e.Literal(str() as text):
+                    types = found.get(text, frozenset())
+                    found[text] = types | {_declared_type(given, values[1:2])}
+                case _:
+                    pass
+        return found
+
+    @cached_property
+    def unchanging_addresses(self) -> Mapping[Key, int]:
+        """By each variable in how many places its address is taken only to look at it.
+
+        Classes of times look at what they get by its address; functions of the program do if
+        none of them stores through their parameter. `stored_through` says what is stored through
+        a temporary.
+        """
+        places = ((key_of(of, f.name)) for f in self._functions for of in self._looked_at(f))
+        return Counter(key for key in places if key is not None)
+
+    @cached_property
+    def stored_through(self) -> Mapping[Key, list[Stored]]:
+        """By each variable what is stored in it through a temporary that has its address."""
+        found: dict[Key, list[Stored]] = {}
+        for function in self._functions:
+            stored = _stored_through(function)
+            for node in walk(function) if stored else ():
+                match node:
+                    case s.Assign(e.Temporary(number), e.AddressOf(of)) if number in stored:
+                        key = key_of(of, function.name)
+                        if key is not None:
+                            values = [(function.name, v) for v in stored[number]]
+                            found.setdefault(key, []).extend(values)
+                    case _:
+                        pass
+        return found
+
+    @property
+    def _functions(self) -> Iterator[Function]:
+        return (self._program.function(name) for name in self._program.functions)
+
+    def _looked_at(self, function: Function) -> Iterator[e.Expression]:
+        """What a function takes the address of, other than to change it."""
+        for node in walk(function):
+            match node:
+                case s.Assign(e.Temporary(), e.AddressOf(of)):
+                    yield of
+                case s.Call(_, s.FunctionCallee(name), arguments):
+                    called = self._program.function(name)
+                    shifted = len(called.parameters) - len(arguments)
+                    pairs = zip(called.parameters[max(shifted, 0) :], arguments, strict=False)
+                    for parameter, argument in pairs:
+                        is_kept = parameter.name not in _stored_into(called)
+                        if isinstance(argument.value, e.AddressOf) and is_kept:
+                            yield argument.value.target
+                case s.Call(_, s.LibraryCallee(name), arguments) if is_of_times(name):
+                    values = (a.value for a in arguments)
+                    yield from (v.target for v in values if isinstance(v, e.AddressOf))
+                case e.Dereference(e.AddressOf(of)):
+                    yield of
+                case _:
+                    pass
+
+
+def _declared_type(given: str, values: list[e.Expression]) -> type | None:
+    """The type of a parameter, by the argument of the template, or by its first value."""
+    if given:
+        return next((type_ for text, type_ in _TYPES if given.startswith(text)), None)
+    for value in values:
+        while isinstance(value, e.Convert):
+            value = value.operand
+        if isinstance(value, e.Literal) and isinstance(value.value, bool | int | float | str):
+            return type(value.value)
+    return None
+
+
+def _stored_through(function: Function) -> dict[int, list[e.Expression]]:
+    """By each temporary of a function what is stored at the address that it has."""
+    found: dict[int, list[e.Expression]] = {}
+    for node in walk(function):
+        match node:
+            case s.Assign(e.Dereference(e.Temporary(number)), value):
+                found.setdefault(number, []).append(value)
+            case _:
+                pass
+    return found
+
+
+def _stored_into(function: Function) -> frozenset[str]:
+    """The parameters of a function at whose addresses it may store something, or lets others."""
+    found = set[str]()
+    for node in walk(function):
+        match node:
+            case s.Assign(e.Dereference(e.Local(name))) | s.Call(e.Dereference(e.Local(name))):
+                found.add(name)
+            case s.CompoundAssign(e.Dereference(e.Local(name))):
+                found.add(name)
+            case s.Assign(_, e.Local(name)):
+                found.add(name)
+            case s.Call(_, s.FunctionCallee(), arguments):
+                found |= {a.value.name for a in arguments if isinstance(a.value, e.Local)}
+            case _:
+                pass
+    return frozenset(found)

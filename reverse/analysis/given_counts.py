@@ -24,14 +24,19 @@ def count_given(node: s.Call) -> e.Expression | None:
     """
     if not isinstance(node.callee, s.LibraryCallee) or not node.arguments:
         return None
-    name, value = node.callee.name, node.arguments[0].value
+    name, arguments = node.callee.name, node.arguments
+    if name.endswith("::insert"):  # behind the place; with one argument more it is of iterators
+        if len(arguments) != 3:
+            return None
+        arguments = arguments[1:]
+    value = arguments[0].value
     if _FORWARDS.match(name) and not _OF_MANY.match(name):
         return None
     value = _bare(value)
     type_ = getattr(value, "type", t.UNKNOWN)
-    is_alone = len(node.arguments) == 1 and name != UNKNOWN_CLASS and "string" not in name
-    is_filled = isinstance(getattr(_bare(node.arguments[-1].value), "type", None), t.Integer)
-    may_be = type_ == t.UNKNOWN and (is_alone or (is_filled and len(node.arguments) == 2))
+    is_alone = len(arguments) == 1 and name != UNKNOWN_CLASS and "string" not in name
+    is_filled = isinstance(getattr(_bare(arguments[-1].value), "type", None), t.Integer)
+    may_be = type_ == t.UNKNOWN and (is_alone or (is_filled and len(arguments) == 2))
     return value if may_be or isinstance(type_, t.Integer | t.Float) else None
 
 

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal, TypeAlias
 
+from rebsync.reverse.analysis.cpp_parameters import CppParameters
 from rebsync.reverse.analysis.facts import Facts, HasKey, OwnType, bare, names_of
 from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import PlainOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
-from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.problems import BEYOND_TIMES, ODD_PARAMETER, ProblemNotes
+from rebsync.reverse.analysis.stream_failures import STREAM_FAILURE, may_fail
+from rebsync.reverse.analysis.time_arguments import OF_TIMES, TimeArguments
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -46,6 +49,8 @@ class LibraryExceptions:
         plain = [a.value for a in node.arguments if a.name is None]
         if receiver is not None and self.expressions.foreign.has(receiver, self.function):
             return frozenset()
+        if may_fail(self.origins, node):
+            return outcome.raises | {STREAM_FAILURE}
         raised = outcome.raises if self._may_raise(node, outcome.when, facts) else frozenset()
         of = receiver
         if of is None and node.arguments:
@@ -64,6 +69,13 @@ class LibraryExceptions:
     def _has_elements(self, value: e.Expression, facts: Facts) -> bool:
         kinds = self.expressions.types.kinds.of(value, facts)
         return bool(self.expressions.size(value, facts)) or kinds == {OwnType.ARRAY}
+
+    def why(self, name: str, outcome: CallOutcome) -> str:
+        """What is said of a call that may raise something."""
+        if outcome.when in (Raises.OTHER_TYPE, Raises.REPEATED):
+            return ODD_PARAMETER
+        is_of_time = outcome.when in OF_TIMES
+        return BEYOND_TIMES if is_of_time else f'"{name}" may raise an exception'
 
     def has_pieces(self, node: s.Call, text: e.Expression) -> bool:
         """Whether a call that formats a text gets all arguments that the text names."""
@@ -118,17 +130,21 @@ class LibraryExceptions:
                 return any(self.expressions.texts(v) not in _WHOLE for v in values)
             case Raises.NO_TEXT | Raises.OBJECTS | Raises.UNWRITTEN:
                 return not self._are_plain(values, when, facts)
-            case Raises.UNDECLARED | Raises.UNDECLARED_ALONE | Raises.REPEATED:
+            case Raises.UNDECLARED | Raises.UNDECLARED_ALONE | Raises.REPEATED | Raises.OTHER_TYPE:
                 return self._is_odd_parameter(node, when, facts)
             case Raises.UNORDERED:
                 return not self._are_ordered(values, facts)
             case _:
-                assert_never(when)
+                return TimeArguments(self.origins, self.function).are_beyond(values, when)
 
     def _is_odd_parameter(self, node: s.Call, when: Raises, facts: Facts) -> bool:
         """Whether a parameter may not be declared that is asked for, or is declared again."""
         if when is Raises.UNDECLARED_ALONE:
             return len(node.arguments) == 1 and not self._are_declared(node.arguments[0].value)
+        if when is Raises.OTHER_TYPE:
+            return CppParameters(self.origins).is_of_other_type(node, self.function)
+        if self.table.language is Language.CPP:
+            return CppParameters(self.origins).is_declared_again(self.function)
         declared = self.expressions.notes.counts.rules.declared
         if when is Raises.REPEATED:
             return declared.may_have(self.function)

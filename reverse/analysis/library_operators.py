@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.client_times import ClientTimes
+from rebsync.reverse.analysis.problems import BEYOND_TIMES, ProblemNotes
+from rebsync.reverse.analysis.stream_failures import STREAM_FAILURE, may_fail
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.libraries.client_times import THROWN
 from rebsync.reverse.libraries.routines import Language
 
 
@@ -19,6 +22,7 @@ class LibraryOperators:
 
     def __init__(self, notes: ProblemNotes) -> None:
         self.notes = notes
+        self._times = ClientTimes(notes.origins)
 
     def class_of(self, value: object) -> str | None:
         """The class of a library that an object in C++ is of, by its type."""
@@ -31,6 +35,10 @@ class LibraryOperators:
 
     def check(self, value: e.Expression) -> None:
         """Operators and conversion functions that classes of libraries have."""
+        if isinstance(value, e.Binary) and self._is_beyond(value):
+            self.notes.problem(value, BEYOND_TIMES, THROWN)
+        if may_fail(self.notes.origins, value):
+            self.notes.problem(value, "a stream may raise an exception", STREAM_FAILURE)
         match value:
             case e.Binary(operator, left, right):
                 found = [(left, operator.value), (right, operator.value)]
@@ -47,3 +55,8 @@ class LibraryOperators:
                 continue
             for raised in self.notes.table.method(of, f"operator{sign}").raises:
                 self.notes.problem(value, f'"{of}" may raise an exception', raised)
+
+    def _is_beyond(self, value: e.Binary) -> bool:
+        """Whether times may be computed or compared that are none of one clock, or none at all."""
+        is_cpp = self.notes.table.language is Language.CPP
+        return is_cpp and self._times.may_throw(value, self.notes.function.name)

@@ -10,6 +10,7 @@ from rebsync.reverse.analysis.facts import Facts, IsThere, stored, without_share
 from rebsync.reverse.analysis.given_arguments import GivenArguments
 from rebsync.reverse.analysis.library_exceptions import LibraryExceptions
 from rebsync.reverse.analysis.library_operators import is_standard
+from rebsync.reverse.analysis.made_objects import made_by
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
     ClassOrigin,
@@ -54,6 +55,7 @@ class OutcomeCalls:
         self._binding = notes.counts.rules.binding
         self.origins = notes.origins
         self.function = notes.function.name
+        self._is_cpp = notes.table.language is Language.CPP
         self._here: Facts = frozenset()  # what is known where the call stands
 
     def call(self, node: s.Call, facts: Facts) -> Facts:
@@ -85,6 +87,8 @@ class OutcomeCalls:
                 asked = "asks None for an attribute"
                 self.expressions.none.check(receiver, node, facts, asked)
                 self._method(node, node.callee, facts)
+        for name in made_by(self.origins, node) if self._is_cpp else ():
+            self._enters(node, name)
         after = self._sizes.kept(node, facts)
         if node.target is None:
             return after
@@ -246,8 +250,7 @@ class OutcomeCalls:
             case _:
                 # What a function gets was looked at where it was handed over.
                 if not self.notes.is_parameter(value):
-                    is_cpp = self.notes.table.language is Language.CPP
-                    raises = self.notes.table.of_anything if is_cpp else ""
+                    raises = self.notes.table.of_anything if self._is_cpp else ""
                     self.notes.problem(node, _UNKNOWN, raises)
 
     def _makes(self, node: s.Statement, name: str) -> None:
@@ -389,10 +392,8 @@ class OutcomeCalls:
             self.notes.problem(node, f'"{name}": {outcome.acts}')
         if name.endswith("shared_from_this") and self.function in self.origins.of_cpp.constructing:
             self.notes.problem(node, f'"{name}" may raise an exception', "std::bad_weak_ptr")
-        values = (
-            [a.value for a in node.arguments] if self.notes.table.language is Language.CPP else []
-        )
+        values = [a.value for a in node.arguments] if self._is_cpp else []
         if any(has_own_iterator(self.origins, value, self.function) for value in values):
             self.notes.problem(node, f'"{name}" may never come to the end')
         for raised in self._exceptions.of(node, outcome, receiver, facts):
-            self.notes.problem(node, f'"{name}" may raise an exception', raised)
+            self.notes.problem(node, self._exceptions.why(name, outcome), raised)

@@ -97,9 +97,11 @@ class OutcomeAnalysis:
         """What the statements of a function at a place may do besides to compute."""
         if function.name not in self._nested:
             self._nested[function.name] = tuple(_nested(function.body))
-        there = _within(self._nested[function.name], span)
-        body = replace(function, body=tuple(there))
-        found = self._solutions.solved(self._of_body(body, frozenset()))
+        return self.of_body(function, tuple(_within(self._nested[function.name], span)))
+
+    def of_body(self, function: Function, body: s.Body) -> frozenset[Problem]:
+        """What some statements of a function may do besides to compute."""
+        found = self._solutions.solved(self._of_body(replace(function, body=body), frozenset()))
         return frozenset(p for p in found if p.given is None)
 
     def raised_by(self, function: Function, span: Span) -> frozenset[Problem]:

@@ -14,6 +14,10 @@ from rebsync.reverse.ir.program import Function
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.source import Span
 
+BEYOND_TIMES = "this may be no time, or compare times of other clocks: then it throws"
+ODD_PARAMETER = "this parameter may be of another type, or be declared already: then it throws"
+UNSAID = frozenset({BEYOND_TIMES, ODD_PARAMETER})  # what models say nothing of
+
 
 @dataclass(frozen=True, slots=True)
 class ParameterNeed:

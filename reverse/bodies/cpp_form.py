@@ -11,18 +11,21 @@ from tree_sitter import Node
 from rebsync.reverse.analysis.held_locks import HeldLocks
 from rebsync.reverse.analysis.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes import RECURSES, OutcomeAnalysis
-from rebsync.reverse.analysis.problems import Problem
+from rebsync.reverse.analysis.problems import UNSAID, Problem
 from rebsync.reverse.bodies.cpp_unread_calls import UnreadCalls
+from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.cpp.functions import lambda_names
 from rebsync.reverse.ir.cpp.lowering import CppLowering
-from rebsync.reverse.ir.cpp.symbols import FunctionSymbol
-from rebsync.reverse.ir.program import Program
+from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
+from rebsync.reverse.ir.program import Function, FunctionKind, Program
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
-from rebsync.reverse.libraries.routines import Language
+from rebsync.reverse.libraries.routines import Kind, Language
 from rebsync.reverse.syntax.ancestors import ancestors
-from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_calls import call_of
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside
 from rebsync.source import NOWHERE, Span
 
@@ -205,12 +208,50 @@ class CppForm:
 
     def raises(self, cpp: Cpp, statement: Node) -> str | None:
         """What an exception is that a statement of a function may end with; None if it has none."""
+        return min((p.why for p in self.raised(cpp, statement)), default=None)
+
+    def raised(self, cpp: Cpp, statement: Node) -> frozenset[Problem]:
+        """The exceptions that a statement of a function may end with, by their places.
+
+        Periods of timers are facts of the graph, which says of each whether it is known.
+        """
         name = self._around(statement)
         if name is None:
-            return None
+            return frozenset()
         function = self._program.function(name)
         found = self._outcomes.raised_by(function, cpp.span(statement))
-        return min((p.why for p in found), default=None)
+        odd = {p for p in found if p.why in UNSAID and p.function == name}
+        timers = list(map(cpp.span, _timers(statement))) if odd else []
+        within = (p for p in odd for t in timers if t.start <= p.place.start < t.end)
+        return found.difference(within)
+
+    def raised_at_start(self, owner: CppClass, member: str) -> str | None:
+        """What an exception is that a class's member may end with where it is made."""
+        every = map(self._program.function, self._program.functions)
+        made = [f for f in every if f.kind is FunctionKind.CONSTRUCTOR and f.owner]
+        names = {c.name for c in self._classes if c.node.id == owner.node.id}
+        for constructor in (f for f in made if f.owner in names):
+            if (why := self._raised_making(constructor, member)) is not None:
+                return why
+        return None
+
+    def raised_before(self, cpp: Cpp, variable: str) -> str | None:
+        """What an exception is that a variable of a file may end with where it is made."""
+        return self._raised_making(self._program.function(cpp.source.path), variable)
+
+    def _raised_making(self, function: Function, name: str) -> str | None:
+        found = self._outcomes.of_body(function, _making(function, name))
+        return min((p.why for p in found if p.raises), default=None)
+
+    @property
+    def _classes(self) -> Iterable[ClassSymbol]:
+        return self._lowering.world.symbols.classes.values()
+
+    def unsaid(self, cpp: Cpp, statement: Node) -> list[Problem]:
+        """What in a statement itself may throw, of which models say nothing."""
+        name = self._around(statement)
+        found = (p for p in self.raised(cpp, statement) if p.function == name)
+        return sorted((p for p in found if p.why in UNSAID), key=lambda p: p.place.start)
 
     def recurses(self, function: CppFunction) -> bool:
         """Whether a function may call itself, perhaps by others."""
@@ -281,3 +322,30 @@ class CppForm:
                 place = node.place if node.place != NOWHERE else function.cpp.span(function.node)
                 if _LOCKS.search(function.cpp.source.text[place.start : place.end].encode()):
                     yield place
+
+
+def _timers(node: Node) -> Iterator[Node]:
+    """The calls that make timers."""
+    for place in inside(node, "call_expression"):
+        call = call_of(place)
+        name = call.name.partition("<")[0].rpartition("::")[2] if call is not None else ""
+        if name in libraries.named(Kind.TIMER):
+            yield place
+
+
+def _making(function: Function, name: str) -> s.Body:
+    """The statements of a constructor or file that make a member or variable, with those before."""
+    found: list[s.Statement] = []
+    for statement in function.body:
+        found.append(statement)
+        match getattr(statement, "target", None):
+            case e.Attribute(e.Local(owner), made) if owner == function.receiver:
+                pass
+            case e.Attribute(e.ClassReference(), made) | e.Global(_, made):
+                pass
+            case _:
+                continue
+        if made.rpartition("::")[2] == name:
+            return tuple(found)
+        found.clear()
+    return ()

@@ -27,6 +27,7 @@ from rebsync.reverse.bodies import (
     cpp_special,
     cpp_texts,
     cpp_trying,
+    cpp_unsaid_failures,
     cpp_users,
 )
 from rebsync.reverse.bodies.cpp_effects import Effects, touching
@@ -148,6 +149,7 @@ class CppStatements(CppStatementReader):
             if not read:
                 self._check_names(node)
                 self.check_comes_back(node)
+            cpp_unsaid_failures.check(self, node)
             return read
         except Unread as unread:
             return self._listed(node, unread)

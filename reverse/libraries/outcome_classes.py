@@ -52,6 +52,8 @@ EXCEPTIONS: Mapping[str, str] = {
     **dict.fromkeys(("cv::Exception", "image_geometry::Exception"), "std::runtime_error"),
     **dict.fromkeys(("std::bad_typeid",), "std::exception"),
     "rclcpp::exceptions::ParameterNotDeclaredException": "std::runtime_error",
+    "rclcpp::exceptions::ParameterAlreadyDeclaredException": "std::runtime_error",
+    "rclcpp::ParameterTypeException": "std::runtime_error",
     **dict.fromkeys(("std::ios_base::failure", "pcl::PCLException"), "std::runtime_error"),
     # One of these names stands for the other.
     "tf2::TransformException": "tf::TransformException",
@@ -152,3 +154,13 @@ CLASSES: Mapping[str, str] = {
     "queue.PriorityQueue": "queue.Queue",
     "multiprocessing.Queue": "queue.Queue",
 }
+
+# Streams of C++; some of which exist from the start.
+_STREAMS = frozenset({"std::ostream", "std::istream", "std::iostream", "std::ios", "std::ios_base"})
+STREAM_OBJECTS = frozenset({f"std::{name}" for name in ("cout", "cerr", "clog", "cin")})
+STREAM_FUNCTIONS = frozenset({"std::getline", "std::endl", "std::flush", "std::ws"})
+
+
+def is_stream(name: str) -> bool:
+    """Whether a class is one of streams."""
+    return name in _STREAMS or CLASSES.get(name) == "file"

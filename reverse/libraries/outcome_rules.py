@@ -60,7 +60,12 @@ class Raises(Enum):
     UNDECLARED = "the name of a parameter that the node may not have declared"
     REPEATED = "any, where the call may not be the first one"
     UNDECLARED_ALONE = "the name alone of a parameter that nobody declares in the source"
+    OTHER_TYPE = "none, of a parameter that is declared with another type in the source"
     UNORDERED = "two of which the second may be the smaller one"
+    BEFORE_START = "seconds that may be negative, or more than 32 bits have"
+    BEYOND_SPAN = "seconds that may be more than 32 bits have"
+    NEGATIVE_PAIR = "two numbers, of which the first one may be negative"
+    NO_RATE = "a number that may not be greater than zero"
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +126,7 @@ RULES = (
     ),
     OutcomeRule("dynamic_pointer_cast in_place nullopt make_optional optional numeric_limits"),
     OutcomeRule("array map set unordered_map unordered_set multimap multiset"),
-    OutcomeRule("queue stack priority_queue string_view bitset initializer_list span"),
+    OutcomeRule("queue stack priority_queue string_view initializer_list span"),
     OutcomeRule("mutex recursive_mutex shared_mutex atomic atomic_bool atomic_int atomic_flag"),
     OutcomeRule("lock_guard scoped_lock unique_lock shared_lock condition_variable hash less"),
     OutcomeRule("greater plus minus equal_to function ifstream ofstream fstream stringstream"),
@@ -280,9 +285,14 @@ RULES = (
     OutcomeRule(".resize", raises="std::length_error", size=Size.ANY, when=Raises.NEGATIVE),
     OutcomeRule(".reserve", raises="std::length_error", when=Raises.NEGATIVE),
     OutcomeRule("new[]", raises="std::bad_array_new_length", when=Raises.NEGATIVE),
+    OutcomeRule("bitset", raises="std::invalid_argument", when=Raises.TEXT),
     OutcomeRule(".test", raises="std::out_of_range"),
     OutcomeRule("std::atomic.test"),
     OutcomeRule(".erase std::vector.erase", size=Size.ANY),
+    OutcomeRule("std::vector.assign", raises="std::length_error", size=Size.ANY, when=Raises.COUNT),
+    OutcomeRule(
+        "std::vector.insert", raises="std::length_error", size=Size.GROWS, when=Raises.COUNT
+    ),
     OutcomeRule("std::map.erase std::set.erase", size=Size.ANY),
     OutcomeRule(
         "std::string.erase std::string.insert std::string.replace std::string.compare",

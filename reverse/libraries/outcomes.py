@@ -14,6 +14,7 @@ from dataclasses import replace
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import (
+    client_times,
     cpp,
     looked_through,
     outcome_classes,
@@ -191,7 +192,7 @@ class LibraryOutcomes:
 @derived
 def _named(language: Language) -> Mapping[str, CallOutcome]:
     found: dict[str, CallOutcome] = {}
-    for rule in (*outcome_rules.RULES, *THROWN, *python_outcomes.MODULES):
+    for rule in (*outcome_rules.RULES, *THROWN, *client_times.RULES, *python_outcomes.MODULES):
         for name in (rule.cpp if language is Language.CPP else rule.python).split():
             found[name] = CallOutcome(
                 frozenset(rule.raises.split()),

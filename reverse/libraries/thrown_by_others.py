@@ -164,6 +164,18 @@ THROWN = (
         raises="rclcpp::exceptions::ParameterNotDeclaredException",
         when=Raises.UNDECLARED_ALONE,
     ),
+    OutcomeRule(
+        "declare_parameter .declare_parameter rclcpp::Node.declare_parameter "
+        "rclcpp_lifecycle::LifecycleNode.declare_parameter",
+        raises="rclcpp::exceptions::ParameterAlreadyDeclaredException",
+        when=Raises.REPEATED,
+    ),
+    OutcomeRule(
+        ".as_bool .as_int .as_double .as_string rclcpp::Parameter.as_bool "
+        "rclcpp::Parameter.as_int rclcpp::Parameter.as_double rclcpp::Parameter.as_string",
+        raises="rclcpp::ParameterTypeException",
+        when=Raises.OTHER_TYPE,
+    ),
     OutcomeRule("locale", raises="std::runtime_error"),
     OutcomeRule("typeid", raises="std::bad_typeid"),
     OutcomeRule("file.exceptions", raises="std::ios_base::failure"),

@@ -42,6 +42,8 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 _PLACES = frozenset(
     {"identifier", "this", "pointer_expression", "field_expression", "subscript_expression"}
 )
+_TIMES = frozenset({"Time", "Duration", "WallTime", "WallDuration", "Rate", "WallRate"})
+_MAKING = ("call_expression", "new_expression")
 _REFERS = ("reference_declarator", "pointer_declarator")
 # A function of a class, with its number in the order of all.
 Helper: TypeAlias = "tuple[int, CppClass, CppFunction]"
@@ -66,11 +68,39 @@ def note_bound(bodies: Bodies) -> None:
                     check_object(Effects(member.cpp, scope), member.node, member.type)
                 except Touches as touches:
                     bodies.findings.unreadable(member.cpp.source, touches, bodies.unit.name)
+            _note_making(bodies, owner, member, scope)
+
+
+def _note_making(bodies: Bodies, owner: CppClass, member: CppField, scope: Scope) -> None:
+    """Lists a member that may throw where it is made, before the node serves anything."""
+    if scope.form is None or not scope.open or not _is_made(bodies.code, member):
+        return
+    if (why := scope.form.raised_at_start(owner, member.name)) is not None:
+        bodies.unread(member.cpp, member.node, why)
+
+
+def _made_before(code: Code) -> Iterator[CppField]:
+    """The variables outside of objects: of files, and of classes."""
+    for each in code.variables.values():
+        yield from each
+    for owner in code.classes.values():
+        fields = (*owner.fields, *owner.others)
+        yield from (f for f in fields if "static" in map(text_of, f.node.named_children))
+
+
+def _is_made(code: Code, member: CppField) -> bool:
+    """Whether a variable is made by a call, or is an object of a class of the files."""
+    if member.value is not None and any(True for _ in inside(member.value, *_MAKING)):
+        return True
+    words = {text_of(n) for n in inside(member.type, "type_identifier")}
+    is_own = words & code.classes.keys() or words & code.aliases.keys()
+    is_of_time = words & _TIMES and member.value is not None
+    return bool(is_own or is_of_time) and not _refers(member)
 
 
 def note_statics(bodies: Bodies) -> None:
     """Lists objects outside of classes that are made, before `main` runs, by what was not read."""
-    for variable in (v for each in bodies.code.variables.values() for v in each):
+    for variable in _made_before(bodies.code):
         is_near = variable.cpp.source.path in bodies.unit.files
         is_made = not any(text_of(c) == "extern" for c in variable.node.named_children)
         if is_near and is_made and not _refers(variable):
@@ -79,6 +109,10 @@ def note_statics(bodies: Bodies) -> None:
                 check_object(effects, variable.node, variable.type)
             except Touches as touches:
                 bodies.findings.unreadable(variable.cpp.source, touches, bodies.unit.name)
+            form = effects.scope.form if _is_made(bodies.code, variable) else None
+            why = form.raised_before(variable.cpp, variable.name) if form is not None else None
+            if why is not None:
+                bodies.unread(variable.cpp, variable.node, why)
 
 
 @dataclass(slots=True)

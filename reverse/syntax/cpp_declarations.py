@@ -173,6 +173,8 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
     while name.type == "qualified_identifier":
         scope = name.child_by_field_name("scope")
         owner, name = unscoped(scope) if scope is not None else owner, part(name, "name")
+    if name.type == "template_function":  # a specialisation is one more function of the name
+        name = part(name, "name")
     value = node.child_by_field_name("default_value") if kind == "field_declaration" else None
     result = node.child_by_field_id(_TYPE)
     constructs = kind == "function_definition" and (result is None or node.has_error)

@@ -29,7 +29,7 @@ from rebsync.reverse.ir.cpp.functions import (
 from rebsync.reverse.ir.cpp.functions_called import is_virtual, method_key
 from rebsync.reverse.ir.cpp.initialisation import initialised, value_initialised
 from rebsync.reverse.ir.cpp.names import global_value
-from rebsync.reverse.ir.cpp.objects import default_constructed
+from rebsync.reverse.ir.cpp.objects import class_of, default_constructed
 from rebsync.reverse.ir.cpp.operator_functions import call_operator
 from rebsync.reverse.ir.cpp.symbol_table import SymbolTable
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
@@ -229,7 +229,8 @@ def _static_members(context: Context, owner: ClassSymbol) -> None:
     for symbol in owner.fields:
         declared = field_type(context.world, owner, symbol)
         is_value = declared.reference is ReferenceKind.NONE
-        if symbol.is_static and symbol.value is not None and is_value:
+        is_made = symbol.value is not None or class_of(context, declared.type) is not None
+        if symbol.is_static and is_made and is_value:
             class_ = e.ClassReference(owner.name)
             target = e.Attribute(class_, symbol.name, declared.type, False)
             context.scope = owner.name

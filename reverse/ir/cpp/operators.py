@@ -84,6 +84,8 @@ def operator_for(sign: str, operand: t.Type) -> Operator:
         return found
     if sign == "/" and isinstance(operand, t.Integer):
         return Operator.TRUNCATING_DIVIDE
+    if sign not in ARITHMETIC:
+        raise Unlowered(f"the operator {sign}")
     return ARITHMETIC[sign]
 
 

@@ -273,10 +273,12 @@ class TypeReader:
         if space not in ("std", "boost"):
             known = self.symbols.type_named(full, scope, cpp.source.path)
             return t.UNKNOWN if known is not None or not space else t.Record(full)
-        if name in ("array", "bitset"):
+        if name == "bitset":
+            return t.Record(full)
+        if name == "array":
             length = self.constant(arguments[-1], scope, cpp)
             inner = self.descriptor(cpp, scope, arguments[0]).type
-            return t.UNKNOWN if length is None or name != "array" else t.Array(inner, length)
+            return t.UNKNOWN if length is None else t.Array(inner, length)
         if name == "function":
             return self._function(cpp, scope, arguments[0])
         inner_types = tuple(self.descriptor(cpp, scope, a).form for a in arguments)

@@ -40,6 +40,15 @@ catkin_package()
 add_executable(gate src/gate.cpp)
 target_link_libraries(gate ${catkin_LIBRARIES})
 """
+_AMENT = """cmake_minimum_required(VERSION 3.8)
+project(piece)
+find_package(ament_cmake REQUIRED)
+find_package(rclcpp REQUIRED)
+find_package(std_msgs REQUIRED)
+add_executable(gate src/gate.cpp)
+ament_target_dependencies(gate rclcpp std_msgs)
+ament_package()
+"""
 _PYTHON = """#!/usr/bin/env python3
 import rospy
 from std_msgs.msg import Int32
@@ -123,6 +132,36 @@ int main(int argc, char** argv) {{
   ros::spin();
 }}
 """
+_RCLCPP = """#include <rclcpp/rclcpp.hpp>
+#include <std_msgs/msg/int32.hpp>
+{module}
+class Gate : public rclcpp::Node {{
+ public:
+  Gate() : Node("gate") {{
+    out_ = create_publisher<std_msgs::msg::Int32>("out", 10);
+    sub_ = create_subscription<std_msgs::msg::Int32>(
+        "go", 10, std::bind(&Gate::onGo, this, std::placeholders::_1));
+{start}
+  }}
+
+ private:
+  void onGo(const std_msgs::msg::Int32::ConstSharedPtr& msg) {{
+{body}
+    std_msgs::msg::Int32 told;
+    told.data = 1;
+    out_->publish(told);
+  }}
+{methods}
+  rclcpp::Publisher<std_msgs::msg::Int32>::SharedPtr out_;
+  rclcpp::Subscription<std_msgs::msg::Int32>::SharedPtr sub_;
+}};
+
+int main(int argc, char** argv) {{
+  rclcpp::init(argc, argv);
+  rclcpp::spin(std::make_shared<Gate>());
+  rclcpp::shutdown();
+}}
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +189,7 @@ class Table:
     @property
     def is_cpp(self) -> bool:
         """Whether its nodes are of C++."""
-        return self.client == "roscpp"
+        return self.client in ("roscpp", "rclcpp")
 
 
 def _tables(path: Path) -> Iterator[tuple[str, Table]]:
@@ -166,7 +205,7 @@ def _tables(path: Path) -> Iterator[tuple[str, Table]]:
 
 _FILES = sorted((Path(__file__).parent / "pieces").glob("*.toml"))
 _TABLES = {name: table for path in _FILES for name, table in _tables(path)}
-_NODES = {"roscpp": _CPP, "rospy": _PYTHON, "rclpy": _RCLPY}
+_NODES = {"roscpp": _CPP, "rclcpp": _RCLCPP, "rospy": _PYTHON, "rclpy": _RCLPY}
 _ROWS = [
     pytest.param(table, piece, id=f"{name}-{piece.name}")
     for name, table in _TABLES.items()
@@ -176,12 +215,14 @@ _ROWS = [
 
 def _written(table: Table, piece: Piece, package: Path) -> None:
     """A package with the node of a row."""
-    manifest = _MANIFEST.replace("rospy", table.client) if table.client == "rclpy" else _MANIFEST
+    own = {"rclpy": "rospy", "rclcpp": "roscpp"}.get(table.client, table.client)
+    manifest = _MANIFEST.replace(own, table.client)
     (package / "package.xml").write_text(manifest, encoding="utf-8")
     path = package / ("src/gate.cpp" if table.is_cpp else "scripts/gate.py")
     path.parent.mkdir()
     if table.is_cpp:
-        (package / "CMakeLists.txt").write_text(_BUILD, encoding="utf-8")
+        build = _AMENT if table.client == "rclcpp" else _BUILD
+        (package / "CMakeLists.txt").write_text(build, encoding="utf-8")
     depth = 4 if table.is_cpp else 8
     text = piece.text or _NODES[table.client].format(
         module=piece.module,

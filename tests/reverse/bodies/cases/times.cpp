@@ -1,4 +1,5 @@
 // Time, chance and checks.
+class Node { void onTimes(); ros::Time last_; };
 void Node::onTimes() {
   ros::Duration(2.0).sleep();
   ros::Duration d(3);
