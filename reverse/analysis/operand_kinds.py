@@ -1,45 +1,34 @@
-"""Of which of Python's own types values may be, by what the program stores: a type analysis.
+"""Of which types the operands of a function of Python are, where it is known what was tested.
 
-What comes from elsewhere is not known, and is trusted to fit. Attributes are told apart by names,
-and by their class where a function asks its own object.
+By what the program stores (`inferred_types.py`), and by what was tested or stored on the way.
+Attributes are told apart by names, and by their class where a function asks its own object.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TypeAlias
 
-from rebsync.reverse.analysis.facts import Facts, Holds, IsBound, IsOf, OwnType
-from rebsync.reverse.analysis.held_values import is_of_other, is_own
-from rebsync.reverse.analysis.origins import ClassOrigin
+from rebsync.reverse.analysis.facts import Facts, Holds, IsBound, IsOf
+from rebsync.reverse.analysis.held_values import is_of_other
+from rebsync.reverse.analysis.inferred_types import computed
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.stores import (
-    AnyValue,
-    CallResult,
-    ClassValue,
-    Key,
-    Member,
-    ObjectValue,
-    Stored,
-    key_of,
+from rebsync.reverse.analysis.stores import Member, key_of
+from rebsync.reverse.analysis.value_types import (
+    A_NUMBER,
+    ANY_TYPE,
+    OwnType,
+    ValueTypes,
+    at_index,
+    own_type,
+    union,
 )
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.operators import COMPARISONS, Operator
+from rebsync.reverse.ir.operators import COMPARISONS
 from rebsync.reverse.ir.program import FunctionKind
-from rebsync.reverse.ir.walk import walk
-from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
-_CONTAINERS = {
-    t.ContainerKind.SEQUENCE: OwnType.LIST,
-    t.ContainerKind.TUPLE: OwnType.TUPLE,
-    t.ContainerKind.QUEUE: OwnType.QUEUE,
-    t.ContainerKind.SET: OwnType.SET,
-    t.ContainerKind.MAPPING: OwnType.MAPPING,
-}
-_BY_NAME = {kind.value: kind for kind in OwnType}
 ATTRIBUTES: Mapping[OwnType, frozenset[str]] = {
     OwnType.NUMBER: frozenset(dir(int)) | frozenset(dir(float)),
     OwnType.TEXT: frozenset(dir(str)),
@@ -50,12 +39,7 @@ ATTRIBUTES: Mapping[OwnType, frozenset[str]] = {
     OwnType.QUEUE: frozenset(dir(deque)),
 }
 _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
-_ADDED = frozenset({OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
-_DEEPEST = 12
-UNKNOWN = None  # in a set of kinds: a value that may be of any type
 Kinds: TypeAlias = "frozenset[OwnType | None]"
-_ANY: Kinds = frozenset({UNKNOWN})
-_A_NUMBER: Kinds = frozenset({OwnType.NUMBER})
 
 
 class OperandKinds:
@@ -65,18 +49,61 @@ class OperandKinds:
         self._notes = notes
         self._graph = notes.origins.graph
         self._name = notes.function.name
+        self._types = notes.counts.rules.types
 
     def of(self, value: e.Expression, facts: Facts) -> Kinds:
-        """The types of what a value may be where some facts are known; None is looked for apart."""
+        """The types of Python's own of what a value may be; None is looked for apart."""
+        return frozenset(map(own_type, self.types(value, facts)))
+
+    def types(self, value: e.Expression, facts: Facts) -> ValueTypes:
+        """The types of what a value may be where some facts are known."""
         known = [fact.types for fact in facts if isinstance(fact, IsOf) and fact.value == value]
         if known:  # what a test says is not told apart, and is any type
-            return _ANY if _ANY in known else known[0]
+            types = ANY_TYPE if ANY_TYPE in known else known[0]
+            key = key_of(value, self._name)
+            return types if key is None else self._types.with_puts(key, types)
+        match value:
+            case e.Conditional(_, one, other) | e.And(one, other) | e.Or(one, other):
+                return self.types(one, facts) | self.types(other, facts)
+            case e.Binary(operator) if operator in COMPARISONS:
+                return A_NUMBER
+            case e.Binary(operator, left, right):
+                return computed(operator, self.types(left, facts), self.types(right, facts))
+            case e.Index(of, index) if not isinstance(index, e.Slice):
+                at = index.value if isinstance(index, e.Literal) else None
+                return at_index(self.types(of, facts), at)
+            case e.Attribute():
+                return self._attribute(value, facts)
+            case e.Local() | e.Captured() | e.Global():
+                return self._named(value, facts)
+            case _:
+                return self._types.of(value, self._name)
+
+    def given(self, call: s.Call) -> ValueTypes:
+        """The types of what a call of the function gives."""
+        return self._types.of_call(call, self._name)
+
+    def _attribute(self, value: e.Attribute, facts: Facts) -> ValueTypes:
+        """The types of an attribute, by its object's class and what is stored under its name."""
+        if self._types.has_own(value.object, self._name):
+            key, here = Member(value.name), self._notes.function
+            stored = [each for each, _ in self._graph.stores.of(key)]
+            others = {n for n in stored if is_of_other(self._graph, here, value, key, n)}
+            if others or Holds(value) in facts or IsBound(value) in facts:
+                return self._named(value, facts)
+        types = self.types(value.object, facts)
+        return self._types.attribute(types, value.object, value.name, self._name)
+
+    def _named(self, value: e.Expression, facts: Facts) -> ValueTypes:
+        """The types of what is stored under a name, where some facts are known of it."""
         key = key_of(value, self._name)
-        if key is None or isinstance(value, e.Temporary):
-            return self._of(value, self._name, frozenset())
-        if isinstance(value, e.Attribute) and not self._has_own(value.object, self._name):
-            return _ANY
-        found = list(self._stored(key))
+        if (
+            key is None
+            or isinstance(value, e.Local)
+            and value.name == self._notes.function.receiver
+        ):
+            return self._types.of(value, self._name)
+        found = self._types.sources(key)
         if isinstance(key, Member):
             here = self._notes.function
             found = [s for s in found if not is_of_other(self._graph, here, value, key, s[0])]
@@ -86,97 +113,10 @@ class OperandKinds:
             # What makes objects ran before this function stored something there.
             kinds = {n: self._graph.program.function(n).kind for n, _ in found}
             found = [s for s in found if kinds[s[0]] not in _FIRST]
-        return self._union(found, frozenset({key}))
-
-    def _has_own(self, of: e.Expression, function: str) -> bool:
-        """Whether attributes of an object have what the program stores, as it is."""
-        origins = self._notes.origins
-        if not is_own(origins, of, function):
-            return False
-        classes = (o.name for o in origins.of(of, function) if isinstance(o, ClassOrigin))
-        # Of an enumeration they are its members, which have that as their values.
-        return all(ENUMERATIONS.isdisjoint(self._graph.bases(name)) for name in classes)
-
-    def _stored(self, key: Key) -> Iterator[Stored]:
-        """What is stored under a name, with what operators compute there."""
-        yield from self._graph.stores.initial(key)
-        yield from self._graph.stores.changed(key)
-
-    def _union(self, stored: list[Stored], seen: frozenset[Key]) -> Kinds:
-        if not stored or len(seen) > _DEEPEST:
-            return _ANY
-        return frozenset[OwnType | None]().union(*(self._of_stored(each, seen) for each in stored))
-
-    def _of_stored(self, stored: Stored, seen: frozenset[Key]) -> Kinds:
-        function, value = stored
-        match value:
-            case CallResult(call):
-                return self._given(call, function, seen)
-            case AnyValue() | ClassValue() | ObjectValue():
-                return _ANY
-            case _:
-                return self._of(value, function, seen)
-
-    def _of(self, value: e.Expression, function: str, seen: frozenset[Key]) -> Kinds:
-        match value:
-            case e.Literal(None):
-                return frozenset()
-            case e.Literal(int() | float()) | e.Unary(Operator.NOT):
-                return _A_NUMBER
-            case e.Literal(str()) | e.Format():
-                return frozenset({OwnType.TEXT})
-            case e.Build(t.Container(kind)) | e.BuildMapping(t.Container(kind)):
-                return frozenset({_CONTAINERS[kind]})
-            case e.Conditional(_, one, other) | e.And(one, other) | e.Or(one, other):
-                return self._of(one, function, seen) | self._of(other, function, seen)
-            case e.Binary(operator) if operator in COMPARISONS:
-                return _A_NUMBER
-            case e.Binary(operator, left, right):
-                both = self._of(left, function, seen), self._of(right, function, seen)
-                return _computed(operator, *both)
-            case e.Unary(_, of):
-                return _A_NUMBER if self._of(of, function, seen) == _A_NUMBER else _ANY
-            case e.Attribute(of) if not self._has_own(of, function):
-                return _ANY
-            case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():
-                key = key_of(value, function)
-                if key is None or key in seen:
-                    return _ANY if key is None else frozenset()
-                return self._union(list(self._stored(key)), seen | {key})
-            case _:
-                return _ANY
-
-    def _given(self, call: s.Call, function: str, seen: frozenset[Key]) -> Kinds:
-        """The types of what a call gives."""
-        match call.callee:
-            case s.LibraryCallee(name):
-                kind = _BY_NAME.get(self._notes.table.function(name).gives)
-                return frozenset({kind})
-            case callee:
-                around = self._graph.program.function(function)
-                targets = self._graph.callee(callee, around)
-        if targets.unknown or targets.libraries or not targets.functions:
-            return _ANY
-        found: Kinds = frozenset()
-        for name in targets.functions:
-            body = self._graph.program.function(name)
-            if body.kind is not FunctionKind.FUNCTION or len(seen) > _DEEPEST:
-                return _ANY
-            for node in walk(body):
-                if isinstance(node, s.Return) and node.value is not None:
-                    found |= self._of(node.value, name, seen)
-        return found
-
-
-def _computed(operator: Operator, left: Kinds, right: Kinds) -> Kinds:
-    """The types of what an operator gives for operands of some types."""
-    if left == right == _A_NUMBER:
-        return _A_NUMBER
-    if operator is Operator.ADD and left == right and left <= _ADDED:
-        return left
-    if operator is Operator.FLOOR_MODULO and left == {OwnType.TEXT}:
-        return left
-    return _ANY
+        given = self._types.parameter(key)
+        if not found:
+            return given or ANY_TYPE
+        return self._types.with_puts(key, union(map(self._types.of_stored, found)) | given)
 
 
 def _is_nothing(value: object) -> bool:

@@ -8,31 +8,25 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from rebsync.reverse.analysis.facts import Facts, OwnType
+from rebsync.reverse.analysis.attribute_errors import AttributeErrors
+from rebsync.reverse.analysis.element_errors import ElementErrors
+from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.format_strings import conversions
-from rebsync.reverse.analysis.operand_kinds import ATTRIBUTES, Kinds, OperandKinds
+from rebsync.reverse.analysis.operand_kinds import OperandKinds
+from rebsync.reverse.analysis.operator_types import ITERABLE, SEQUENCES, takes
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.stores import GlobalVariable, Member
+from rebsync.reverse.analysis.value_types import OwnType, ValueTypes
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
-from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.routines import Language
 
 _WRONG = "is of another type"
 _LACKS = "has no such attribute"
-_UNDEFINED = "names what nothing defines"
-_OF_MODULES = frozenset({"__name__", "__file__", "__doc__", "__package__", "__spec__"})
-_HOOKS = ("__getattr__", "__getattribute__")
 NUMBER, TEXT = OwnType.NUMBER, OwnType.TEXT
-_SEQUENCES = frozenset({TEXT, OwnType.LIST, OwnType.TUPLE})
-_INDEXED = _SEQUENCES | {OwnType.QUEUE, OwnType.MAPPING}
-_UNHASHABLE = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
-_ORDERED = (Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL)
+_INDEXED = SEQUENCES | {OwnType.QUEUE, OwnType.MAPPING}
 _EQUALITY = (Operator.EQUAL, Operator.UNEQUAL)
-_SORTING = frozenset({"builtins.sorted", "builtins.max", "builtins.min"})
-_OF_SETS = (Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR, Operator.SUBTRACT)
 _OF_NUMBERS = frozenset(
     f"builtins.{n}" for n in ("abs", "round", "float", "int", "divmod", "pow", "range", "chr")
 )
@@ -52,12 +46,18 @@ class TypeErrors:
     def __init__(self, notes: ProblemNotes) -> None:
         self._notes = notes
         self._kinds = OperandKinds(notes)
+        self._attributes = AttributeErrors(notes, self._kinds)
+        self._elements = ElementErrors(notes, self._kinds)
         self._objects = notes.counts.rules.objects
         self._is_python = notes.table.language is Language.PYTHON
 
-    def of(self, value: e.Expression, facts: Facts) -> Kinds | None:
+    def of(self, value: e.Expression, facts: Facts) -> ValueTypes | None:
         """The types that a value may be of; None in other languages."""
-        return self._kinds.of(value, facts) if self._is_python else None
+        return self._kinds.types(value, facts) if self._is_python else None
+
+    def given(self, call: s.Call) -> ValueTypes | None:
+        """The types of what a call gives; None in other languages."""
+        return self._kinds.given(call) if self._is_python else None
 
     def check(self, value: e.Expression, facts: Facts) -> None:
         """Notes what evaluating an expression asks of values that have it not."""
@@ -65,7 +65,7 @@ class TypeErrors:
             return
         match value:
             case e.Attribute(of, name) if not isinstance(of, e.ClassReference):
-                self._asks(value, of, name, facts)
+                self._attributes.asks(value, of, name, facts)
             case e.Binary(operator, left, right):
                 self._computes(value, operator, left, right, facts)
             case e.Unary(Operator.NEGATE | Operator.PLUS | Operator.INVERT as operator, of):
@@ -73,12 +73,16 @@ class TypeErrors:
                 self._needs(value, of, {NUMBER}, facts)
             case e.Index(of, index):
                 self._at(value, of, index, facts)
+            case e.Build() | e.BuildMapping():
+                self._elements.built(value, facts)
             case e.Format(pieces):
                 for piece in pieces:
                     if piece.style is not None:
                         self._styled(value, piece, facts)
             case e.Global(module, name):
-                self._named(value, module, name)
+                self._attributes.named(value, module, name)
+            case e.LibraryReference(name):
+                self._attributes.of_library(value, name)
             case _:
                 pass
 
@@ -87,15 +91,14 @@ class TypeErrors:
         if not self._is_python:
             return
         plain = [a.value for a in node.arguments if a.name is None and not a.stars]
-        self._sorts(node, plain)
+        self._elements.call(node, plain, facts)
+        if isinstance(node.callee, s.LibraryCallee):
+            self._attributes.of_library(node, node.callee.name)
         match node.callee:
             case s.ValueCallee(value):
                 self._needs(node, value, set(), facts)
             case s.MethodCallee(receiver, name, _, None):
-                self._asks(node, receiver, name, facts)
-                if name == "add" and self._kinds.of(receiver, facts) == {OwnType.SET}:
-                    for value in plain:
-                        self._needs(node, value, set(OwnType) - _UNHASHABLE, facts)
+                self._attributes.asks(node, receiver, name, facts)
                 if not self._notes.origins.methods_of_any(name):
                     self._needs(node, e.Attribute(receiver, name), set(), facts)
             case s.LibraryCallee("builtins.range") if any(map(_is_fraction, plain)):
@@ -106,7 +109,7 @@ class TypeErrors:
                     self._needs(node, value, taken, facts)
             case s.LibraryCallee("builtins.len"):
                 for value in plain[:1]:
-                    self._needs(node, value, set(OwnType) - {NUMBER}, facts)
+                    self._needs(node, value, ITERABLE, facts)
                     self._answers(node, value, ImplicitCall.LENGTH)
             case s.LibraryCallee(name) if name in _OF_ELEMENTS:
                 for value in plain if name == "builtins.zip" else plain[:1]:
@@ -114,23 +117,10 @@ class TypeErrors:
             case _:
                 pass
 
-    def _sorts(self, node: s.Call, plain: list[e.Expression]) -> None:
-        """A call that compares the elements of a container by themselves."""
-        match node.callee:
-            case s.LibraryCallee(name) if name in _SORTING and len(plain) == 1:
-                container = plain[0]
-            case s.MethodCallee(receiver, "sort"):
-                container = receiver
-            case _:
-                return
-        function, has_key = self._notes.function.name, any(a.name == "key" for a in node.arguments)
-        if not has_key and self._objects.has_lacking_elements(container, function, Operator.LESS):
-            self._notes.fails(node, _WRONG)
-
     def iterates(self, node: s.Statement, value: e.Expression, facts: Facts) -> None:
         """Notes that something is gone through that has no elements."""
         if self._is_python:
-            self._needs(node, value, set(OwnType) - {NUMBER}, facts)
+            self._needs(node, value, ITERABLE, facts)
             self._answers(node, value, ImplicitCall.ITERATE)
 
     def _answers(
@@ -162,7 +152,7 @@ class TypeErrors:
         changing = {OwnType.LIST, OwnType.MAPPING, OwnType.QUEUE}
         self._needs(target, target.object, changing, facts)
         if self._kinds.of(target.object, facts) == {OwnType.MAPPING}:
-            self._needs(target, target.index, set(OwnType) - _UNHASHABLE, facts)
+            self._elements.is_key(target, target.index, facts)
 
     def _needs(
         self,
@@ -173,60 +163,6 @@ class TypeErrors:
     ) -> None:
         if self._kinds.of(value, facts) - {*taken, None}:
             self._notes.fails(node, _WRONG)
-
-    # --- attributes ------------------------------------------------------------------------------
-
-    def _asks(
-        self, node: s.Statement | e.Expression, of: e.Expression, name: str, facts: Facts
-    ) -> None:
-        """An attribute is asked of a value."""
-        kinds = self._kinds.of(of, facts)
-        if any(kind is not None and name not in ATTRIBUTES[kind] for kind in kinds) or (
-            kinds == {None} and self._is_of_none(of, name)
-        ):
-            self._notes.fails(node, _LACKS)
-
-    def _is_of_none(self, of: e.Expression, name: str) -> bool:
-        """Whether no object of the classes that a value is of may have an attribute."""
-        origins = self._notes.origins
-        own = origins.graph.class_of(of, self._notes.function)
-        held = origins.of(of, self._notes.function.name)
-        if held and all(isinstance(o, ClassOrigin) and not o.of_object for o in held):
-            names = {o.name for o in held if isinstance(o, ClassOrigin)}
-            is_stored = bool(origins.graph.stores.of(Member(name))) or name in _OF_CLASSES
-            return not is_stored and any(self._objects.lacks_attribute(n, name) for n in names)
-        classes = {o.name for o in held if isinstance(o, ClassOrigin) and o.of_object}
-        if own is not None:
-            classes = {own}
-        elif len(classes) != len(held):
-            return False
-        return bool(classes) and any(self._lacks(each, name) for each in classes)
-
-    def _lacks(self, of: str, name: str) -> bool:
-        """Whether a class, and all that it extends, say nothing of an attribute."""
-        origins, program = self._notes.origins, self._notes.origins.graph.program
-        family = origins.graph.family(of) - {"builtins.object"}
-        if not family <= program.classes.keys() or name in _OF_OBJECTS:
-            return False
-        classes = [program.classes[each] for each in family]
-        if any(None in c.bases or not c.complete for c in classes) or origins.sets_by_text:
-            return False
-        known = {n for c in classes for n, _ in c.methods}
-        known |= {p.name for c in classes for p in c.properties}
-        known |= {f.name for c in classes for f in c.fields}
-        return known.isdisjoint({name, *_HOOKS}) and not origins.graph.stores.of(Member(name))
-
-    def _named(self, value: e.Expression, module: str, name: str) -> None:
-        """A name that no scope of a module binds, and no import brings in unseen."""
-        graph = self._notes.origins.graph
-        if name in _OF_MODULES or graph.stores.of(GlobalVariable(module, name)):
-            return
-        body = graph.program.modules.get(module)
-        if body is None or self._notes.origins.sets_by_text:
-            return
-        nodes = walk(graph.program.function(body))
-        if not any(isinstance(n, s.Unsupported) or _is_star(n) for n in nodes):
-            self._notes.fails(value, _UNDEFINED)
 
     # --- operators -------------------------------------------------------------------------------
 
@@ -240,13 +176,13 @@ class TypeErrors:
     ) -> None:
         kinds = self._kinds.of(left, facts), self._kinds.of(right, facts)
         if operator in (Operator.IN, Operator.NOT_IN):
-            wrong = bool(kinds[1] & {NUMBER}) or (
+            wrong = bool(kinds[1] & {NUMBER, OwnType.MESSAGE}) or (
                 kinds[1] == {TEXT} and bool(kinds[0] - {TEXT, None})
             )
         elif operator in (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SAME):
             wrong = False
         else:
-            wrong = any(not _takes(operator, a, b) for a in kinds[0] for b in kinds[1])
+            wrong = any(not takes(operator, a, b) for a in kinds[0] for b in kinds[1])
             is_times = operator is Operator.MULTIPLY and _is_fraction(right)
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
         if operator is Operator.FLOOR_MODULO and isinstance(left, e.Literal):
@@ -282,12 +218,12 @@ class TypeErrors:
         kinds = self._kinds.of(of, facts)
         if isinstance(index, e.Slice):
             return
-        if kinds and kinds <= _SEQUENCES | {OwnType.QUEUE}:
+        if kinds and kinds <= SEQUENCES | {OwnType.QUEUE}:
             self._needs(value, index, {NUMBER}, facts)
             if _is_fraction(index):
                 self._notes.fails(value, _WRONG)
         elif kinds == {OwnType.MAPPING}:
-            self._needs(value, index, set(OwnType) - _UNHASHABLE, facts)
+            self._elements.is_key(value, index, facts)
 
     def _styled(self, value: e.Format, piece: e.FormatPiece, facts: Facts) -> None:
         """A style that only numbers have."""
@@ -298,15 +234,6 @@ class TypeErrors:
             self._needs(value, piece.value, taken, facts)
 
 
-def _is_star(node: Node) -> bool:
-    """Whether a node imports all that a module has."""
-    return isinstance(node, s.Import) and node.name == "*"
-
-
-_OF_CLASSES = frozenset(dir(type)) | {"__members__"}
-_OF_OBJECTS = frozenset(dir(object)) | {"__dict__", "__module__", "__name__", "__slots__"}
-
-
 def _is_fraction(value: e.Expression) -> bool:
     """Whether a number is a float by how it is computed, other than of whole numbers only."""
     match value:
@@ -314,27 +241,5 @@ def _is_fraction(value: e.Expression) -> bool:
             return True
         case e.Binary(operator):
             return operator is Operator.TRUE_DIVIDE
-        case _:
-            return False
-
-
-def _takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bool:
-    """Whether an operator takes operands of two types, as far as they are known."""
-    if left is None or right is None:
-        return True
-    match operator:
-        case _ if left is right is NUMBER:
-            return True
-        case Operator.ADD:
-            return left is right and left in _SEQUENCES | {OwnType.QUEUE}
-        case Operator.MULTIPLY:
-            return {left, right} in [{NUMBER, each} for each in _SEQUENCES | {OwnType.QUEUE}]
-        case Operator.FLOOR_MODULO:
-            return left is TEXT
-        case _ if operator in _ORDERED:
-            return left is right and left is not OwnType.MAPPING
-        case _ if operator in _OF_SETS:
-            is_mapping = left is right is OwnType.MAPPING and operator is Operator.BIT_OR
-            return left is right is OwnType.SET or is_mapping
         case _:
             return False

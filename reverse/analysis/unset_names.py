@@ -77,13 +77,13 @@ def _may_lack(origins: Origins, function: Function, owner: str, name: str) -> bo
     }
     stored = [function for function, _ in graph.stores.of(Member(name))]
     bodies = {c.body for c in known}
-    if name in declared or not bodies.isdisjoint(stored) or origins.sets_by_text:
+    if name in declared or not bodies.isdisjoint(stored) or origins.names.sets_by_text:
         return False
     own = any(program.function(f).owner in line for f in stored)
     if not own:  # the attributes of libraries' classes are trusted, and what is set from outside
         return not stored and len(known) == len(line) and None not in _bases(known)
     setters = {f.rpartition(".")[2] for f in stored if program.function(f).owner in line}
-    if not setters <= origins.read_attributes:
+    if not setters <= origins.names.read_attributes:
         return False  # what the program itself calls, it calls before it needs what that sets
     makers = (f for c in known for n, f in c.methods if n == "__init__")
     first = next(makers, None)

@@ -15,6 +15,7 @@ from rebsync.names import carry, original, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES, OFFERS, RUNTIME_TOPICS
 from rebsync.reverse.bodies.overloads import Served
+from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.annotations import of_class, of_server
 from rebsync.reverse.generated.messages import NO_MESSAGES, OwnMessages
@@ -62,7 +63,7 @@ class ModelClasses:
     def __post_init__(self) -> None:
         self._values = PyValues(self.code)
         self._named = CodeConstants(self._values, self.messages.constants)
-        self._form = PyForm(self.code, without_runtime=True)
+        self._form = PyForm(self.code, MessageTypes({}, ""), without_runtime=True)
         self._owners = [c for c in classes_in(self.code) if not is_runtime_file(c.py.source)]
         self._lines: dict[int, list[Scope]] = {}
         if not any("Mailbox(" in s.py.source.text for s in self.code.modules.values()):

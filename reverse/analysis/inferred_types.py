@@ -1,0 +1,381 @@
+"""Of which types values of Python may be, by what the program stores: a type inference.
+
+Flow-insensitive: the least fixpoint over all that is stored under each name, put into containers,
+drawn from them, given for parameters and given back. What comes from elsewhere is of any type.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import TypeAlias
+
+from rebsync.reverse.analysis.argument_types import ArgumentTypes, message_name
+from rebsync.reverse.analysis.container_stores import ContainerStores, Put
+from rebsync.reverse.analysis.given_types import GivenTypes
+from rebsync.reverse.analysis.held_values import is_own
+from rebsync.reverse.analysis.origins import ClassOrigin, Origins
+from rebsync.reverse.analysis.stores import (
+    ANY_VALUE,
+    AnyValue,
+    CallResult,
+    CapturedVariable,
+    ClassValue,
+    ElementOf,
+    Key,
+    Member,
+    ObjectValue,
+    PartOf,
+    Source,
+    key_of,
+)
+from rebsync.reverse.analysis.value_types import (
+    A_NUMBER,
+    A_TEXT,
+    ANY_TYPE,
+    NO_TYPES,
+    ContainerType,
+    InstanceType,
+    LibraryType,
+    MessageType,
+    OwnType,
+    ValueType,
+    ValueTypes,
+    at_index,
+    elements_of,
+    limited,
+    merged,
+    own_type,
+    pair,
+    sequence,
+    union,
+)
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.operators import COMPARISONS, Operator
+from rebsync.reverse.ir.program import FunctionKind
+from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.attributes import attributes_of, result_of
+from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
+
+_CONTAINERS = {
+    t.ContainerKind.SEQUENCE: OwnType.LIST,
+    t.ContainerKind.TUPLE: OwnType.TUPLE,
+    t.ContainerKind.QUEUE: OwnType.QUEUE,
+    t.ContainerKind.SET: OwnType.SET,
+    t.ContainerKind.MAPPING: OwnType.MAPPING,
+}
+_OWN = {kind.value: kind for kind in OwnType}
+_ADDED = frozenset({OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
+_CHANGING = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
+_DEEPEST = 3  # containers in one another; what is deeper is of any type
+Node: TypeAlias = Key | str  # a name, or the function whose result is meant
+
+
+class InferredTypes:
+    """The types of the values of one program."""
+
+    def __init__(self, origins: Origins) -> None:
+        self._origins = origins
+        self._graph = origins.graph
+        self._arguments = ArgumentTypes(origins)
+        self._containers = ContainerStores(origins.graph)
+        self._calls = GivenTypes(origins, self)
+        self._known: dict[Node, ValueTypes] = {}
+        # While types are looked for: what was found of them, and which this round has visited.
+        self._found: dict[Node, ValueTypes] = {}
+        self._visited: set[Node] | None = None
+
+    def of(self, value: e.Expression, function: str) -> ValueTypes:
+        """The types of what an expression of a function may be; None has none."""
+        match value:
+            case e.Literal(None):
+                return NO_TYPES
+            case e.Literal(int() | float()) | e.Unary(Operator.NOT):
+                return A_NUMBER
+            case e.Literal(str()) | e.Format():
+                return A_TEXT
+            case e.Build(t.Container(kind), elements):
+                return self._built(_CONTAINERS[kind], elements, function)
+            case e.BuildMapping(_, entries):
+                return self._mapped(entries, function)
+            case e.Conditional(_, one, other) | e.And(one, other) | e.Or(one, other):
+                return self.of(one, function) | self.of(other, function)
+            case e.Binary(operator) if operator in COMPARISONS:
+                return A_NUMBER
+            case e.Binary(operator, left, right):
+                return computed(operator, self.of(left, function), self.of(right, function))
+            case e.Unary(_, of):
+                return A_NUMBER if self.of(of, function) == A_NUMBER else ANY_TYPE
+            case e.Index(of, e.Slice()):
+                return self.of(of, function)
+            case e.Index(of, index):
+                at = index.value if isinstance(index, e.Literal) else None
+                return at_index(self.of(of, function), at)
+            case e.Attribute(of, name):
+                return self.attribute(self.of(of, function), of, name, function)
+            case e.Local() | e.Temporary() | e.Captured() | e.Global():
+                if value == e.Local(self._graph.program.function(function).receiver or ""):
+                    return self._receiver(function)
+                key = key_of(value, function)
+                return ANY_TYPE if key is None else self._stored(key)
+            case _:
+                return ANY_TYPE
+
+    def _receiver(self, function: str) -> ValueTypes:
+        owner = self._graph.program.function(function).owner
+        return ANY_TYPE if owner is None else frozenset((InstanceType(owner),))
+
+    # --- containers ------------------------------------------------------------------------------
+
+    def _built(
+        self, own: OwnType, elements: Iterable[e.Expression | e.Spread], function: str
+    ) -> ValueTypes:
+        values = list(elements)
+        if own is OwnType.TUPLE and not any(isinstance(v, e.Spread) for v in values):
+            return pair(*(self._part(v, function) for v in values))  # type: ignore[arg-type]
+        return sequence(own, *(self._element(v, function) for v in values))
+
+    def _mapped(
+        self, entries: Iterable[tuple[e.Expression, e.Expression] | e.Spread], function: str
+    ) -> ValueTypes:
+        keys, values = NO_TYPES, NO_TYPES
+        for entry in entries:
+            if isinstance(entry, e.Spread):
+                keys, values = keys | ANY_TYPE, values | ANY_TYPE
+            else:
+                keys |= self._element(entry[0], function)
+                values |= self._element(entry[1], function)
+        return frozenset((ContainerType(OwnType.MAPPING, keys, values),))
+
+    def _element(self, value: e.Expression | e.Spread, function: str) -> ValueTypes:
+        match value:
+            case e.Spread(of):
+                return elements_of(self.of(of, function))
+            case e.Literal(None):
+                return frozenset((OwnType.NONE,))
+            case _:
+                return self.of(value, function)
+
+    def _part(self, value: e.Expression, function: str) -> ValueTypes:
+        """A part of a tuple; what is counted on differs each time, and is of any type here."""
+        key = key_of(value, function)
+        is_counter = key is not None and bool(self._graph.stores.changed(key))
+        return ANY_TYPE if is_counter else self._element(value, function)
+
+    def with_puts(self, key: Key, types: ValueTypes) -> ValueTypes:
+        """The types of a container's name with what is put into it under that name."""
+        puts = self._containers.puts(key)
+        if not puts:
+            return types
+        return frozenset(self._filled(type_, puts) for type_ in types)
+
+    def _filled(self, type_: ValueType | None, puts: list[Put]) -> ValueType | None:
+        if not (isinstance(type_, ContainerType) and type_.own in _CHANGING):
+            return type_
+        elements, values = type_.elements, type_.values
+        for put in puts:
+            found = self._element(put.value, put.function)
+            if put.is_all:
+                elements |= elements_of(found)
+            elif put.key is None:
+                elements |= found
+            elif type_.own is OwnType.MAPPING:
+                elements |= self._element(put.key, put.function)
+                values |= found
+            else:
+                elements |= found
+        return replace(type_, elements=elements, values=values)
+
+    # --- attributes ------------------------------------------------------------------------------
+
+    def attribute(
+        self, types: ValueTypes, of: e.Expression, name: str, function: str
+    ) -> ValueTypes:
+        """The types of an attribute of what is of some types."""
+        held = self._origins.of(of, function)
+        if held and all(isinstance(o, ClassOrigin) and not o.of_object for o in held):
+            members = (self._member(o.name, name) for o in held if isinstance(o, ClassOrigin))
+            found = union(members)
+            if found:
+                return found
+        found = union(self._of_type(type_, name) for type_ in types)
+        is_told = all(isinstance(type_, MessageType | LibraryType) for type_ in types)
+        if types and (is_told or self._enumerations(types)):
+            return found
+        if not self.has_own(of, function):
+            return found | ANY_TYPE
+        return found | self._stored(Member(name))
+
+    def _enumerations(self, types: ValueTypes) -> bool:
+        return all(isinstance(type_, InstanceType) and self._has_members(type_) for type_ in types)
+
+    def _has_members(self, type_: InstanceType) -> bool:
+        return not ENUMERATIONS.isdisjoint(self._graph.bases(type_.name))
+
+    def _member(self, of: str, name: str) -> ValueTypes:
+        """A member of an enumeration of the program; no types for any other attribute."""
+        return frozenset((InstanceType(of),) if name in self._origins.enumerations.of(of) else ())
+
+    def _of_type(self, type_: ValueType | None, name: str) -> ValueTypes:
+        match type_:
+            case MessageType(of):
+                fields = self._origins.table.fields(of) or {}
+                return self.field(fields[name]) if name in fields else ANY_TYPE
+            case LibraryType(of):
+                return self.of_class(result_of(f"{of}.{name}"))
+            case InstanceType(of) if name in ("value", "_value_") and self._has_members(type_):
+                stored = self._origins.enumerations.of(of).values()
+                return union(self.of(value, of_body) for of_body, value in stored)
+            case InstanceType() if name in ("name", "_name_") and self._has_members(type_):
+                return A_TEXT
+            case InstanceType() if self._has_members(type_):
+                return ANY_TYPE
+            case _:
+                return NO_TYPES
+
+    def field(self, type_: str) -> ValueTypes:
+        """The types of the values of a field of a message, by its type in ROS."""
+        plain, bracket, length = type_.partition("[")
+        if bracket:
+            # A fixed number of numbers is an array of numpy in ROS 2, bytes are no list.
+            is_plain = length == "]" and plain not in ("uint8", "char", "byte")
+            return sequence(OwnType.ARRAY if is_plain else None, self.field(plain))
+        if plain == "string" or plain == "wstring":
+            return A_TEXT
+        return A_NUMBER if plain[:3] in ("int", "uin", "flo", "boo") else self.of_class(plain)
+
+    def of_class(self, name: str) -> ValueTypes:
+        """The types of an object of a library's class, of a message, or of one of Python's own."""
+        if name in _OWN:
+            own = _OWN[name]
+            return frozenset((own,)) if own in (OwnType.NUMBER, OwnType.TEXT) else _any_of(own)
+        message = message_name(name) or name
+        if self._origins.table.fields(message) is not None:
+            return frozenset((MessageType(message),))
+        return frozenset((LibraryType(name),)) if attributes_of(name) is not None else ANY_TYPE
+
+    def has_own(self, of: e.Expression, function: str) -> bool:
+        """Whether attributes of an object have what the program stores, as it is."""
+        if not is_own(self._origins, of, function):
+            return False
+        classes = (o.name for o in self._origins.of(of, function) if isinstance(o, ClassOrigin))
+        # Of an enumeration they are its members, which have that as their values.
+        return all(ENUMERATIONS.isdisjoint(self._graph.bases(name)) for name in classes)
+
+    # --- names -----------------------------------------------------------------------------------
+
+    def _stored(self, node: Node) -> ValueTypes:
+        """The types of what is stored under a name, or a function gives: the least fixpoint."""
+        if node in self._known:
+            return self._known[node]
+        if self._visited is not None:
+            return self._visit(node, self._visited)
+        before: dict[Node, ValueTypes] | None = None
+        try:
+            while before != self._found:
+                before = dict(self._found)
+                self._visited = set()
+                self._visit(node, self._visited)
+            self._known |= self._found
+        finally:
+            self._visited = None
+            self._found.clear()
+        return self._known[node]
+
+    def _visit(self, node: Node, visited: set[Node]) -> ValueTypes:
+        """What was found up to this round, in which each name is visited once."""
+        if node not in visited:
+            visited.add(node)
+            found = self._result(node) if isinstance(node, str) else self._named(node)
+            # Never less than in the round before, and of a bounded depth: the rounds end.
+            found = limited(found, _DEEPEST) | self._found.get(node, NO_TYPES)
+            self._found[node] = merged(found)
+        return self._found.get(node, NO_TYPES)
+
+    def _named(self, key: Key) -> ValueTypes:
+        sources = self.sources(key)
+        if not sources:
+            return self.parameter(key) or ANY_TYPE
+        return self.with_puts(key, union(map(self.of_stored, sources)) | self.parameter(key))
+
+    def sources(self, key: Key) -> list[Source]:
+        """All that is stored under a name, but for what a function gets for a parameter."""
+        sources = self._graph.stores.sources(key)
+        if isinstance(key, CapturedVariable) and self.parameter(key):
+            sources.remove((key.function, ANY_VALUE))
+        return sources
+
+    def parameter(self, key: Key) -> ValueTypes:
+        """The types of what calls and subscriptions give for a parameter, as far as known."""
+        if not isinstance(key, CapturedVariable) or not self._is_parameter(key):
+            return NO_TYPES
+        given = self._arguments.arguments(key.function, key.name)
+        messages = self._arguments.messages(key.function, key.name)
+        found = union(self.of(value, around) for around, value in given)
+        return found | union(self.of_class(name) for name in messages)
+
+    def _is_parameter(self, key: CapturedVariable) -> bool:
+        program = self._graph.program
+        if key.function not in program:
+            return False
+        return any(p.name == key.name for p in program.function(key.function).parameters)
+
+    def of_stored(self, stored: Source) -> ValueTypes:
+        """The types of what is stored somewhere."""
+        function, value = stored
+        match value:
+            case CallResult(call):
+                return self._calls.of(call, function)
+            case ObjectValue(name):
+                return frozenset((InstanceType(name),))
+            case ElementOf(container):
+                return elements_of(self.of(container, function))
+            case PartOf(of, at):
+                return at_index(self.of(of, function), at)
+            case AnyValue() | ClassValue():
+                return ANY_TYPE
+        return self.of(value, function)
+
+    def result(self, function: str) -> ValueTypes:
+        """The types of what a function of the program gives."""
+        return self._stored(function)
+
+    def of_call(self, call: s.Call, function: str) -> ValueTypes:
+        """The types of what a call in a function gives."""
+        return self._calls.of(call, function)
+
+    def _result(self, name: str) -> ValueTypes:
+        body = self._graph.program.function(name)
+        if body.kind is FunctionKind.GENERATOR:
+            given = [n for n in walk(body) if isinstance(n, s.Yield)]
+            found = (self._element(n.value, name) for n in given if n.value is not None)
+            has_inner = any(n.delegates for n in given)
+            return sequence(None, union(found) if not has_inner else ANY_TYPE)
+        if body.kind is not FunctionKind.FUNCTION:
+            return ANY_TYPE
+        values = (n.value for n in walk(body) if isinstance(n, s.Return))
+        return union(self.of(value, name) for value in values if value is not None)
+
+
+def computed(operator: Operator, left: ValueTypes, right: ValueTypes) -> ValueTypes:
+    """The types of what an operator gives for operands of some types."""
+    if left == right == A_NUMBER:
+        return A_NUMBER
+    kinds = frozenset(map(own_type, left))
+    if operator is Operator.ADD and kinds == frozenset(map(own_type, right)) and kinds <= _ADDED:
+        return left | right
+    if operator is Operator.FLOOR_MODULO and left == A_TEXT:
+        return left
+    if operator is Operator.MULTIPLY and right == A_NUMBER and kinds <= _ADDED:
+        return frozenset(_repeated(type_) for type_ in left)
+    return ANY_TYPE
+
+
+def _repeated(type_: ValueType | None) -> ValueType | None:
+    return replace(type_, parts=None) if isinstance(type_, ContainerType) else type_
+
+
+def _any_of(own: OwnType) -> ValueTypes:
+    return frozenset((ContainerType(own, ANY_TYPE),))
