@@ -12,6 +12,7 @@ from functools import cached_property
 from rebsync.reverse.analysis.call_binding import bound
 from rebsync.reverse.analysis.message_values import callback_functions, first_parameter
 from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origins
+from rebsync.reverse.analysis.stores import ElementOf, Source
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function
@@ -19,6 +20,7 @@ from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries import python
 from rebsync.reverse.libraries.routines import Kind, Routine
 
+_FOR_EACH = frozenset({"builtins.map", "builtins.filter"})
 _MESSAGE = re.compile(r"(\w+)\.msg(?:\._\w+)?\.(\w+)")
 
 
@@ -36,7 +38,7 @@ class ArgumentTypes:
         self._graph = origins.graph
         self._program = origins.graph.program
 
-    def arguments(self, function: str, parameter: str) -> list[tuple[str, e.Expression]]:
+    def arguments(self, function: str, parameter: str) -> list[Source]:
         """What calls give for a parameter, with the functions that these stand in; defaults too."""
         return self._given.get((function, parameter), [])
 
@@ -45,8 +47,8 @@ class ArgumentTypes:
         return self._subscribed.get((function, parameter), [])
 
     @cached_property
-    def _given(self) -> dict[tuple[str, str], list[tuple[str, e.Expression]]]:
-        found: dict[tuple[str, str], list[tuple[str, e.Expression]]] = {}
+    def _given(self) -> dict[tuple[str, str], list[Source]]:
+        found: dict[tuple[str, str], list[Source]] = {}
         for name in self._program.functions:
             around = self._program.function(name)
             for node in walk(around):
@@ -56,6 +58,10 @@ class ArgumentTypes:
                             given = bound(node, self._program.function(called))
                             for parameter, value in given.items():
                                 found.setdefault((called, parameter), []).append((name, value))
+                        for called, element in self._called_for_each(node, around):
+                            for parameter in first_parameter(self._program.function(called)):
+                                known = found.setdefault((called, parameter), [])
+                                known.append((name, element))
                     case e.Closure(of, _, defaults):
                         for parameter, value in defaults:
                             found.setdefault((of, parameter), []).append((name, value))
@@ -81,6 +87,19 @@ class ArgumentTypes:
                 return frozenset[str]().union(*found)
             case _:
                 return frozenset()
+
+    def _called_for_each(self, call: s.Call, around: Function) -> Iterator[tuple[str, ElementOf]]:
+        """The functions that one of Python's calls for each element of a container."""
+        match call:
+            case s.Call(_, s.LibraryCallee(name), (function, container)) if name in _FOR_EACH:
+                values = [function.value]
+            case s.Call(_, s.LibraryCallee(), (container, *more)):
+                values = [a.value for a in more if a.name == "key"]
+            case _:
+                return
+        for value in values:
+            for called in self._graph.value(value, around).functions:
+                yield called, ElementOf(container.value)
 
     @cached_property
     def _subscribed(self) -> dict[tuple[str, str], list[str]]:

@@ -58,8 +58,8 @@ class AttributeErrors:
             case InstanceType(of):
                 return self._lacks(of, name)
             case _:
-                own = own_type(type_)
-                return own in ATTRIBUTES and name not in ATTRIBUTES[own]
+                known = ATTRIBUTES.get(own_type(type_))
+                return known is not None and name not in known
 
     def _is_of_none(self, of: e.Expression, name: str, facts: Facts) -> bool:
         """Whether no object of the classes that a value is of may have an attribute."""
@@ -95,7 +95,8 @@ class AttributeErrors:
         known = {n for c in classes for n, _ in c.methods}
         known |= {p.name for c in classes for p in c.properties}
         known |= {f.name for c in classes for f in c.fields}
-        return known.union(*(o or () for o in others)).isdisjoint({name, *_HOOKS})
+        is_known = any(name in (other or ()) for other in others)
+        return not is_known and known.isdisjoint({name, *_HOOKS})
 
     def named(self, value: e.Expression, module: str, name: str) -> None:
         """Notes a name that no scope of a module binds, and no import brings in unseen."""

@@ -36,11 +36,11 @@ class Decorator:
 
     def has(self, option: str) -> bool:
         """Whether an option is given that is not false."""
-        return any(a.name == option and a.value != e.Literal(False) for a in self.arguments)
+        return any(a.name == option and not _is_false(a.value) for a in self.arguments)
 
     def lacks(self, option: str) -> bool:
         """Whether an option is given that is false."""
-        return any(a.name == option and a.value == e.Literal(False) for a in self.arguments)
+        return any(a.name == option and _is_false(a.value) for a in self.arguments)
 
 
 class ClassDecorators:
@@ -68,6 +68,16 @@ class ClassDecorators:
         """Whether a decorator of a class, or one that it extends, adds what answers a call."""
         decorators = (d for each in (name, *self._graph.bases(name)) for d in self.of(each))
         return call in _ORDERED and any(d.has("order") or d.name == _ORDERING for d in decorators)
+
+    def has_hash(self, name: str) -> bool:
+        """Whether objects of a class may be keys: one that says what is equal has a hash too."""
+        class_ = self._program.classes[name]
+        methods = dict(class_.methods)
+        if "__hash__" in methods or not self.is_plain(class_):
+            return True
+        data = self._of_data(name)
+        kept = (d.has("frozen") or d.has("unsafe_hash") or d.lacks("eq") for d in data)
+        return "__eq__" not in methods and all(kept)
 
     def parameters(self, name: str) -> list[Parameter] | None:
         """What a call of a class takes that declares its fields; None for any other class."""
@@ -153,6 +163,10 @@ class ClassDecorators:
                 return Decorator("")
 
 
+def _is_false(value: e.Expression) -> bool:
+    return isinstance(value, e.Literal) and value.value is False
+
+
 def _made(value: Value) -> Decorator:
     """A decorator that a call of a library gives, as `dataclass(frozen=True)`."""
     match value:
@@ -166,12 +180,11 @@ def _parameter(
     name: str, has_default: bool, options: tuple[s.CallArgument, ...] | None, by_name: bool
 ) -> Iterator[Parameter]:
     """The parameter for a field, with the options that `field` gets for it; none if it is not."""
-    given = {a.name: a.value for a in options or ()}
-    if given.get("init") == e.Literal(False):
+    given = Decorator(_FIELD, options or ())
+    if given.lacks("init"):
         return
-    by_name |= given.get("kw_only", e.Literal(False)) != e.Literal(False)
-    has_default = has_default and (
-        options is None or bool({"default", "default_factory"} & {*given})
-    )
+    by_name |= given.has("kw_only")
+    if options is not None:
+        has_default = any(a.name in ("default", "default_factory") for a in options)
     kind = ParameterKind.BY_NAME if by_name else ParameterKind.PLAIN
     yield Parameter(name, kind=kind, has_default=has_default)

@@ -37,6 +37,7 @@ class ElementErrors:
         self._notes = notes
         self._kinds = kinds
         self._objects = notes.counts.rules.objects
+        self._decorators = notes.counts.rules.decorators
 
     def call(self, node: s.Call, plain: Sequence[e.Expression], facts: Facts) -> None:
         """Notes what a call asks of elements that may have it not."""
@@ -88,7 +89,7 @@ class ElementErrors:
         return not self._objects.class_lacks(name, Operator.LESS)
 
     def _hashes(self, node: s.Statement | e.Expression, types: ValueTypes) -> None:
-        if not is_hashable(types):
+        if not is_hashable(types, self._decorators.has_hash):
             self._notes.fails(node, _WRONG)
 
     def _fits(self, node: s.Statement, types: ValueTypes, taken: set[OwnType] | None) -> None:

@@ -56,7 +56,7 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import COMPARISONS, Operator
 from rebsync.reverse.ir.program import FunctionKind
 from rebsync.reverse.ir.walk import walk
-from rebsync.reverse.libraries.attributes import attributes_of, result_of
+from rebsync.reverse.libraries.attributes import attributes_of, held_in
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
 _CONTAINERS = {
@@ -224,10 +224,10 @@ class InferredTypes:
                 fields = self._origins.table.fields(of) or {}
                 return self.field(fields[name]) if name in fields else ANY_TYPE
             case LibraryType(of):
-                return self.of_class(result_of(f"{of}.{name}"))
+                return self.of_class(held_in(f"{of}.{name}"))
             case InstanceType(of) if name in ("value", "_value_") and self._has_members(type_):
                 stored = self._origins.enumerations.of(of).values()
-                return union(self.of(value, of_body) for of_body, value in stored)
+                return union(map(self.of_stored, stored))
             case InstanceType() if name in ("name", "_name_") and self._has_members(type_):
                 return A_TEXT
             case InstanceType() if self._has_members(type_):
@@ -313,7 +313,7 @@ class InferredTypes:
             return NO_TYPES
         given = self._arguments.arguments(key.function, key.name)
         messages = self._arguments.messages(key.function, key.name)
-        found = union(self.of(value, around) for around, value in given)
+        found = union(map(self.of_stored, given))
         return found | union(self.of_class(name) for name in messages)
 
     def _is_parameter(self, key: CapturedVariable) -> bool:
@@ -336,7 +336,8 @@ class InferredTypes:
                 return at_index(self.of(of, function), at)
             case AnyValue() | ClassValue():
                 return ANY_TYPE
-        return self.of(value, function)
+            case _:
+                return self.of(value, function)
 
     def result(self, function: str) -> ValueTypes:
         """The types of what a function of the program gives."""

@@ -9,6 +9,8 @@ from rebsync.reverse.ir.operators import ImplicitCall, Operator
 
 # Bases of libraries whose objects have no operators, and do not say what attributes they have.
 _PLAIN_BASES = frozenset({"builtins.object", "enum.Enum", "abc.ABC"})
+# Methods that each class has.
+_COMMON = frozenset({"__init__", "__repr__", "__str__", "__eq__", "__ne__", "__hash__"})
 _HOOKS = frozenset({"__getattr__", "__getattribute__"})
 
 
@@ -30,6 +32,12 @@ class ObjectOperators:
         if self._origins.graph.implicit((call,)) or self._decorators.answers(name, call):
             return False  # the other operand's class may
         return self._is_plain(name)
+
+    def is_bare(self, name: str) -> bool:
+        """Whether objects of a class answer nothing at all that no text calls."""
+        line = [self._program.classes[c] for c in self._line(name) if c in self._program.classes]
+        special = {n for c in line for n, _ in c.methods if n.startswith("__")}
+        return self._is_plain(name) and special <= _COMMON
 
     def lacks_attribute(self, of: str, name: str) -> bool:
         """Whether a class itself has no such attribute, nor anything that may make it one."""

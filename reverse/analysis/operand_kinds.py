@@ -29,7 +29,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import COMPARISONS
 from rebsync.reverse.ir.program import FunctionKind
 
-ATTRIBUTES: Mapping[OwnType, frozenset[str]] = {
+ATTRIBUTES: Mapping[OwnType | None, frozenset[str]] = {
     OwnType.NUMBER: frozenset(dir(int)) | frozenset(dir(float)),
     OwnType.TEXT: frozenset(dir(str)),
     OwnType.LIST: frozenset(dir(list)),
@@ -97,11 +97,8 @@ class OperandKinds:
     def _named(self, value: e.Expression, facts: Facts) -> ValueTypes:
         """The types of what is stored under a name, where some facts are known of it."""
         key = key_of(value, self._name)
-        if (
-            key is None
-            or isinstance(value, e.Local)
-            and value.name == self._notes.function.receiver
-        ):
+        is_object = value == e.Local(self._notes.function.receiver or "")
+        if key is None or is_object:
             return self._types.of(value, self._name)
         found = self._types.sources(key)
         if isinstance(key, Member):

@@ -94,15 +94,17 @@ def _are_parts(
     return True
 
 
-def is_hashable(types: ValueTypes) -> bool:
-    """Whether values of some types can be keys, or elements of sets."""
-    return all(_has_hash(type_) for type_ in types)
+def is_hashable(types: ValueTypes, has_hash: Callable[[str], bool]) -> bool:
+    """Whether values of some types can be keys, or elements of sets; `has_hash` asks of a class."""
+    return all(_is_hashable(type_, has_hash) for type_ in types)
 
 
-def _has_hash(type_: ValueType | None) -> bool:
+def _is_hashable(type_: ValueType | None, has_hash: Callable[[str], bool]) -> bool:
     match type_:
         case ContainerType(OwnType.TUPLE, elements):
-            return is_hashable(elements)
+            return is_hashable(elements, has_hash)
+        case InstanceType(name):
+            return has_hash(name)
         case MessageType():
             return True  # some have one
         case _:

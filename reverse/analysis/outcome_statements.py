@@ -178,7 +178,7 @@ class OutcomeWalk:
     def _assigned(self, target: e.Lvalue, value: e.Expression, facts: Facts) -> Facts:
         """What is known after a value is stored; of the target it is as of the value."""
         self.value(value, facts)
-        self._stored(target, facts)
+        self._stored(target, facts, value)
         before, facts = facts, stored(facts, target, self._expressions.types.of(value, facts))
         if not self._expressions.none.may_be(value, before):
             facts |= {IsThere(target)}
@@ -203,7 +203,7 @@ class OutcomeWalk:
             facts |= {Holds(target)}
         return facts
 
-    def _stored(self, target: e.Lvalue, facts: Facts) -> None:
+    def _stored(self, target: e.Lvalue, facts: Facts, value: e.Expression) -> None:
         """What it may do to store in a target."""
         match target:
             case e.Index():
@@ -216,7 +216,7 @@ class OutcomeWalk:
                 if is_attribute:
                     asked = "asks None for an attribute"
                     self._expressions.none.check(holder, target, facts, asked)
-                    self._expressions.types.sets(target)
+                    self._expressions.types.sets(target, value, facts)
                 held = self.origins.of(holder, self.name)
                 if any(isinstance(o, LibraryOrigin) and not o.of_object for o in held):
                     self.notes.problem(target, "this is stored in another module")

@@ -6,6 +6,7 @@ from functools import cached_property
 
 from rebsync.reverse.analysis.call_binding import CallBinding
 from rebsync.reverse.analysis.class_decorators import ClassDecorators
+from rebsync.reverse.analysis.construction_order import ConstructionOrder
 from rebsync.reverse.analysis.declared_parameters import DeclaredParameters
 from rebsync.reverse.analysis.fixed_attributes import FixedAttributes
 from rebsync.reverse.analysis.inferred_types import InferredTypes
@@ -30,6 +31,11 @@ class PythonRules:
     def decorators(self) -> ClassDecorators:
         """What decorates classes."""
         return ClassDecorators(self._origins.graph)
+
+    @cached_property
+    def construction(self) -> ConstructionOrder:
+        """What constructors read before they have set it."""
+        return ConstructionOrder(self._origins)
 
     @cached_property
     def fixed(self) -> FixedAttributes:

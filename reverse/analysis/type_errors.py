@@ -12,11 +12,12 @@ from rebsync.reverse.analysis.attribute_errors import AttributeErrors
 from rebsync.reverse.analysis.element_errors import ElementErrors
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.format_strings import conversions
+from rebsync.reverse.analysis.message_errors import MessageErrors
 from rebsync.reverse.analysis.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.operator_types import ITERABLE, SEQUENCES, takes
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.value_types import OwnType, ValueTypes
+from rebsync.reverse.analysis.value_types import InstanceType, OwnType, ValueTypes, own_type
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
@@ -48,6 +49,7 @@ class TypeErrors:
         self._kinds = OperandKinds(notes)
         self._attributes = AttributeErrors(notes, self._kinds)
         self._elements = ElementErrors(notes, self._kinds)
+        self._messages = MessageErrors(notes, self._kinds)
         self._objects = notes.counts.rules.objects
         self._is_python = notes.table.language is Language.PYTHON
 
@@ -94,6 +96,7 @@ class TypeErrors:
         self._elements.call(node, plain, facts)
         if isinstance(node.callee, s.LibraryCallee):
             self._attributes.of_library(node, node.callee.name)
+            self._messages.made(node, node.callee.name, facts)
         match node.callee:
             case s.ValueCallee(value):
                 self._needs(node, value, set(), facts)
@@ -133,23 +136,30 @@ class TypeErrors:
         if self._objects.lacks(value, self._notes.function.name, call):
             self._notes.fails(node, _WRONG)
 
-    def sets(self, target: e.Lvalue) -> None:
-        """Notes that an attribute is stored in an object whose class has none to store in."""
+    def sets(self, target: e.Lvalue, value: e.Expression | None, facts: Facts) -> None:
+        """Notes that an attribute is stored in an object that has no place for it."""
         if not (self._is_python and isinstance(target, e.Attribute)):
             return
-        origins = self._notes.origins
+        origins, rules = self._notes.origins, self._notes.counts.rules
+        self._messages.stored(target, value, facts)
         held = origins.of(target.object, self._notes.function.name)
         if target.object == e.Local(self._notes.function.receiver or ""):
             held = frozenset({ClassOrigin(self._notes.function.owner or "")})
-        classes = (o.name for o in held if isinstance(o, ClassOrigin) and o.of_object)
-        if any(self._notes.counts.rules.fixed.refuses(each, target.name) for each in classes):
-            self._notes.fails(target, _LACKS)
+        for origin in held:
+            match origin:
+                case ClassOrigin(of, True) if rules.fixed.refuses(of, target.name):
+                    self._notes.fails(target, _LACKS)
+                case ClassOrigin(of, False) if target.name in origins.enumerations.of(of):
+                    if self._notes.function.name != of:  # the body of the class itself
+                        self._notes.fails(target, _LACKS)
+                case _:
+                    pass
 
     def stores(self, target: e.Index, facts: Facts) -> None:
         """Notes that an element is stored in what takes none."""
         if not self._is_python:
             return
-        changing = {OwnType.LIST, OwnType.MAPPING, OwnType.QUEUE}
+        changing = {OwnType.LIST, OwnType.MAPPING, OwnType.QUEUE, OwnType.ARRAY}
         self._needs(target, target.object, changing, facts)
         if self._kinds.of(target.object, facts) == {OwnType.MAPPING}:
             self._elements.is_key(target, target.index, facts)
@@ -161,7 +171,9 @@ class TypeErrors:
         taken: Iterable[OwnType],
         facts: Facts,
     ) -> None:
-        if self._kinds.of(value, facts) - {*taken, None}:
+        types = self._kinds.types(value, facts)
+        is_bare = any(isinstance(t, InstanceType) and self._objects.is_bare(t.name) for t in types)
+        if is_bare or frozenset(map(own_type, types)) - {*taken, None}:
             self._notes.fails(node, _WRONG)
 
     # --- operators -------------------------------------------------------------------------------

@@ -56,9 +56,11 @@ class UnsetNames:
     def _may_lack(self, value: e.Attribute, facts: Facts) -> bool:
         """Whether the own object of a function may lack an attribute when it is called."""
         owner, name = self._function.owner, value.name
-        if owner is None or self._function.kind not in _CALLED:
+        if owner is None or HasKey(value.object, e.Literal(name)) in facts:
             return False
-        if HasKey(value.object, e.Literal(name)) in facts:
+        if self._notes.counts.rules.construction.reads_early(self._function.name, name):
+            return True
+        if self._function.kind not in _CALLED:
             return False
         graph = self._notes.origins.graph
         classes = {owner, *graph.subclasses.get(owner, ())} & self._program.classes.keys()

@@ -1,4 +1,4 @@
-"""Which attributes objects of client libraries of Python have, and of what class they give values.
+"""Which attributes objects of client libraries of Python have, and the classes of what these give.
 
 Those of all versions that are in use: what is not here is in none of them.
 """
@@ -22,8 +22,9 @@ _OF_NODES = """
     get_clients_info_by_service get_clock get_fully_qualified_name get_fully_qualified_node_names
     get_logger get_name get_namespace get_node_names get_node_names_and_namespaces
     get_node_names_and_namespaces_with_enclaves get_parameter get_parameter_or get_parameter_type
-    get_parameter_types get_parameters get_parameters_by_prefix get_publisher_names_and_types_by_node
-    get_publishers_info_by_topic get_servers_info_by_service get_service_names_and_types
+    get_parameter_types get_parameters get_parameters_by_prefix
+    get_publisher_names_and_types_by_node get_publishers_info_by_topic
+    get_servers_info_by_service get_service_names_and_types
     get_service_names_and_types_by_node get_subscriber_names_and_types_by_node
     get_subscriptions_info_by_topic get_topic_names_and_types guards handle has_parameter
     list_parameters publishers remove_on_set_parameters_callback remove_post_set_parameters_callback
@@ -52,6 +53,8 @@ _OF_TOPICS = (
     "data_class get_num_connections impl md5sum name reg_type resolved_name type unregister"
 )
 _TIME = "from_sec from_seconds is_zero nsecs secs set canon to_nsec to_sec to_time now"
+
+_TIMES = ("rospy.Time", "rospy.Duration", "time", "duration")  # the last two in messages
 
 # By the full name of a class the attributes of its objects, beside those of all objects.
 _ATTRIBUTES: Mapping[str, str] = {
@@ -82,11 +85,9 @@ _ATTRIBUTES: Mapping[str, str] = {
     "rospy.Subscriber": f"callback callback_args {_OF_TOPICS}",
     "rospy.Timer": f"shutdown {_THREAD}",
     "rospy.Rate": "last_time remaining sleep sleep_dur",
-    "rospy.Time": _TIME,
-    "rospy.Duration": _TIME,
-    **dict.fromkeys(("time", "duration"), _TIME),  # fields of messages of ROS 1
+    **dict.fromkeys(_TIMES, _TIME),
 }
-# By the full name of a function, method or attribute the class of what it gives.
+# By the full name of a function or method the class of what it gives.
 _GIVES: Mapping[str, str] = {
     "rclpy.create_node": _NODE,
     f"{_NODE}.create_publisher": "rclpy.publisher.Publisher",
@@ -101,16 +102,16 @@ _GIVES: Mapping[str, str] = {
     "rclpy.clock.Clock.now": "rclpy.time.Time",
     "rclpy.time.Time.to_msg": "builtin_interfaces/Time",
     "rclpy.duration.Duration.to_msg": "builtin_interfaces/Duration",
-    **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
     **dict.fromkeys(("rospy.Time.now", "rospy.get_rostime", "rospy.Time.from_sec"), "rospy.Time"),
     "rospy.Duration.from_sec": "rospy.Duration",
-    **{
-        f"{of}.{name}": "number"
-        for of in ("rospy.Time", "rospy.Duration", "time", "duration")
-        for name in ("to_sec", "to_nsec", "secs", "nsecs")
-    },
     "rospy.get_time": "number",
     **dict.fromkeys(("rospy.get_name", "rospy.get_namespace", "rospy.get_caller_id"), "str"),
+    **{f"{of}.{name}": "number" for of in _TIMES for name in ("to_sec", "to_nsec")},
+}
+# By the full name of an attribute the class of its value.
+_HOLDS: Mapping[str, str] = {
+    **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
+    **{f"{of}.{name}": "number" for of in _TIMES for name in ("secs", "nsecs")},
 }
 _EXCEPTIONS = """
     ROSException ROSInitException ROSInternalException ROSInterruptException
@@ -134,11 +135,11 @@ _MODULES: Mapping[str, str] = {
 }
 # Constants of messages are written in capitals; the rest are what generators add.
 _OF_MESSAGES = frozenset(
-    ("serialize", "deserialize", "serialize_numpy", "deserialize_numpy")
-    + ("get_fields_and_field_types",)
+    {
+        *("serialize", "deserialize", "serialize_numpy", "deserialize_numpy"),
+        "get_fields_and_field_types",
+    }
 )
-
-
 # Enumerations, and what they are beside: the members have these too.
 _OF_MEMBERS: Mapping[str, frozenset[str]] = {
     "enum.Enum": frozenset(dir(object)),
@@ -165,11 +166,16 @@ def attributes_of(name: str) -> frozenset[str] | None:
 
 @derived
 def result_of(name: str) -> str:
-    """The class of what a function, method or attribute gives; empty if that is not known."""
+    """The class of what a function or method gives; empty if that is not known."""
     of, _, last = name.rpartition(".")
     if of in python.node_classes():
         name = f"{_NODE}.{last}"
     return _GIVES.get(name, "")
+
+
+def held_in(name: str) -> str:
+    """The class of the value of an attribute; empty if that is not known."""
+    return _HOLDS.get(name, "")
 
 
 @derived
