@@ -82,7 +82,7 @@ class GivenTypes:
         found = NO_TYPES
         for origin in self._origins.result(call, function):
             match origin:
-                case ClassOrigin(name):
+                case ClassOrigin(name, True):
                     found |= {InstanceType(name)}
                 case LibraryOrigin(name, True):
                     found |= self._types.of_class(name)

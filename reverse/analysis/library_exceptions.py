@@ -9,12 +9,13 @@ from rebsync.reverse.analysis.facts import Facts, HasKey, bare, names_of
 from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
-from rebsync.reverse.analysis.origins import PlainOrigin
+from rebsync.reverse.analysis.origins import ClassOrigin, Origin, PlainOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.libraries.outcome_classes import NUMBERED
 from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.reverse.libraries.routines import Language
@@ -159,8 +160,18 @@ class LibraryExceptions:
         return bool(names) and self.origins.of_cpp.declared_parameters.issuperset(names)
 
     def _is_number(self, value: e.Expression) -> bool:
-        """Whether a value is a number by how it is computed."""
-        return self.origins.of(value, self.function) == {PlainOrigin()}
+        """Whether a value is a number by how it is computed, or a member that is one."""
+        held = self.origins.of(value, self.function)
+        return bool(held) and all(map(self._is_plain, held))
+
+    def _is_plain(self, origin: Origin) -> bool:
+        match origin:
+            case PlainOrigin():
+                return True
+            case ClassOrigin(name, True):
+                return not NUMBERED.isdisjoint(self.origins.graph.bases(name))
+            case _:
+                return False
 
     def _is_of_number(self, value: e.Expression, kind: type[int] | type[float]) -> bool:
         """Whether a value is one of some texts in the source, which are those of numbers."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping
+from functools import cached_property
 from typing import TypeAlias
 
 from rebsync.reverse.analysis.facts import Facts, Holds, IsBound, IsOf
@@ -28,6 +29,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import COMPARISONS
 from rebsync.reverse.ir.program import FunctionKind
+from rebsync.reverse.ir.walk import walk
 
 ATTRIBUTES: Mapping[OwnType | None, frozenset[str]] = {
     OwnType.NUMBER: frozenset(dir(int)) | frozenset(dir(float)),
@@ -38,6 +40,7 @@ ATTRIBUTES: Mapping[OwnType | None, frozenset[str]] = {
     OwnType.MAPPING: frozenset(dir(dict)) | {"has_key", "iteritems", "iterkeys", "itervalues"},
     OwnType.QUEUE: frozenset(dir(deque)),
 }
+_ASKING = frozenset(f"builtins.{n}" for n in ("isinstance", "type", "hasattr", "callable"))
 _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
 Kinds: TypeAlias = "frozenset[OwnType | None]"
 
@@ -97,6 +100,8 @@ class OperandKinds:
     def _named(self, value: e.Expression, facts: Facts) -> ValueTypes:
         """The types of what is stored under a name, where some facts are known of it."""
         key = key_of(value, self._name)
+        if isinstance(value, e.Local) and value.name in self._tested:
+            return ANY_TYPE
         is_object = value == e.Local(self._notes.function.receiver or "")
         if key is None or is_object:
             return self._types.of(value, self._name)
@@ -114,6 +119,17 @@ class OperandKinds:
         if not found:
             return given or ANY_TYPE
         return self._types.with_puts(key, union(map(self._types.of_stored, found)) | given)
+
+    @cached_property
+    def _tested(self) -> frozenset[str]:
+        """The variables of whose types the function itself asks something: they may be of any."""
+        return frozenset(
+            argument.value.name
+            for node in walk(self._notes.function)
+            if isinstance(node, s.Call) and isinstance(node.callee, s.LibraryCallee)
+            for argument in node.arguments[:1]
+            if node.callee.name in _ASKING and isinstance(argument.value, e.Local)
+        )
 
 
 def _is_nothing(value: object) -> bool:
