@@ -17,8 +17,14 @@ from rebsync.reverse.analysis.value_types import (
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import Node, walk
-from rebsync.reverse.libraries.attributes import attributes_of, has_name, may_be_of_messages
+from rebsync.reverse.libraries.attributes import (
+    attributes_of,
+    has_name,
+    may_be_of_messages,
+    takes_nothing,
+)
 
+_REFUSED = "gets other arguments than it takes"
 _LACKS = "has no such attribute"
 _UNDEFINED = "names what nothing defines"
 _OF_MODULES = frozenset({"__name__", "__file__", "__doc__", "__package__", "__spec__"})
@@ -110,11 +116,26 @@ class AttributeErrors:
         if not any(isinstance(n, s.Unsupported) or _is_star(n) for n in nodes):
             self._notes.fails(value, _UNDEFINED)
 
+    def takes_nothing(self, node: s.Call, receiver: e.Expression, name: str, facts: Facts) -> None:
+        """Notes that a method of a library's object gets arguments, which takes none."""
+        if not node.arguments:
+            return
+        for type_ in self._kinds.types(receiver, facts):
+            names = [type_.name] if isinstance(type_, LibraryType) else []
+            if isinstance(type_, InstanceType) and not self._notes.origins.methods(
+                type_.name, name
+            ):
+                names = self._notes.origins.graph.bases(type_.name)
+            if any(takes_nothing(f"{each}.{name}") for each in names):
+                self._notes.fails(node, _REFUSED)
+
     def of_library(self, node: s.Statement | e.Expression, name: str) -> None:
         """Notes a full name in a library of which a table has all names, and not this one."""
         module, _, rest = name.partition(".")
         if rest and not has_name(module, rest.partition(".")[0]):
             self._notes.fails(node, _LACKS)
+        if isinstance(node, s.Call) and node.arguments and takes_nothing(name):
+            self._notes.fails(node, _REFUSED)
 
 
 def _is_star(node: Node) -> bool:

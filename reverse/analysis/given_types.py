@@ -85,7 +85,7 @@ class GivenTypes:
                 case ClassOrigin(name, True):
                     found |= {InstanceType(name)}
                 case LibraryOrigin(name, True):
-                    found |= self._types.of_class(name)
+                    found |= self._types.attributes.of_class(name)
                 case _:
                     found |= ANY_TYPE
         if None not in found:
@@ -119,13 +119,13 @@ class GivenTypes:
             case "builtins.sum" if len(given) > 1:
                 return ANY_TYPE
         gives = self._origins.table.function(name).gives or result_of(name) or name
-        return self._types.of_class(gives)
+        return self._types.attributes.of_class(gives)
 
     def _mapped(self, value: e.Expression, function: str) -> ValueTypes:
         """The types of what a function gives that another calls for each element."""
         match value:
             case e.LibraryReference(name):
-                return self._types.of_class(self._origins.table.function(name).gives)
+                return self._types.attributes.of_class(self._origins.table.function(name).gives)
             case _:
                 targets = self._graph.value(value, self._graph.program.function(function))
                 if targets.unknown or targets.libraries or not targets.functions:
@@ -149,7 +149,7 @@ class GivenTypes:
             case ContainerType() if name in _NUMBERED:
                 return A_NUMBER
             case LibraryType(of):
-                return self._types.of_class(result_of(f"{of}.{name}"))
+                return self._types.attributes.of_class(result_of(f"{of}.{name}"))
             case InstanceType(of):
                 return self._of_instance(of, name, call, function)
             case _:
@@ -180,7 +180,7 @@ class GivenTypes:
         if self._origins.methods(of, name):
             return self._of_program(call, function)
         found = (result_of(f"{base}.{name}") for base in self._graph.bases(of))
-        return self._types.of_class(next(filter(None, found), ""))
+        return self._types.attributes.of_class(next(filter(None, found), ""))
 
 
 def _has_methods(type_: ValueType | None) -> bool:

@@ -6,15 +6,15 @@ drawn from them, given for parameters and given back. What comes from elsewhere 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import TypeAlias
 
-from rebsync.reverse.analysis.argument_types import ArgumentTypes, message_name
+from rebsync.reverse.analysis.argument_types import ArgumentTypes
+from rebsync.reverse.analysis.attribute_types import AttributeTypes
 from rebsync.reverse.analysis.container_stores import ContainerStores, Put
 from rebsync.reverse.analysis.given_types import GivenTypes
-from rebsync.reverse.analysis.held_values import is_own
-from rebsync.reverse.analysis.origins import ClassOrigin, Origins
+from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.stores import (
     ANY_VALUE,
     AnyValue,
@@ -23,7 +23,6 @@ from rebsync.reverse.analysis.stores import (
     ClassValue,
     ElementOf,
     Key,
-    Member,
     ObjectValue,
     PartOf,
     Source,
@@ -36,13 +35,12 @@ from rebsync.reverse.analysis.value_types import (
     NO_TYPES,
     ContainerType,
     InstanceType,
-    LibraryType,
-    MessageType,
     OwnType,
     ValueType,
     ValueTypes,
     at_index,
     elements_of,
+    joined_items,
     limited,
     merged,
     own_type,
@@ -56,8 +54,6 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import COMPARISONS, Operator
 from rebsync.reverse.ir.program import FunctionKind
 from rebsync.reverse.ir.walk import walk
-from rebsync.reverse.libraries.attributes import attributes_of, held_in
-from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
 _CONTAINERS = {
     t.ContainerKind.SEQUENCE: OwnType.LIST,
@@ -66,8 +62,7 @@ _CONTAINERS = {
     t.ContainerKind.SET: OwnType.SET,
     t.ContainerKind.MAPPING: OwnType.MAPPING,
 }
-_OWN = {kind.value: kind for kind in OwnType}
-_ADDED = frozenset({OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
+_ADDED = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
 _CHANGING = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
 _DEEPEST = 3  # containers in one another; what is deeper is of any type
 Node: TypeAlias = Key | str  # a name, or the function whose result is meant
@@ -76,12 +71,13 @@ Node: TypeAlias = Key | str  # a name, or the function whose result is meant
 class InferredTypes:
     """The types of the values of one program."""
 
-    def __init__(self, origins: Origins) -> None:
+    def __init__(self, origins: Origins, arguments: ArgumentTypes) -> None:
         self._origins = origins
         self._graph = origins.graph
-        self._arguments = ArgumentTypes(origins)
+        self._arguments = arguments
         self._containers = ContainerStores(origins.graph)
         self._calls = GivenTypes(origins, self)
+        self.attributes = AttributeTypes(origins, self)
         self._known: dict[Node, ValueTypes] = {}
         # While types are looked for: what was found of them, and which this round has visited.
         self._found: dict[Node, ValueTypes] = {}
@@ -96,6 +92,8 @@ class InferredTypes:
                 return A_NUMBER
             case e.Literal(str()) | e.Format():
                 return A_TEXT
+            case e.Literal(bytes()):
+                return frozenset((OwnType.BYTES,))
             case e.Build(t.Container(kind), elements):
                 return self._built(_CONTAINERS[kind], elements, function)
             case e.BuildMapping(_, entries):
@@ -114,7 +112,7 @@ class InferredTypes:
                 at = index.value if isinstance(index, e.Literal) else None
                 return at_index(self.of(of, function), at)
             case e.Attribute(of, name):
-                return self.attribute(self.of(of, function), of, name, function)
+                return self.attributes.of(self.of(of, function), of, name, function)
             case e.Local() | e.Temporary() | e.Captured() | e.Global():
                 if value == e.Local(self._graph.program.function(function).receiver or ""):
                     return self._receiver(function)
@@ -141,13 +139,15 @@ class InferredTypes:
         self, entries: Iterable[tuple[e.Expression, e.Expression] | e.Spread], function: str
     ) -> ValueTypes:
         keys, values = NO_TYPES, NO_TYPES
+        items = frozenset[tuple[object, ValueTypes]]()
         for entry in entries:
             if isinstance(entry, e.Spread):
                 keys, values = keys | ANY_TYPE, values | ANY_TYPE
-            else:
-                keys |= self._element(entry[0], function)
-                values |= self._element(entry[1], function)
-        return frozenset((ContainerType(OwnType.MAPPING, keys, values),))
+                continue
+            found = self._element(entry[1], function)
+            keys, values = keys | self._element(entry[0], function), values | found
+            items = joined_items(items, written(entry[0], found))
+        return frozenset((ContainerType(OwnType.MAPPING, keys, values, None, items),))
 
     def _element(self, value: e.Expression | e.Spread, function: str) -> ValueTypes:
         match value:
@@ -174,7 +174,7 @@ class InferredTypes:
     def _filled(self, type_: ValueType | None, puts: list[Put]) -> ValueType | None:
         if not (isinstance(type_, ContainerType) and type_.own in _CHANGING):
             return type_
-        elements, values = type_.elements, type_.values
+        elements, values, items = type_.elements, type_.values, type_.items
         for put in puts:
             found = self._element(put.value, put.function)
             if put.is_all:
@@ -184,87 +184,16 @@ class InferredTypes:
             elif type_.own is OwnType.MAPPING:
                 elements |= self._element(put.key, put.function)
                 values |= found
+                items = joined_items(items, written(put.key, found))
             else:
                 elements |= found
-        return replace(type_, elements=elements, values=values)
-
-    # --- attributes ------------------------------------------------------------------------------
-
-    def attribute(
-        self, types: ValueTypes, of: e.Expression, name: str, function: str
-    ) -> ValueTypes:
-        """The types of an attribute of what is of some types."""
-        held = self._origins.of(of, function)
-        if held and all(isinstance(o, ClassOrigin) and not o.of_object for o in held):
-            members = (self._member(o.name, name) for o in held if isinstance(o, ClassOrigin))
-            found = union(members)
-            if found:
-                return found
-        found = union(self._of_type(type_, name) for type_ in types)
-        is_told = all(isinstance(type_, MessageType | LibraryType) for type_ in types)
-        if types and (is_told or self._enumerations(types)):
-            return found
-        if not self.has_own(of, function):
-            return found | ANY_TYPE
-        return found | self._stored(Member(name))
-
-    def _enumerations(self, types: ValueTypes) -> bool:
-        return all(isinstance(type_, InstanceType) and self._has_members(type_) for type_ in types)
-
-    def _has_members(self, type_: InstanceType) -> bool:
-        return not ENUMERATIONS.isdisjoint(self._graph.bases(type_.name))
-
-    def _member(self, of: str, name: str) -> ValueTypes:
-        """A member of an enumeration of the program; no types for any other attribute."""
-        return frozenset((InstanceType(of),) if name in self._origins.enumerations.of(of) else ())
-
-    def _of_type(self, type_: ValueType | None, name: str) -> ValueTypes:
-        match type_:
-            case MessageType(of):
-                fields = self._origins.table.fields(of) or {}
-                return self.field(fields[name]) if name in fields else ANY_TYPE
-            case LibraryType(of):
-                return self.of_class(held_in(f"{of}.{name}"))
-            case InstanceType(of) if name in ("value", "_value_") and self._has_members(type_):
-                stored = self._origins.enumerations.of(of).values()
-                return union(map(self.of_stored, stored))
-            case InstanceType() if name in ("name", "_name_") and self._has_members(type_):
-                return A_TEXT
-            case InstanceType() if self._has_members(type_):
-                return ANY_TYPE
-            case _:
-                return NO_TYPES
-
-    def field(self, type_: str) -> ValueTypes:
-        """The types of the values of a field of a message, by its type in ROS."""
-        plain, bracket, length = type_.partition("[")
-        if bracket:
-            # A fixed number of numbers is an array of numpy in ROS 2, bytes are no list.
-            is_plain = length == "]" and plain not in ("uint8", "char", "byte")
-            return sequence(OwnType.ARRAY if is_plain else None, self.field(plain))
-        if plain == "string" or plain == "wstring":
-            return A_TEXT
-        return A_NUMBER if plain[:3] in ("int", "uin", "flo", "boo") else self.of_class(plain)
-
-    def of_class(self, name: str) -> ValueTypes:
-        """The types of an object of a library's class, of a message, or of one of Python's own."""
-        if name in _OWN:
-            own = _OWN[name]
-            return frozenset((own,)) if own in (OwnType.NUMBER, OwnType.TEXT) else _any_of(own)
-        message = message_name(name) or name
-        if self._origins.table.fields(message) is not None:
-            return frozenset((MessageType(message),))
-        return frozenset((LibraryType(name),)) if attributes_of(name) is not None else ANY_TYPE
-
-    def has_own(self, of: e.Expression, function: str) -> bool:
-        """Whether attributes of an object have what the program stores, as it is."""
-        if not is_own(self._origins, of, function):
-            return False
-        classes = (o.name for o in self._origins.of(of, function) if isinstance(o, ClassOrigin))
-        # Of an enumeration they are its members, which have that as their values.
-        return all(ENUMERATIONS.isdisjoint(self._graph.bases(name)) for name in classes)
+        return replace(type_, elements=elements, values=values, items=items)
 
     # --- names -----------------------------------------------------------------------------------
+
+    def of_name(self, key: Key) -> ValueTypes:
+        """The types of what is stored under a name."""
+        return self._stored(key)
 
     def _stored(self, node: Node) -> ValueTypes:
         """The types of what is stored under a name, or a function gives: the least fixpoint."""
@@ -314,7 +243,7 @@ class InferredTypes:
         given = self._arguments.arguments(key.function, key.name)
         messages = self._arguments.messages(key.function, key.name)
         found = union(map(self.of_stored, given))
-        return found | union(self.of_class(name) for name in messages)
+        return found | union(map(self.attributes.of_class, messages))
 
     def _is_parameter(self, key: CapturedVariable) -> bool:
         program = self._graph.program
@@ -360,6 +289,12 @@ class InferredTypes:
         return union(self.of(value, name) for value in values if value is not None)
 
 
+def written(key: e.Expression, types: ValueTypes) -> Iterator[tuple[object, ValueTypes]]:
+    """An item of a mapping, if the source writes its key."""
+    if isinstance(key, e.Literal):
+        yield key.value, types
+
+
 def computed(operator: Operator, left: ValueTypes, right: ValueTypes) -> ValueTypes:
     """The types of what an operator gives for operands of some types."""
     if left == right == A_NUMBER:
@@ -376,7 +311,3 @@ def computed(operator: Operator, left: ValueTypes, right: ValueTypes) -> ValueTy
 
 def _repeated(type_: ValueType | None) -> ValueType | None:
     return replace(type_, parts=None) if isinstance(type_, ContainerType) else type_
-
-
-def _any_of(own: OwnType) -> ValueTypes:
-    return frozenset((ContainerType(own, ANY_TYPE),))

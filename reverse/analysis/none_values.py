@@ -32,7 +32,7 @@ class NoneValues:
         self._graph = notes.origins.graph
         self._name = notes.function.name
         self._loops: list[s.ForEach] | None = None
-        self._unpacked = UnpackedValues(self._graph)
+        self._unpacked = UnpackedValues(self._graph, notes.counts.rules.arguments)
 
     def check(
         self,
@@ -168,7 +168,7 @@ class NoneValues:
         values = [n.value for n in walk(function) if isinstance(n, s.Return)]
         some = [v for v in values if v is not None]
         nothing = [v for v in some if self._is_nothing((name, v), depth)]
-        if len(nothing) == len(some):
+        if all(isinstance(v, e.Literal) and v.value is None for v in some):
             return False
         return bool(nothing) or None in values or falls_through(function.body)
 

@@ -34,6 +34,7 @@ from rebsync.reverse.ir.walk import walk
 ATTRIBUTES: Mapping[OwnType | None, frozenset[str]] = {
     OwnType.NUMBER: frozenset(dir(int)) | frozenset(dir(float)),
     OwnType.TEXT: frozenset(dir(str)),
+    OwnType.BYTES: frozenset(dir(bytes)),
     OwnType.LIST: frozenset(dir(list)),
     OwnType.TUPLE: frozenset(dir(tuple)),
     OwnType.SET: frozenset(dir(set)),
@@ -88,14 +89,14 @@ class OperandKinds:
 
     def _attribute(self, value: e.Attribute, facts: Facts) -> ValueTypes:
         """The types of an attribute, by its object's class and what is stored under its name."""
-        if self._types.has_own(value.object, self._name):
+        if self._types.attributes.has_own(value.object, self._name):
             key, here = Member(value.name), self._notes.function
             stored = [each for each, _ in self._graph.stores.of(key)]
             others = {n for n in stored if is_of_other(self._graph, here, value, key, n)}
             if others or Holds(value) in facts or IsBound(value) in facts:
                 return self._named(value, facts)
         types = self.types(value.object, facts)
-        return self._types.attribute(types, value.object, value.name, self._name)
+        return self._types.attributes.of(types, value.object, value.name, self._name)
 
     def _named(self, value: e.Expression, facts: Facts) -> ValueTypes:
         """The types of what is stored under a name, where some facts are known of it."""

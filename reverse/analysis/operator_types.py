@@ -20,7 +20,7 @@ from rebsync.reverse.analysis.value_types import (
 from rebsync.reverse.ir.operators import Operator
 
 _NUMBER = OwnType.NUMBER
-SEQUENCES = frozenset({OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.ARRAY})
+SEQUENCES = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.ARRAY})
 ITERABLE = SEQUENCES | {OwnType.SET, OwnType.MAPPING, OwnType.QUEUE}
 UNHASHABLE = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
 _ADDED = SEQUENCES | {OwnType.QUEUE}
@@ -42,7 +42,7 @@ def takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bo
         case Operator.MULTIPLY:
             return {left, right} in [{_NUMBER, each} for each in _ADDED]
         case Operator.FLOOR_MODULO:
-            return left is OwnType.TEXT
+            return left in (OwnType.TEXT, OwnType.BYTES)
         case _ if operator in _ORDERED:
             return left is right and left not in _WITHOUT_ORDER
         case _ if operator in _OF_SETS:

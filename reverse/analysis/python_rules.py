@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
+from rebsync.reverse.analysis.argument_types import ArgumentTypes
 from rebsync.reverse.analysis.call_binding import CallBinding
 from rebsync.reverse.analysis.class_decorators import ClassDecorators
 from rebsync.reverse.analysis.construction_order import ConstructionOrder
@@ -50,7 +51,12 @@ class PythonRules:
     @cached_property
     def types(self) -> InferredTypes:
         """Of which types values may be."""
-        return InferredTypes(self._origins)
+        return InferredTypes(self._origins, self.arguments)
+
+    @cached_property
+    def arguments(self) -> ArgumentTypes:
+        """What functions get for their parameters."""
+        return ArgumentTypes(self._origins)
 
     @cached_property
     def declared(self) -> DeclaredParameters:

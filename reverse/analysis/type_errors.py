@@ -11,27 +11,40 @@ from collections.abc import Iterable
 from rebsync.reverse.analysis.attribute_errors import AttributeErrors
 from rebsync.reverse.analysis.element_errors import ElementErrors
 from rebsync.reverse.analysis.facts import Facts
-from rebsync.reverse.analysis.format_strings import conversions
+from rebsync.reverse.analysis.format_strings import OF_NUMBERS, conversions, numbers_in
 from rebsync.reverse.analysis.message_errors import MessageErrors
 from rebsync.reverse.analysis.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.operator_types import ITERABLE, SEQUENCES, takes
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.value_types import InstanceType, OwnType, ValueTypes, own_type
+from rebsync.reverse.analysis.value_types import (
+    InstanceType,
+    LibraryType,
+    OwnType,
+    ValueTypes,
+    own_type,
+)
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
+from rebsync.reverse.libraries.attributes import TIMES
 from rebsync.reverse.libraries.routines import Language
 
 _WRONG = "is of another type"
 _LACKS = "has no such attribute"
 NUMBER, TEXT = OwnType.NUMBER, OwnType.TEXT
 _INDEXED = SEQUENCES | {OwnType.QUEUE, OwnType.MAPPING}
+# Operators that times take with times only.
+_OF_TIMES = (
+    *(Operator.ADD, Operator.SUBTRACT, Operator.LESS, Operator.LESS_EQUAL),
+    *(Operator.GREATER, Operator.GREATER_EQUAL),
+)
 _EQUALITY = (Operator.EQUAL, Operator.UNEQUAL)
 _OF_NUMBERS = frozenset(
     f"builtins.{n}" for n in ("abs", "round", "float", "int", "divmod", "pow", "range", "chr")
 )
-_OF_TEXTS = frozenset({"builtins.float", "builtins.int"})  # which take texts as well
+_OF_TEXTS = frozenset({"builtins.float", "builtins.int"})  # which take texts and bytes as well
+_GOING_THROUGH = frozenset({"extend", "extendleft"})
 _OF_ELEMENTS = frozenset(
     f"builtins.{n}"
     for n in (
@@ -100,14 +113,20 @@ class TypeErrors:
         match node.callee:
             case s.ValueCallee(value):
                 self._needs(node, value, set(), facts)
+            case s.MethodCallee(e.Literal(str() as text), "format"):
+                self._fills(node, text, plain, facts)
             case s.MethodCallee(receiver, name, _, None):
                 self._attributes.asks(node, receiver, name, facts)
+                self._attributes.takes_nothing(node, receiver, name, facts)
+                if name in _GOING_THROUGH and None not in self._kinds.of(receiver, facts):
+                    for value in plain[:1]:
+                        self.iterates(node, value, facts)
                 if not self._notes.origins.methods_of_any(name):
                     self._needs(node, e.Attribute(receiver, name), set(), facts)
             case s.LibraryCallee("builtins.range") if any(map(_is_fraction, plain)):
                 self._notes.fails(node, _WRONG)
             case s.LibraryCallee(name) if name in _OF_NUMBERS:
-                taken = {NUMBER, TEXT} if name in _OF_TEXTS else {NUMBER}
+                taken = {NUMBER, TEXT, OwnType.BYTES} if name in _OF_TEXTS else {NUMBER}
                 for value in plain:
                     self._needs(node, value, taken, facts)
             case s.LibraryCallee("builtins.len"):
@@ -119,6 +138,14 @@ class TypeErrors:
                     self.iterates(node, value, facts)
             case _:
                 pass
+
+    def _fills(self, node: s.Call, text: str, plain: list[e.Expression], facts: Facts) -> None:
+        """Values that `format` puts into a text as numbers."""
+        given: dict[int | str | None, e.Expression] = dict(enumerate(plain))
+        given |= {a.name: a.value for a in node.arguments if a.name is not None}
+        for piece in numbers_in(text):
+            if piece in given:
+                self._needs(node, given[piece], {NUMBER}, facts)
 
     def iterates(self, node: s.Statement, value: e.Expression, facts: Facts) -> None:
         """Notes that something is gone through that has no elements."""
@@ -197,6 +224,11 @@ class TypeErrors:
             wrong = any(not takes(operator, a, b) for a in kinds[0] for b in kinds[1])
             is_times = operator is Operator.MULTIPLY and _is_fraction(right)
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
+        types = self._kinds.types(left, facts), self._kinds.types(right, facts)
+        if operator in _OF_TIMES and (
+            _is_time_and_number(*types) or _is_time_and_number(*types[::-1])
+        ):
+            wrong = True
         if operator is Operator.FLOOR_MODULO and isinstance(left, e.Literal):
             wrong |= isinstance(left.value, str) and self._puts(left.value, right, facts)
         if wrong:
@@ -241,9 +273,15 @@ class TypeErrors:
         """A style that only numbers have."""
         style = piece.style
         if isinstance(style, e.Literal) and isinstance(style.value, str) and style.value:
-            is_of_numbers = style.value[-1] in "bcdeEfFgGnoxX%"
+            is_of_numbers = style.value[-1] in OF_NUMBERS
             taken = {NUMBER} if is_of_numbers else {NUMBER, TEXT}
             self._needs(value, piece.value, taken, facts)
+
+
+def _is_time_and_number(one: ValueTypes, other: ValueTypes) -> bool:
+    """Whether one value may be a time or duration of a client library, and one a number."""
+    is_time = any(isinstance(t, LibraryType) and t.name in TIMES for t in one)
+    return is_time and OwnType.NUMBER in other
 
 
 def _is_fraction(value: e.Expression) -> bool:

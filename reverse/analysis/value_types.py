@@ -14,6 +14,7 @@ class OwnType(Enum):
 
     NUMBER = "number"
     TEXT = "str"
+    BYTES = "bytes"
     LIST = "list"
     TUPLE = "tuple"
     SET = "set"
@@ -28,13 +29,15 @@ class OwnType(Enum):
 class ContainerType:
     """A container with the types of its elements; those of a mapping are its keys.
 
-    `own` is None for what is only gone through, as ranges. A tuple of known length has `parts`.
+    `own` is None for what is only gone through, as ranges. A tuple of known length has `parts`,
+    and a mapping has `items` by the keys that the source writes.
     """
 
     own: OwnType | None
     elements: ValueTypes
     values: ValueTypes = frozenset((None,))
     parts: tuple[ValueTypes, ...] | None = None
+    items: frozenset[tuple[object, ValueTypes]] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,27 +109,38 @@ def _elements(type_: ValueType | None) -> ValueTypes:
             return elements
         case OwnType.TEXT:
             return A_TEXT
+        case OwnType.BYTES:
+            return A_NUMBER
         case _:
             return ANY_TYPE
 
 
 def at_index(types: ValueTypes, index: object) -> ValueTypes:
-    """The types of what stands at an index, which is a number that is known, or anything else."""
+    """The types of what stands at an index that the source writes, or (None) at any."""
     return union(_at(type_, index) for type_ in types) - {OwnType.NONE}
 
 
 def _at(type_: ValueType | None, index: object) -> ValueTypes:
     match type_:
-        case ContainerType(OwnType.MAPPING, _, values):
-            return values
+        case ContainerType(OwnType.MAPPING, _, values, _, items):
+            found = [of for key, of in items if key == index]
+            return found[0] if found else _of_one(values, index)
         case ContainerType(_, _, _, tuple() as parts) if isinstance(index, int):
             return parts[index] if -len(parts) <= index < len(parts) else ANY_TYPE
         case ContainerType(_, elements):
-            return elements
+            return _of_one(elements, index)
         case OwnType.TEXT:
             return A_TEXT
+        case OwnType.BYTES:
+            return A_NUMBER
         case _:
             return ANY_TYPE
+
+
+def _of_one(elements: ValueTypes, index: object) -> ValueTypes:
+    """The types of one element by its index; it is not told which, where they are of several."""
+    is_mixed = len(set(map(own_type, elements - {OwnType.NONE}))) > 1
+    return ANY_TYPE if is_mixed and index is not None else elements
 
 
 def values_of(types: ValueTypes) -> ValueTypes:
@@ -149,7 +163,8 @@ def _shallow(type_: ValueType | None, depth: int) -> ValueType | None:
     if type_.parts is not None:
         parts = tuple(limited(part, depth - 1) for part in type_.parts)
     elements, values = (limited(t, depth - 1) for t in (type_.elements, type_.values))
-    return ContainerType(type_.own, elements, values, parts)
+    items = frozenset((key, limited(of, depth - 1)) for key, of in type_.items)
+    return ContainerType(type_.own, elements, values, parts, items)
 
 
 def merged(types: ValueTypes) -> ValueTypes:
@@ -167,4 +182,14 @@ def _joined(one: ContainerType, other: ContainerType) -> ContainerType:
     if one.parts is not None and other.parts is not None and len(one.parts) == len(other.parts):
         parts = tuple(merged(a | b) for a, b in zip(one.parts, other.parts, strict=True))
     elements, values = merged(one.elements | other.elements), merged(one.values | other.values)
-    return ContainerType(one.own, elements, values, parts)
+    return ContainerType(one.own, elements, values, parts, joined_items(one.items, other.items))
+
+
+def joined_items(
+    one: frozenset[tuple[object, ValueTypes]], other: Iterable[tuple[object, ValueTypes]]
+) -> frozenset[tuple[object, ValueTypes]]:
+    """The items of mappings, each of which may be either."""
+    found = dict(one)
+    for key, types in other:
+        found[key] = merged(found.get(key, NO_TYPES) | types)
+    return frozenset(found.items())

@@ -55,6 +55,8 @@ _OF_TOPICS = (
 _TIME = "from_sec from_seconds is_zero nsecs secs set canon to_nsec to_sec to_time now"
 
 _TIMES = ("rospy.Time", "rospy.Duration", "time", "duration")  # the last two in messages
+# Classes of times and durations: they add up with each other, and with no numbers.
+TIMES = frozenset({*_TIMES, "rclpy.time.Time", "rclpy.duration.Duration"})
 
 # By the full name of a class the attributes of its objects, beside those of all objects.
 _ATTRIBUTES: Mapping[str, str] = {
@@ -76,6 +78,8 @@ _ATTRIBUTES: Mapping[str, str] = {
     "rclpy.clock.Clock": """
         clock_handle clock_type create_jump_callback handle now ros_time_is_active
         set_ros_time_override sleep_for sleep_until""",
+    "rclpy.parameter.Parameter": """
+        Type from_parameter_msg get_parameter_value name to_parameter_msg type_ value""",
     "rclpy.time.Time": "clock_type from_msg nanoseconds seconds_nanoseconds to_msg",
     "rclpy.duration.Duration": "from_msg get_c_duration nanoseconds to_msg",
     "rclpy.logging.Logger": """
@@ -95,6 +99,9 @@ _GIVES: Mapping[str, str] = {
     f"{_NODE}.create_timer": "rclpy.timer.Timer",
     f"{_NODE}.create_client": "rclpy.client.Client",
     f"{_NODE}.create_rate": "rclpy.timer.Rate",
+    **dict.fromkeys(
+        (f"{_NODE}.declare_parameter", f"{_NODE}.get_parameter"), "rclpy.parameter.Parameter"
+    ),
     f"{_NODE}.get_clock": "rclpy.clock.Clock",
     f"{_NODE}.get_logger": "rclpy.logging.Logger",
     **dict.fromkeys((f"{_NODE}.get_name", f"{_NODE}.get_namespace"), "str"),
@@ -113,6 +120,16 @@ _HOLDS: Mapping[str, str] = {
     **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
     **{f"{of}.{name}": "number" for of in _TIMES for name in ("secs", "nsecs")},
 }
+# Methods that take no arguments.
+_ALONE = frozenset(
+    {
+        *(f"{_NODE}.{name}" for name in ("get_logger", "get_clock", "get_name", "get_namespace")),
+        *(f"rclpy.timer.Timer.{name}" for name in ("cancel", "reset", "is_ready", "is_canceled")),
+        *("rclpy.clock.Clock.now", "rclpy.time.Time.to_msg", "rclpy.duration.Duration.to_msg"),
+        *("rospy.Time.now", "rospy.get_time", "rospy.get_rostime", "rospy.Timer.shutdown"),
+        *(f"{of}.{name}" for of in _TIMES for name in ("to_sec", "to_nsec", "is_zero")),
+    }
+)
 _EXCEPTIONS = """
     ROSException ROSInitException ROSInternalException ROSInterruptException
     ROSSerializationException ROSTimeMovedBackwardsException TransportException TransportInitError
@@ -171,6 +188,13 @@ def result_of(name: str) -> str:
     if of in python.node_classes():
         name = f"{_NODE}.{last}"
     return _GIVES.get(name, "")
+
+
+@derived
+def takes_nothing(name: str) -> bool:
+    """Whether a function or method takes no arguments, by its full name."""
+    of, _, last = name.rpartition(".")
+    return name in _ALONE or (of in python.node_classes() and f"{_NODE}.{last}" in _ALONE)
 
 
 def held_in(name: str) -> str:
