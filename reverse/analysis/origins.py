@@ -288,7 +288,9 @@ class Origins:
     def object_of(self) -> dict[str, str]:
         """For each method of Python the name of the parameter that is its object."""
         program = self.graph.program
-        methods = (f for c in program.classes.values() for _, f in c.methods if f in program)
+        classes = program.classes.values()
+        methods = [f for c in classes for _, f in c.methods if f in program]
+        methods += [f for c in classes for p in c.properties for f in p.functions if f in program]
         given = ((f, program.function(f).parameters) for f in methods)
         return {f: parameters[0].name for f, parameters in given if parameters}
 

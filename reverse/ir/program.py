@@ -80,6 +80,11 @@ class Property:
     setter: str | None = None
     deleter: str | None = None
 
+    @property
+    def functions(self) -> tuple[str, ...]:
+        """Those of them that there are."""
+        return tuple(f for f in (self.getter, self.setter, self.deleter) if f is not None)
+
 
 @dataclass(frozen=True, slots=True)
 class Field:
