@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from rebsync.reverse.analysis.argument_types import message_name
 from rebsync.reverse.analysis.held_values import is_own
 from rebsync.reverse.analysis.origins import ClassOrigin, Origins
 from rebsync.reverse.analysis.stores import Member
+from rebsync.reverse.analysis.type_queries import TypeQueries
 from rebsync.reverse.analysis.value_types import (
     A_NUMBER,
     A_TEXT,
@@ -28,16 +28,13 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.libraries.attributes import attributes_of, held_in
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
-if TYPE_CHECKING:
-    from rebsync.reverse.analysis.inferred_types import InferredTypes
-
 _OWN = {kind.value: kind for kind in OwnType}
 
 
 class AttributeTypes:
     """The attributes of one program; `types` are those of the values in it."""
 
-    def __init__(self, origins: Origins, types: InferredTypes) -> None:
+    def __init__(self, origins: Origins, types: TypeQueries) -> None:
         self._origins = origins
         self._graph = origins.graph
         self._program = origins.graph.program

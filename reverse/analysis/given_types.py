@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from rebsync.reverse.analysis.attribute_types import AttributeTypes
 from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origins
+from rebsync.reverse.analysis.type_queries import TypeQueries
 from rebsync.reverse.analysis.value_types import (
     A_NUMBER,
     A_TEXT,
@@ -25,9 +25,6 @@ from rebsync.reverse.analysis.value_types import (
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.libraries.attributes import result_of
-
-if TYPE_CHECKING:
-    from rebsync.reverse.analysis.inferred_types import InferredTypes
 
 _LIST, _QUEUE, _SET = OwnType.LIST, OwnType.QUEUE, OwnType.SET
 # Functions that give a container of the elements of their first argument, or go through it.
@@ -61,10 +58,11 @@ _OF_TEXTS = {
 class GivenTypes:
     """The calls of one program; `types` are those of the values in it."""
 
-    def __init__(self, origins: Origins, types: InferredTypes) -> None:
+    def __init__(self, origins: Origins, types: TypeQueries, attributes: AttributeTypes) -> None:
         self._origins = origins
         self._graph = origins.graph
         self._types = types
+        self._attributes = attributes
 
     def of(self, call: s.Call, function: str) -> ValueTypes:
         """The types of what a call in a function gives."""
@@ -85,7 +83,7 @@ class GivenTypes:
                 case ClassOrigin(name, True):
                     found |= {InstanceType(name)}
                 case LibraryOrigin(name, True):
-                    found |= self._types.attributes.of_class(name)
+                    found |= self._attributes.of_class(name)
                 case _:
                     found |= ANY_TYPE
         if None not in found:
@@ -119,13 +117,13 @@ class GivenTypes:
             case "builtins.sum" if len(given) > 1:
                 return ANY_TYPE
         gives = self._origins.table.function(name).gives or result_of(name) or name
-        return self._types.attributes.of_class(gives)
+        return self._attributes.of_class(gives)
 
     def _mapped(self, value: e.Expression, function: str) -> ValueTypes:
         """The types of what a function gives that another calls for each element."""
         match value:
             case e.LibraryReference(name):
-                return self._types.attributes.of_class(self._origins.table.function(name).gives)
+                return self._attributes.of_class(self._origins.table.function(name).gives)
             case _:
                 targets = self._graph.value(value, self._graph.program.function(function))
                 if targets.unknown or targets.libraries or not targets.functions:
@@ -149,7 +147,7 @@ class GivenTypes:
             case ContainerType() if name in _NUMBERED:
                 return A_NUMBER
             case LibraryType(of):
-                return self._types.attributes.of_class(result_of(f"{of}.{name}"))
+                return self._attributes.of_class(result_of(f"{of}.{name}"))
             case InstanceType(of):
                 return self._of_instance(of, name, call, function)
             case _:
@@ -180,7 +178,7 @@ class GivenTypes:
         if self._origins.methods(of, name):
             return self._of_program(call, function)
         found = (result_of(f"{base}.{name}") for base in self._graph.bases(of))
-        return self._types.attributes.of_class(next(filter(None, found), ""))
+        return self._attributes.of_class(next(filter(None, found), ""))
 
 
 def _has_methods(type_: ValueType | None) -> bool:

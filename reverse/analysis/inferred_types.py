@@ -76,8 +76,8 @@ class InferredTypes:
         self._graph = origins.graph
         self._arguments = arguments
         self._containers = ContainerStores(origins.graph)
-        self._calls = GivenTypes(origins, self)
         self.attributes = AttributeTypes(origins, self)
+        self._calls = GivenTypes(origins, self, self.attributes)
         self._known: dict[Node, ValueTypes] = {}
         # While types are looked for: what was found of them, and which this round has visited.
         self._found: dict[Node, ValueTypes] = {}

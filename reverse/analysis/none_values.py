@@ -201,7 +201,7 @@ class NoneValues:
         stored = self._graph.stores.of(key) if key is not None else []
         is_tested = any(_asks(node, value) for node in walk(function))
         is_set = any(isinstance(n, s.Assign | s.Call) and n.target == value for n in walk(function))
-        return not is_tested and not is_set and any(v == e.Literal(None) for _, v in stored)
+        return not is_tested and not is_set and any(_is_none(v) for _, v in stored)
 
     def _returns_nothing(self, name: str, depth: int) -> bool:
         function = self._graph.program.function(name)
@@ -212,9 +212,13 @@ class NoneValues:
         nothing = [
             v for v in some if self._is_nothing((name, v), depth) or self._is_kept(function, v)
         ]
-        if all(isinstance(v, e.Literal) and v.value is None for v in some):
+        if all(map(_is_none, some)):
             return False
         return bool(nothing) or None in values or falls_through(function.body)
+
+
+def _is_none(value: object) -> bool:
+    return isinstance(value, e.Literal) and value.value is None
 
 
 def _asks(node: Node, value: e.Expression) -> bool:

@@ -170,10 +170,15 @@ _MEMBER = frozenset({"name", "value", "_name_", "_value_", "__members__", "__dic
 _PLAIN_BASES = frozenset({"builtins.object", "abc.ABC", "typing.Generic", "typing.Protocol"})
 
 
+def _is_node(name: str) -> bool:
+    """Whether a class is one of rclpy's nodes, by any of the names that packages give it."""
+    return name in python.node_classes() and name.startswith("rclpy.")
+
+
 @derived
 def attributes_of(name: str) -> frozenset[str] | None:
     """The attributes of objects of a class, by its full name; None if no table has it."""
-    if name in python.node_classes():
+    if _is_node(name):
         return frozenset((_OF_NODES + _OF_STATES * (name in python.managed())).split())
     if name in _OF_MEMBERS:
         return _OF_MEMBERS[name] | _MEMBER
@@ -185,7 +190,7 @@ def attributes_of(name: str) -> frozenset[str] | None:
 def result_of(name: str) -> str:
     """The class of what a function or method gives; empty if that is not known."""
     of, _, last = name.rpartition(".")
-    if of in python.node_classes():
+    if _is_node(of):
         name = f"{_NODE}.{last}"
     return _GIVES.get(name, "")
 
@@ -194,7 +199,7 @@ def result_of(name: str) -> str:
 def takes_nothing(name: str) -> bool:
     """Whether a function or method takes no arguments, by its full name."""
     of, _, last = name.rpartition(".")
-    return name in _ALONE or (of in python.node_classes() and f"{_NODE}.{last}" in _ALONE)
+    return name in _ALONE or (_is_node(of) and f"{_NODE}.{last}" in _ALONE)
 
 
 def held_in(name: str) -> str:
