@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rebsync.reverse.analysis.facts import Facts, Holds, IsThere, names_of, tested
-from rebsync.reverse.analysis.held_values import is_of_other
+from rebsync.reverse.analysis.held_values import is_of_other, is_own
 from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, Stored, key_of
@@ -20,7 +20,6 @@ from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.routines import Language
 
 _DEEPEST = 3
-_NAMED = e.Local | e.Temporary | e.Attribute | e.Global | e.Captured
 _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
 
 
@@ -112,12 +111,22 @@ class NoneValues:
         self._asked.add(value)
         try:
             return any(
-                isinstance(v, _NAMED | e.Conditional) and self.may_be(v, facts)
+                self._is_own(v) and self.may_be(v, facts)
                 for function, v in stored
                 if function == self._name
             )
         finally:
             self._asked.discard(value)
+
+    def _is_own(self, value: object) -> bool:
+        """Whether the program alone stores what a value is: in a variable, or in its objects."""
+        match value:
+            case e.Attribute(of):
+                return is_own(self._origins, of, self._name)
+            case e.Local() | e.Temporary() | e.Global() | e.Captured() | e.Conditional():
+                return True
+            case _:
+                return False
 
     def _is_parameter(self, value: e.Expression) -> bool:
         return isinstance(value, e.Local) and self._notes.is_parameter(value)
