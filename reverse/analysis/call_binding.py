@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from itertools import takewhile
 
 from rebsync.reverse.analysis.call_graph import CallGraph
+from rebsync.reverse.analysis.class_decorators import ClassDecorators
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
@@ -57,11 +59,24 @@ def refuses(arguments: Sequence[s.CallArgument], parameters: Sequence[Parameter]
     return any(p.name not in filled for p in required)
 
 
+def bound(call: s.Call | s.Construct, called: Function) -> dict[str, e.Expression]:
+    """The arguments of a call by the parameters that they are for."""
+    places = [p.name for p in called.parameters if p.kind in _BY_PLACE]
+    is_function = isinstance(call, s.Call) and isinstance(call.callee, s.FunctionCallee)
+    if called.receiver is not None and not is_function:
+        places = [name for name in places if name != called.receiver]
+    first = takewhile(lambda a: not a.stars, call.arguments)  # behind these no place is known
+    by_place = [a.value for a in first if a.name is None]
+    by_name = {a.name: a.value for a in call.arguments if a.name is not None}
+    return {**dict(zip(places, by_place, strict=False)), **by_name}
+
+
 class CallBinding:
     """The calls of one program; compilers of other languages than Python refuse such themselves."""
 
-    def __init__(self, graph: CallGraph, is_python: bool) -> None:
+    def __init__(self, graph: CallGraph, decorators: ClassDecorators, is_python: bool) -> None:
         self._graph = graph
+        self._decorators = decorators
         self._program = graph.program
         self._is_python = is_python
 
@@ -150,6 +165,9 @@ class CallBinding:
         methods = {m for c in classes_there for m, _ in c.methods}
         if any(self._nearest(line, method) in self._abstract for method in methods):
             return True
+        fields = self._decorators.parameters(name)
+        if fields is not None:
+            return refuses(call.arguments, fields)
         classes = [self._program.classes.get(c) for c in line]
         if any(c is None or not c.complete for c in classes):
             return False  # a library, a decorator or a class of classes may take them
@@ -178,7 +196,7 @@ class CallBinding:
         is_method = function.receiver is not None or not function.parameters
         if name in self._static or (is_method and not is_object):
             return refuses(call.arguments, function.parameters)
-        return not function.parameters or refuses(call.arguments, _bound(function))
+        return not function.parameters or refuses(call.arguments, _parameters_behind(function))
 
     @cached_property
     def _abstract(self) -> frozenset[str]:
@@ -210,7 +228,7 @@ class CallBinding:
         return frozenset(found)
 
 
-def _bound(function: Function) -> Sequence[Parameter]:
+def _parameters_behind(function: Function) -> Sequence[Parameter]:
     """The parameters behind the one for the object, unless that is one of any number."""
     first = function.parameters[:1]
     is_rest = any(p.kind is ParameterKind.REST for p in first)

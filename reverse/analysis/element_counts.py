@@ -7,7 +7,7 @@ from functools import cached_property
 
 from rebsync.reverse.analysis.foreign_emptying import ForeignEmptying
 from rebsync.reverse.analysis.held_values import held_by, is_own
-from rebsync.reverse.analysis.origins import FunctionOrigin, Origin, Origins
+from rebsync.reverse.analysis.origins import FunctionOrigin, LibraryOrigin, Origin, Origins
 from rebsync.reverse.analysis.python_rules import PythonRules
 from rebsync.reverse.analysis.stores import (
     AnyValue,
@@ -29,6 +29,10 @@ _LIMIT = 8  # sizes from here on are one
 _PARTS_OF_TEXT = {"split": 1, "rsplit": 1, "partition": 3, "rpartition": 3}
 _PAIRS = frozenset({"builtins.divmod", "os.path.split", "os.path.splitext", "math.modf"})
 _OF_OBJECT = frozenset({"builtins.getattr"})  # they give methods of their first argument
+_LOSING = (Size.LOSES, Size.ANY)
+# Operators of `+=` and the like, and methods, that leave a container with fewer elements.
+_LESSENING = frozenset({Operator.MULTIPLY, Operator.SUBTRACT, Operator.BIT_AND, Operator.BIT_XOR})
+_SPECIAL = frozenset({"__delitem__", "__imul__", "__isub__", "__iand__", "__ixor__"})
 
 
 class ElementCounts:
@@ -255,25 +259,34 @@ class ElementCounts:
         found: set[Key] = set()
         for name in self.origins.own:
             for node in walk(self.graph.program.function(name)):
-                if (container := self._loses(node)) is not None:
+                for container in self._loses(node, name):
                     key = key_of(container, name)
                     if key is None or any(_is_other(v) for _, v in self.graph.stores.of(key)):
                         return None
                     found.add(key)
         return frozenset(found)
 
-    def _loses(self, node: Node) -> e.Expression | None:
-        """The container that a node may take elements out of."""
+    def _loses(self, node: Node, function: str) -> Iterator[e.Expression]:
+        """The containers that a node may take elements out of, or hands on what does."""
         match node:
             case s.Delete(e.Index(of)) | s.Assign(e.Index(of, e.Slice())):
-                return of
-            case s.Call(_, s.MethodCallee(of, name)):
-                size = self.table.method(None, name).size
-            case s.Call(_, s.LibraryCallee(name, of)) if of is not None:
-                size = self.table.function(name).size
+                yield of
+            case s.CompoundAssign(target, operator) if operator in _LESSENING:
+                if self._may_be_container(target, function):
+                    yield target
+            case s.Call(_, s.MethodCallee(of, name)) | e.Attribute(of, name):
+                if name in _SPECIAL or self.table.method(None, name).size in _LOSING:
+                    yield of
+            case s.Call(_, s.LibraryCallee(name, of), arguments):
+                if self.table.function(name).size in _LOSING:
+                    yield from [of] if of is not None else [a.value for a in arguments[:1]]
             case _:
-                return None
-        return of if size in (Size.LOSES, Size.ANY) else None
+                pass
+
+    def _may_be_container(self, value: e.Expression, function: str) -> bool:
+        """Whether an operator that a value is changed by may take elements out of it."""
+        held = self.origins.of(value, function)
+        return not held.isdisjoint(LibraryOrigin(name, True) for name in ("list", "set", "deque"))
 
 
 def _has(value: object, key: e.Literal) -> bool:

@@ -40,7 +40,7 @@ def _is_set(
     if function.name in active:
         return True
     name = function.name.rpartition(".")[2]
-    around = origins.naming.get(name, frozenset())
+    around = origins.names.naming.get(name, frozenset())
     users = {f for f in around if origins.graph.program.function(f).kind is not FunctionKind.CLASS}
     if attribute in first or not users or len(active) > _DEEPEST:
         return attribute in first

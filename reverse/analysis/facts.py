@@ -6,10 +6,10 @@ whatever may take elements out of a container ends those about all containers.
 
 from __future__ import annotations
 
-from enum import Enum
 from typing import TypeAlias
 
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.value_types import ANY_TYPE, ValueTypes
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir.operators import MIRRORED, Operator
 from rebsync.reverse.ir.walk import walk
@@ -85,32 +85,12 @@ class IsPositive:
     value: e.Expression
 
 
-class OwnType(Enum):
-    """A type of Python's own; numbers are one, with truth values.
-
-    `ARRAY` is what generated code has for arrays: it is gone through and asked for one element at a
-    time, and has no length and no parts.
-    """
-
-    NUMBER = "number"
-    TEXT = "str"
-    LIST = "list"
-    TUPLE = "tuple"
-    SET = "set"
-    MAPPING = "dict"
-    QUEUE = "deque"
-    ARRAY = "array"
-
-
 @dataclass(frozen=True, slots=True)
 class IsOf:
     """A value is of one of some types; None among these is any type."""
 
     value: e.Expression
-    types: frozenset[OwnType | None]
-
-
-ANY_TYPE: frozenset[OwnType | None] = frozenset({None})
+    types: ValueTypes
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,9 +145,10 @@ def without(facts: Facts, target: e.Expression) -> Facts:
     return frozenset(f for f in facts if isinstance(f, IsBound) or not _names(f, base, kept))
 
 
-def stored(facts: Facts, target: e.Expression) -> Facts:
-    """The facts that are left when something is stored in a target, which then has a value."""
-    return without(facts, target) | {IsBound(target), IsOf(target, ANY_TYPE)}
+def stored(facts: Facts, target: e.Expression, types: ValueTypes | None = None) -> Facts:
+    """What is known when something of some types is stored in a target, which then has a value."""
+    is_of = IsOf(target, ANY_TYPE if types is None else types)
+    return without(facts, target) | {IsBound(target), is_of}
 
 
 def is_bound(fact: Fact) -> bool:

@@ -5,30 +5,27 @@ Those of `__slots__`, of frozen data classes and of named tuples; see the data m
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import cached_property
-
 from rebsync.reverse.analysis.call_graph import CallGraph
-from rebsync.reverse.analysis.stores import CallResult, ClassValue, Value, key_of
+from rebsync.reverse.analysis.class_decorators import ClassDecorators
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import walk
 
-_DATACLASS = "dataclasses.dataclass"
 _TUPLES = frozenset({"typing.NamedTuple"})
 
 
 class FixedAttributes:
     """The classes of one program."""
 
-    def __init__(self, graph: CallGraph) -> None:
+    def __init__(self, graph: CallGraph, decorators: ClassDecorators) -> None:
         self._graph = graph
+        self._decorators = decorators
         self._program = graph.program
 
     def refuses(self, name: str, attribute: str) -> bool:
         """Whether an object of a class takes no value for an attribute."""
         line = [name, *self._graph.bases(name)]
-        if not self._frozen.isdisjoint(line) or not _TUPLES.isdisjoint(line):
+        if any(map(self._decorators.is_frozen, line)) or not _TUPLES.isdisjoint(line):
             return True
         if any(c not in self._program.classes and c != "builtins.object" for c in line):
             return False
@@ -51,35 +48,3 @@ class FixedAttributes:
                 case _:
                     pass
         return None
-
-    @cached_property
-    def _frozen(self) -> frozenset[str]:
-        """The data classes that are decorated so that nothing is stored in their objects."""
-        return frozenset(
-            name
-            for function in self._program.functions
-            for node in walk(self._program.function(function))
-            if isinstance(node, s.Call) and self._freezes(node.callee, function)
-            for argument in node.arguments
-            for name in self._classes(argument.value, function)
-        )
-
-    def _freezes(self, callee: s.Callee, function: str) -> bool:
-        """Whether a decorator is that of frozen data classes."""
-        key = key_of(callee.value, function) if isinstance(callee, s.ValueCallee) else None
-        stored = self._graph.stores.of(key) if key is not None else []
-        return any(_is_freezing(value) for _, value in stored)
-
-    def _classes(self, value: e.Expression, function: str) -> Iterator[str]:
-        key = key_of(value, function)
-        for _, stored in self._graph.stores.of(key) if key is not None else ():
-            if isinstance(stored, ClassValue):
-                yield stored.name
-
-
-def _is_freezing(value: Value) -> bool:
-    match value:
-        case CallResult(s.Call(_, s.LibraryCallee(name), arguments)) if name == _DATACLASS:
-            return any(a.name == "frozen" and a.value != e.Literal(False) for a in arguments)
-        case _:
-            return False

@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection, Iterator, Sequence
 from string import Formatter
 
-from rebsync.reverse.analysis.facts import OwnType
+from rebsync.reverse.analysis.value_types import OwnType
 
 
 def has_pieces(text: str, by_place: int, names: Collection[str]) -> bool:
@@ -30,6 +30,25 @@ def _fields(text: str) -> Iterator[str]:
         if field is not None:
             yield field
             yield from _fields(style or "")
+
+
+OF_NUMBERS = frozenset("bcdeEfFgGnoxX%")  # letters of styles that only numbers have
+
+
+def numbers_in(text: str) -> Iterator[int | str]:
+    """What a text has to be filled in with as a number: by place, or by name."""
+    try:
+        pieces = list(Formatter().parse(text))
+    except ValueError:
+        return
+    for at, (_, field, style, conversion) in enumerate(p for p in pieces if p[1] is not None):
+        if style and style[-1] in OF_NUMBERS and "{" not in style and not conversion:
+            if not field:
+                yield at
+            elif field.isidentifier():
+                yield field
+            elif field.isdecimal():
+                yield int(field)
 
 
 _CONVERSION = re.compile(

@@ -8,14 +8,14 @@ of the function by its parameters, which each call evaluates with what it gives 
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import dropwhile, takewhile
+from itertools import dropwhile
 
+from rebsync.reverse.analysis.call_binding import bound
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.problems import ParameterNeed, Problem
-from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.program import Function, ParameterKind
+from rebsync.reverse.ir.program import Function
 
 
 class GivenArguments:
@@ -32,7 +32,7 @@ class GivenArguments:
         self._none = expressions.none
         self._facts = facts
         self._called = called
-        self._values = _bound(call, called)
+        self._values = bound(call, called)
         behind = dropwhile(lambda a: not a.stars, call.arguments)
         self._behind = [a.value for a in behind if a.name is None and not a.stars]
 
@@ -70,16 +70,3 @@ class GivenArguments:
 def with_none(problem: Problem) -> frozenset[Problem]:
     """What a problem of a function is for a call that may give None for any parameter."""
     return frozenset({problem if problem.given is None else problem.of_call()})
-
-
-def _bound(call: s.Call | s.Construct, called: Function) -> dict[str, e.Expression]:
-    """The arguments of a call by the parameters that they are for."""
-    plain = (ParameterKind.PLAIN, ParameterKind.BY_PLACE)
-    places = [p.name for p in called.parameters if p.kind in plain]
-    is_function = isinstance(call, s.Call) and isinstance(call.callee, s.FunctionCallee)
-    if called.receiver is not None and not is_function:
-        places = [name for name in places if name != called.receiver]
-    first = takewhile(lambda a: not a.stars, call.arguments)  # behind these no place is known
-    by_place = [a.value for a in first if a.name is None]
-    by_name = {a.name: a.value for a in call.arguments if a.name is not None}
-    return {**dict(zip(places, by_place, strict=False)), **by_name}

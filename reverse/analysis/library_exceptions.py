@@ -6,18 +6,20 @@ from collections.abc import Sequence
 from typing import Literal, TypeAlias
 
 from rebsync.reverse.analysis.cpp_parameters import CppParameters
-from rebsync.reverse.analysis.facts import Facts, HasKey, OwnType, bare, names_of
+from rebsync.reverse.analysis.facts import Facts, HasKey, bare, names_of
 from rebsync.reverse.analysis.format_strings import has_pieces
 from rebsync.reverse.analysis.given_counts import count_given, is_position, takes_part
 from rebsync.reverse.analysis.magnitudes import Magnitudes
-from rebsync.reverse.analysis.origins import PlainOrigin
+from rebsync.reverse.analysis.origins import ClassOrigin, Origin, PlainOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.problems import BEYOND_TIMES, ODD_PARAMETER, ProblemNotes
 from rebsync.reverse.analysis.stream_failures import STREAM_FAILURE, may_fail
 from rebsync.reverse.analysis.time_arguments import OF_TIMES, TimeArguments
+from rebsync.reverse.analysis.value_types import OwnType
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.libraries.outcome_classes import NUMBERED
 from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.reverse.libraries.routines import Language
@@ -68,7 +70,7 @@ class LibraryExceptions:
 
     def _has_elements(self, value: e.Expression, facts: Facts) -> bool:
         kinds = self.expressions.types.kinds.of(value, facts)
-        return bool(self.expressions.size(value, facts)) or kinds == {OwnType.ARRAY}
+        return bool(self.expressions.size(value, facts)) or kinds == {OwnType.MODEL_ARRAY}
 
     def why(self, name: str, outcome: CallOutcome) -> str:
         """What is said of a call that may raise something."""
@@ -194,8 +196,18 @@ class LibraryExceptions:
         return bool(names) and self.origins.of_cpp.declared_parameters.issuperset(names)
 
     def _is_number(self, value: e.Expression) -> bool:
-        """Whether a value is a number by how it is computed."""
-        return self.origins.of(value, self.function) == {PlainOrigin()}
+        """Whether a value is a number by how it is computed, or a member that is one."""
+        held = self.origins.of(value, self.function)
+        return bool(held) and all(map(self._is_plain, held))
+
+    def _is_plain(self, origin: Origin) -> bool:
+        match origin:
+            case PlainOrigin():
+                return True
+            case ClassOrigin(name, True):
+                return not NUMBERED.isdisjoint(self.origins.graph.bases(name))
+            case _:
+                return False
 
     def _is_number_text(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a value is a number, or a text that is one."""

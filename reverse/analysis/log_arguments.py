@@ -7,11 +7,12 @@ not those that the message names.
 from __future__ import annotations
 
 from rebsync.reverse.analysis.call_binding import REFUSED
-from rebsync.reverse.analysis.facts import Facts, OwnType
+from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.format_strings import refuses
 from rebsync.reverse.analysis.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, key_of
+from rebsync.reverse.analysis.value_types import OwnType
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.calls import Callee

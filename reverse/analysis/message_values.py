@@ -92,40 +92,14 @@ class MessageValues:
         for name in self._program.functions:
             for node in walk(self._program.function(name)):
                 for callback in _callbacks(node):
-                    called = self._handed(callback, name)
+                    called = callback_functions(self._graph, callback, name)
                     handed |= {f: handed.get(f, 0) + 1 for f in called}
         return frozenset(
             CapturedVariable(name, first)
             for name, times in handed.items()
             if self._named.get(_last(name), 0) == times
-            for first in self._first(name)
+            for first in first_parameter(self._program.function(name))
         )
-
-    def _handed(self, callback: e.Expression, function: str) -> frozenset[str]:
-        """The functions that a callback may be: a method of the own class, or one by its name."""
-        around = self._program.function(function)
-        match callback:
-            case e.Attribute(e.Local() as holder, name) if (
-                owner := self._graph.class_of(holder, around)
-            ) is not None:
-                classes = (self._program.classes.get(c) for c in self._graph.family(owner))
-                found = (dict(c.methods).get(name) for c in classes if c is not None)
-                return frozenset(f for f in found if f is not None)
-            case e.Global(module, name):
-                full = f"{module}:{name}"
-                return frozenset({full} & set(self._program.functions))
-            case e.Closure(name):
-                return frozenset({name})
-            case _:
-                return frozenset()
-
-    def _first(self, name: str) -> Iterator[str]:
-        """The parameter of a callback that takes the message."""
-        function = self._program.function(name)
-        parameters = [p for p in function.parameters if p.name != function.receiver]
-        for parameter in parameters[:1]:
-            if parameter.kind in (ParameterKind.PLAIN, ParameterKind.BY_PLACE):
-                yield parameter.name
 
     @cached_property
     def _named(self) -> dict[str, int]:
@@ -163,6 +137,32 @@ class MessageValues:
                         case _:
                             pass
         return frozenset(found)
+
+
+def callback_functions(graph: CallGraph, callback: e.Expression, function: str) -> frozenset[str]:
+    """The functions that a callback may be: a method of the own class, or one by its name."""
+    around = graph.program.function(function)
+    match callback:
+        case e.Attribute(e.Local() as holder, name) if (
+            owner := graph.class_of(holder, around)
+        ) is not None:
+            classes = (graph.program.classes.get(c) for c in graph.family(owner))
+            found = (dict(c.methods).get(name) for c in classes if c is not None)
+            return frozenset(f for f in found if f is not None)
+        case e.Global(module, name):
+            return frozenset({f"{module}:{name}"} & set(graph.program.functions))
+        case e.Closure(name):
+            return frozenset({name})
+        case _:
+            return frozenset()
+
+
+def first_parameter(function: Function) -> Iterator[str]:
+    """The parameter of a callback that takes the message."""
+    parameters = [p for p in function.parameters if p.name != function.receiver]
+    for parameter in parameters[:1]:
+        if parameter.kind in (ParameterKind.PLAIN, ParameterKind.BY_PLACE):
+            yield parameter.name
 
 
 def _last(name: str) -> str:

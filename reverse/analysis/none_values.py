@@ -8,15 +8,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rebsync.reverse.analysis.facts import Facts, Holds, IsThere, names_of, tested
-from rebsync.reverse.analysis.held_values import is_of_other
+from rebsync.reverse.analysis.held_values import is_of_other, is_own
 from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, Stored, key_of
 from rebsync.reverse.analysis.unpacked_values import UnpackedValues
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.program import FunctionKind
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.program import Function, FunctionKind
+from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.routines import Language
 
 _DEEPEST = 3
@@ -32,7 +32,8 @@ class NoneValues:
         self._graph = notes.origins.graph
         self._name = notes.function.name
         self._loops: list[s.ForEach] | None = None
-        self._unpacked = UnpackedValues(self._graph)
+        self._asked: set[e.Expression] = set()  # while copies are followed
+        self._unpacked = UnpackedValues(self._graph, notes.counts.rules.arguments)
 
     def check(
         self,
@@ -82,8 +83,11 @@ class NoneValues:
                 return self.may_be(right, tested(facts, left, False))
             case e.And(left, right):
                 return self.may_be(left, facts) or self.may_be(right, tested(facts, left, True))
-        nothing = list(self._nothing(value))
-        if any(IsThere(name) in facts for name in names):
+        is_there = any(IsThere(name) in facts for name in names)
+        if is_there and self._is_variable(value):
+            return False
+        nothing = list(self._nothing(value, facts))
+        if is_there:
             # Whatever ran since then, it was not what makes objects, or it made another one.
             nothing = [n for n in nothing if self._graph.program.function(n).kind not in _FIRST]
         return bool(nothing)
@@ -92,8 +96,45 @@ class NoneValues:
         """Whether a call of the function may give None."""
         return self._gives_nothing(call, self._name, 0)
 
-    def _nothing(self, value: e.Expression) -> Iterator[str]:
+    def _is_variable(self, value: e.Expression) -> bool:
+        """Whether a value is a variable in which the function alone stores."""
+        is_shared = isinstance(value, e.Local) and value.name in self._notes.function.captured
+        return isinstance(value, e.Local | e.Temporary) and not is_shared
+
+    def _is_copied(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a variable may have been given None that is stored under another name."""
+        if not self._is_variable(value) or value in self._asked or self._is_parameter(value):
+            return False
+        key = key_of(value, self._name)
+        stored = [*(self._graph.stores.of(key) if key is not None else ())]
+        stored += self._unpacked.of(value, self._name)
+        self._asked.add(value)
+        try:
+            return any(
+                self._is_own(v) and self.may_be(v, facts)
+                for function, v in stored
+                if function == self._name
+            )
+        finally:
+            self._asked.discard(value)
+
+    def _is_own(self, value: object) -> bool:
+        """Whether the program alone stores what a value is: in a variable, or in its objects."""
+        match value:
+            case e.Attribute(of):
+                return is_own(self._origins, of, self._name)
+            case e.Local() | e.Temporary() | e.Global() | e.Captured() | e.Conditional():
+                return True
+            case _:
+                return False
+
+    def _is_parameter(self, value: e.Expression) -> bool:
+        return isinstance(value, e.Local) and self._notes.is_parameter(value)
+
+    def _nothing(self, value: e.Expression, facts: Facts) -> Iterator[str]:
         """The functions that store None under the name of a value."""
+        if self._is_copied(value, facts):
+            yield self._name
         if isinstance(value, e.Literal) and value.value is None:
             yield self._name
         if isinstance(value, e.Index) and self.has_none(value.object):
@@ -161,16 +202,43 @@ class NoneValues:
         classes = (o.name for o in held if isinstance(o, LibraryOrigin) and o.of_object)
         return any(self._notes.table.method(each, method).may_be_none for each in classes)
 
+    def _is_kept(self, function: Function, value: e.Expression) -> bool:
+        """Whether None is stored under a name that a function gives back without any test."""
+        if not isinstance(value, e.Attribute | e.Global):
+            return False
+        key = key_of(value, function.name)
+        stored = self._graph.stores.of(key) if key is not None else []
+        is_tested = any(_asks(node, value) for node in walk(function))
+        is_set = any(isinstance(n, s.Assign | s.Call) and n.target == value for n in walk(function))
+        return not is_tested and not is_set and any(_is_none(v) for _, v in stored)
+
     def _returns_nothing(self, name: str, depth: int) -> bool:
         function = self._graph.program.function(name)
         if function.kind is not FunctionKind.FUNCTION:
             return False
         values = [n.value for n in walk(function) if isinstance(n, s.Return)]
         some = [v for v in values if v is not None]
-        nothing = [v for v in some if self._is_nothing((name, v), depth)]
-        if len(nothing) == len(some):
+        nothing = [
+            v for v in some if self._is_nothing((name, v), depth) or self._is_kept(function, v)
+        ]
+        if all(map(_is_none, some)):
             return False
         return bool(nothing) or None in values or falls_through(function.body)
+
+
+def _is_none(value: object) -> bool:
+    return isinstance(value, e.Literal) and value.value is None
+
+
+def _asks(node: Node, value: e.Expression) -> bool:
+    """Whether a node tests something of a value."""
+    match node:
+        case s.If(test) | s.Loop(test) | s.Assert(test) | e.Conditional(test):
+            return value in walk(test) or value == test
+        case e.And(left) | e.Or(left):
+            return value in walk(left) or value == left
+        case _:
+            return False
 
 
 def falls_through(body: s.Body) -> bool:

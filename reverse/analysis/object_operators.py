@@ -2,42 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import cached_property
-
+from rebsync.reverse.analysis.class_decorators import ClassDecorators
 from rebsync.reverse.analysis.origins import Origins
-from rebsync.reverse.analysis.stores import Key, key_of
 from rebsync.reverse.ir import expressions as e
-from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
-from rebsync.reverse.ir.walk import walk
 
 # Bases of libraries whose objects have no operators, and do not say what attributes they have.
 _PLAIN_BASES = frozenset({"builtins.object", "enum.Enum", "abc.ABC"})
+# Methods that each class has.
+_COMMON = frozenset({"__init__", "__repr__", "__str__", "__eq__", "__ne__", "__hash__"})
 _HOOKS = frozenset({"__getattr__", "__getattribute__"})
-_GROWING = ("append", "appendleft", "add")
 
 
 class ObjectOperators:
     """The objects of one program."""
 
-    def __init__(self, origins: Origins) -> None:
+    def __init__(self, origins: Origins, decorators: ClassDecorators) -> None:
         self._origins = origins
+        self._decorators = decorators
         self._program = origins.graph.program
 
     def lacks(self, value: e.Expression, function: str, call: Operator | ImplicitCall) -> bool:
         """Whether a value may be an object whose class, and no other, answers a call."""
-        if self._origins.graph.implicit((call,)):
-            return False  # the other operand's class may
-        return any(map(self._is_plain, self._origins.own_classes(value, function)))
+        classes = self._origins.own_classes(value, function)
+        return any(self.class_lacks(name, call) for name in classes)
 
-    def has_lacking_elements(self, container: e.Expression, function: str, call: Operator) -> bool:
-        """Whether a container may hold such objects."""
-        if self._origins.graph.implicit((call,)):
-            return False
-        held = self._elements(container, function)
-        classes = (c for around, v in held for c in self._origins.own_classes(v, around))
-        return any(map(self._is_plain, classes))
+    def class_lacks(self, name: str, call: Operator | ImplicitCall) -> bool:
+        """Whether objects of a class do not answer a call."""
+        if self._origins.graph.implicit((call,)) or self._decorators.answers(name, call):
+            return False  # the other operand's class may
+        return self._is_plain(name)
+
+    def is_bare(self, name: str) -> bool:
+        """Whether objects of a class answer nothing at all that no text calls."""
+        line = [self._program.classes[c] for c in self._line(name) if c in self._program.classes]
+        special = {n for c in line for n, _ in c.methods if n.startswith("__")}
+        return self._is_plain(name) and special <= _COMMON
 
     def lacks_attribute(self, of: str, name: str) -> bool:
         """Whether a class itself has no such attribute, nor anything that may make it one."""
@@ -55,32 +55,5 @@ class ObjectOperators:
         classes = self._program.classes
         line = self._line(name)
         known = [classes[c] for c in line if c in classes]
-        are_plain = all(c.complete and None not in c.bases for c in known)
+        are_plain = all(self._decorators.is_plain(c) and None not in c.bases for c in known)
         return are_plain and all(c in classes or c in _PLAIN_BASES for c in line)
-
-    def _elements(
-        self, container: e.Expression, function: str
-    ) -> Iterator[tuple[str, e.Expression]]:
-        """What a container is made with, and what is put into it under the same name."""
-        key = key_of(container, function)
-        stored = self._origins.graph.stores.of(key) if key is not None else [(function, container)]
-        for around, value in stored:
-            if isinstance(value, e.Build):
-                yield from ((around, v) for v in value.elements if not isinstance(v, e.Spread))
-        if key is not None:
-            yield from self._put.get(key, ())
-
-    @cached_property
-    def _put(self) -> dict[Key, list[tuple[str, e.Expression]]]:
-        """What is put into containers, by their names."""
-        found: dict[Key, list[tuple[str, e.Expression]]] = {}
-        for name in self._program.functions:
-            for node in walk(self._program.function(name)):
-                match node:
-                    case s.Call(_, s.MethodCallee(of, method), (argument,)) if method in _GROWING:
-                        key = key_of(of, name)
-                        if key is not None:
-                            found.setdefault(key, []).append((name, argument.value))
-                    case _:
-                        pass
-        return found

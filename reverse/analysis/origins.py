@@ -13,7 +13,9 @@ from typing import TypeAlias
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.cpp_facts import CppFacts
+from rebsync.reverse.analysis.enumeration_members import EnumerationMembers
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
+from rebsync.reverse.analysis.program_names import ProgramNames
 from rebsync.reverse.analysis.stores import (
     AnyValue,
     CallResult,
@@ -34,7 +36,6 @@ from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 
 _SUSPENDED = (FunctionKind.GENERATOR, FunctionKind.COROUTINE)
-_SETTERS = frozenset({"builtins.setattr", "builtins.vars"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +130,8 @@ class Origins:
                 return self.of(operand, function)
             case e.Index(operand, e.Slice()):
                 return self.of(operand, function)
+            case e.Attribute(of, name) if found := self._enumerated(of, name, function):
+                return found
             case e.Attribute(e.Local() | e.Captured() | e.Attribute() | e.Temporary() as of, name):
                 return self._member(of, name, function)
         key = key_of(value, function)
@@ -157,6 +160,13 @@ class Origins:
         if self.table.language is Language.PYTHON and not self._is_own(of, held, function):
             found |= ANYTHING  # a message, or what else the program did not make, has its own
         return found or ANYTHING
+
+    def _enumerated(self, of: e.Expression, name: str, function: str) -> frozenset[Origin]:
+        """The object that a member of an enumeration is; nothing for any other attribute."""
+        if name not in self.enumerations.names:
+            return frozenset()
+        held = (o for o in self.of(of, function) if isinstance(o, ClassOrigin) and not o.of_object)
+        return frozenset(ClassOrigin(o.name) for o in held if name in self.enumerations.of(o.name))
 
     def _is_own(self, value: e.Expression, held: frozenset[Origin], function: str) -> bool:
         """Whether a value is an object that the program made: its attributes are told by names."""
@@ -278,7 +288,9 @@ class Origins:
     def object_of(self) -> dict[str, str]:
         """For each method of Python the name of the parameter that is its object."""
         program = self.graph.program
-        methods = (f for c in program.classes.values() for _, f in c.methods if f in program)
+        classes = program.classes.values()
+        methods = [f for c in classes for _, f in c.methods if f in program]
+        methods += [f for c in classes for p in c.properties for f in p.functions if f in program]
         given = ((f, program.function(f).parameters) for f in methods)
         return {f: parameters[0].name for f, parameters in given if parameters}
 
@@ -305,34 +317,14 @@ class Origins:
         return CppFacts(self.graph.program)
 
     @cached_property
-    def read_attributes(self) -> frozenset[str]:
-        """The attributes that code reads other than to call them: methods that it hands over."""
-        every = self.graph.program.functions
-        nodes = (n for name in every for n in walk(self.graph.program.function(name)))
-        return frozenset(n.name for n in nodes if isinstance(n, e.Attribute))
+    def names(self) -> ProgramNames:
+        """Which functions name which attributes."""
+        return ProgramNames(self.graph.program)
 
     @cached_property
-    def naming(self) -> dict[str, frozenset[str]]:
-        """By each name of an attribute the functions that read or call it."""
-        found: dict[str, set[str]] = {}
-        for function in self.graph.program.functions:
-            for node in walk(self.graph.program.function(function)):
-                match node:
-                    case e.Attribute(_, name) | s.Call(_, s.MethodCallee(_, name)):
-                        found.setdefault(name, set()).add(function)
-                    case _:
-                        pass
-        return {name: frozenset(functions) for name, functions in found.items()}
-
-    @cached_property
-    def sets_by_text(self) -> bool:
-        """Whether code of Python sets attributes whose names it computes."""
-        return any(
-            (isinstance(node, e.Attribute) and node.name == "__dict__")
-            or (isinstance(node, e.LibraryReference | s.LibraryCallee) and node.name in _SETTERS)
-            for name in self.graph.program.functions
-            for node in walk(self.graph.program.function(name))
-        )
+    def enumerations(self) -> EnumerationMembers:
+        """The members of the program's enumerations."""
+        return EnumerationMembers(self.graph)
 
     # --- calls -----------------------------------------------------------------------------------
 

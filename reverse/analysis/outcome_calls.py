@@ -92,7 +92,8 @@ class OutcomeCalls:
         after = self._sizes.kept(node, facts)
         if node.target is None:
             return after
-        after = stored(after, node.target) | self._sizes.told(node, facts)
+        types = self.expressions.types.given(node)
+        after = stored(after, node.target, types) | self._sizes.told(node, facts)
         return after if self.expressions.none.gives(node) else after | {IsThere(node.target)}
 
     def construct(self, node: s.Construct, facts: Facts) -> Facts:

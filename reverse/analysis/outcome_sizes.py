@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from rebsync.reverse.analysis.facts import (
-    ANY_TYPE,
     Facts,
     HasKey,
     HasSize,
@@ -23,6 +22,7 @@ from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import AnyValue, CallResult, key_of
+from rebsync.reverse.analysis.value_types import ANY_TYPE
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import Operator

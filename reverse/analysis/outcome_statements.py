@@ -6,14 +6,12 @@ from collections.abc import Iterable
 
 from rebsync.reverse.analysis.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.facts import (
-    ANY_TYPE,
     NO_FACTS,
     Facts,
     HasKey,
     Holds,
     IsBelow,
     IsBound,
-    IsOf,
     IsSame,
     IsSize,
     IsThere,
@@ -36,6 +34,7 @@ from rebsync.reverse.analysis.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.outcome_sizes import OutcomeSizes
 from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
 from rebsync.reverse.analysis.unset_names import UnsetNames
+from rebsync.reverse.analysis.value_types import at_index, elements_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import walk
@@ -141,8 +140,11 @@ class OutcomeWalk:
                     self.notes.fails(node, "has another number of elements")
                 self._expressions.none.check(value, node, facts)
                 self._expressions.types.iterates(node, value, facts)
-                for target in targets:
-                    facts = stored(facts, target)
+                types = self._expressions.types.of(value, facts)
+                for at, target in enumerate(targets):
+                    has_place = node.rest is None or at < node.rest
+                    part = at_index(types, at) if types is not None and has_place else None
+                    facts = stored(facts, target, part)
                     if not self._expressions.none.may_be(target, facts):
                         facts |= {IsThere(target)}
                 return facts
@@ -176,10 +178,8 @@ class OutcomeWalk:
     def _assigned(self, target: e.Lvalue, value: e.Expression, facts: Facts) -> Facts:
         """What is known after a value is stored; of the target it is as of the value."""
         self.value(value, facts)
-        self._stored(target, facts)
-        before, facts = facts, stored(facts, target)
-        if (types := self._expressions.types.of(value, before)) is not None:
-            facts = facts - {IsOf(target, ANY_TYPE)} | {IsOf(target, types)}
+        self._stored(target, facts, value)
+        before, facts = facts, stored(facts, target, self._expressions.types.of(value, facts))
         if not self._expressions.none.may_be(value, before):
             facts |= {IsThere(target)}
         if isinstance(target, e.Index):
@@ -203,7 +203,7 @@ class OutcomeWalk:
             facts |= {Holds(target)}
         return facts
 
-    def _stored(self, target: e.Lvalue, facts: Facts) -> None:
+    def _stored(self, target: e.Lvalue, facts: Facts, value: e.Expression) -> None:
         """What it may do to store in a target."""
         match target:
             case e.Index():
@@ -216,7 +216,7 @@ class OutcomeWalk:
                 if is_attribute:
                     asked = "asks None for an attribute"
                     self._expressions.none.check(holder, target, facts, asked)
-                    self._expressions.types.sets(target)
+                    self._expressions.types.sets(target, value, facts)
                 held = self.origins.of(holder, self.name)
                 if any(isinstance(o, LibraryOrigin) and not o.of_object for o in held):
                     self.notes.problem(target, "this is stored in another module")
@@ -327,7 +327,9 @@ class OutcomeWalk:
         size = self.notes.counts.elements(node.iterable, self.name)
         if self.notes.is_parameter(node.iterable):
             size = max(size, self.notes.elements.get(self.name, 0))
-        known = {*sized(node.target, size), *stored(NO_FACTS, node.target)}
+        types = self._expressions.types.of(node.iterable, facts)
+        element = None if types is None else elements_of(types)
+        known = {*sized(node.target, size), *stored(NO_FACTS, node.target, element)}
         if not self._expressions.none.has_none(node.iterable):
             known.add(IsThere(node.target))
         for fact in inside:

@@ -41,6 +41,21 @@ class CallResult:
 
 
 @dataclass(frozen=True, slots=True)
+class ElementOf:
+    """An element of what a loop goes through."""
+
+    container: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
+class PartOf:
+    """The part at a place of a sequence that is unpacked."""
+
+    sequence: e.Expression
+    at: int
+
+
+@dataclass(frozen=True, slots=True)
 class GlobalVariable:
     """A variable of a module."""
 
@@ -72,8 +87,10 @@ class TemporaryVariable:
 
 
 Key: TypeAlias = GlobalVariable | CapturedVariable | Member | TemporaryVariable
+Drawn: TypeAlias = ElementOf | PartOf
 Value: TypeAlias = e.Expression | AnyValue | ClassValue | ObjectValue | CallResult
 Stored: TypeAlias = tuple[str, Value]
+Source: TypeAlias = tuple[str, Value | Drawn]
 ANY_VALUE = AnyValue()
 
 
@@ -88,6 +105,7 @@ class Stores:
         self._program = program
         self._values: dict[Key, list[Stored]] = {}
         self._changed: dict[Key, list[Stored]] = {}
+        self._drawn: dict[Key, list[tuple[str, Drawn]]] = {}
         self._seen: set[str] = set()
         self._is_whole = False
 
@@ -107,6 +125,16 @@ class Stores:
         for function, _ in self.changed(key):
             found.remove((function, ANY_VALUE))
         return found
+
+    def sources(self, key: Key) -> list[Source]:
+        """All that is stored under a name, with what `+=`, loops and unpacking store there.
+
+        In `of` each of these is any value.
+        """
+        found, drawn = self.initial(key), self._drawn.get(key, [])
+        for function, _ in drawn:
+            found.remove((function, ANY_VALUE))
+        return [*found, *self.changed(key), *drawn]
 
     def everything(self) -> Iterator[Stored]:
         """All that is stored anywhere."""
@@ -172,11 +200,22 @@ class Stores:
                     computed = e.Binary(operator, target, value, target.type)
                     if changed is not None:
                         self._changed.setdefault(changed, []).append((name, computed))
+                case s.ForEach(target, iterable):
+                    self._draw(target, name, ElementOf(iterable))
+                case s.Unpack(targets, value, rest):
+                    for at, target in enumerate(targets):
+                        if rest is None or at < rest:
+                            self._draw(target, name, PartOf(value, at))
                 case e.Closure(function=within) | s.DefineClass(_, within):
                     inner.append(within)
                 case _:
                     pass
         return inner
+
+    def _draw(self, target: e.Expression, function: str, value: Drawn) -> None:
+        key = key_of(target, function)
+        if key is not None:
+            self._drawn.setdefault(key, []).append((function, value))
 
 
 def key_of(target: e.Expression, function: str) -> Key | None:

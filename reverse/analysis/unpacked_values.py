@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from rebsync.reverse.analysis.argument_types import ArgumentTypes
 from rebsync.reverse.analysis.call_graph import CallGraph
-from rebsync.reverse.analysis.stores import AnyValue, CallResult, Stored, key_of
+from rebsync.reverse.analysis.stores import AnyValue, CallResult, CapturedVariable, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import walk
@@ -19,8 +20,9 @@ _DEEPEST = 5
 class UnpackedValues:
     """The unpacked sequences of one program."""
 
-    def __init__(self, graph: CallGraph) -> None:
+    def __init__(self, graph: CallGraph, arguments: ArgumentTypes) -> None:
         self._graph = graph
+        self._arguments = arguments
         self._unpacking: dict[str, list[s.Unpack]] = {}
 
     def of(self, value: e.Expression, function: str) -> Iterator[Stored]:
@@ -64,6 +66,10 @@ class UnpackedValues:
                 yield from self._made(of, function, depth)
             case _ if depth:
                 key = key_of(value, function)
+                if isinstance(key, CapturedVariable):
+                    for around, given in self._arguments.arguments(key.function, key.name):
+                        if isinstance(given, e.Build | e.Local | e.Temporary | e.Attribute):
+                            yield from self._made(given, around, depth - 1)
                 for around, stored in self._graph.stores.of(key) if key is not None else ():
                     match stored:
                         case CallResult(call):

@@ -56,9 +56,11 @@ class UnsetNames:
     def _may_lack(self, value: e.Attribute, facts: Facts) -> bool:
         """Whether the own object of a function may lack an attribute when it is called."""
         owner, name = self._function.owner, value.name
-        if owner is None or self._function.kind not in _CALLED:
+        if owner is None or HasKey(value.object, e.Literal(name)) in facts:
             return False
-        if HasKey(value.object, e.Literal(name)) in facts:
+        if self._notes.counts.rules.construction.reads_early(self._function.name, name):
+            return True
+        if self._function.kind not in _CALLED:
             return False
         graph = self._notes.origins.graph
         classes = {owner, *graph.subclasses.get(owner, ())} & self._program.classes.keys()
@@ -77,13 +79,13 @@ def _may_lack(origins: Origins, function: Function, owner: str, name: str) -> bo
     }
     stored = [function for function, _ in graph.stores.of(Member(name))]
     bodies = {c.body for c in known}
-    if name in declared or not bodies.isdisjoint(stored) or origins.sets_by_text:
+    if name in declared or not bodies.isdisjoint(stored) or origins.names.sets_by_text:
         return False
     own = any(program.function(f).owner in line for f in stored)
     if not own:  # the attributes of libraries' classes are trusted, and what is set from outside
         return not stored and len(known) == len(line) and None not in _bases(known)
     setters = {f.rpartition(".")[2] for f in stored if program.function(f).owner in line}
-    if not setters <= origins.read_attributes:
+    if not setters <= origins.names.read_attributes:
         return False  # what the program itself calls, it calls before it needs what that sets
     makers = (f for c in known for n, f in c.methods if n == "__init__")
     first = next(makers, None)

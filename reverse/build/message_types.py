@@ -40,6 +40,10 @@ _GENERATES = re.compile(
 )
 _MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
 
+# Times in ROS 1 are objects of their own, in ROS 2 messages.
+_STAMP_TYPES = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
+_STAMP: list[tuple[str, str, int | None]] = [("sec", "int32", None), ("nanosec", "uint32", None)]
+
 Fields = Mapping[str, Type | None]
 
 
@@ -106,6 +110,22 @@ class MessageTypes:
                 return None
             self._fields[type_] = dict(self._flat(type_, "", type_, 0))
         return self._fields[type_]
+
+    def python_fields(self, type_: str, has_stamps: bool) -> Mapping[str, str] | None:
+        """The fields of a type as Python has them, with their types; None if it is not known.
+
+        Where times are messages themselves (`has_stamps`), as in ROS 2, headers have no number.
+        """
+        is_stamp = has_stamps and type_ in _STAMP_TYPES.values()
+        declared = _STAMP if is_stamp else self._declared(type_)
+        if declared is None:
+            return None
+        found = {name: f"{of}{_dimension(length)}" for name, of, length in declared}
+        if not has_stamps:
+            return found
+        if type_ == "std_msgs/Header":
+            found.pop("seq", None)
+        return {name: _STAMP_TYPES.get(of, of) for name, of in found.items()}
 
     def variable(self, type_: str, path: str, name: str, of: Type) -> Variable:
         """A variable of the model for a field of a type."""
@@ -221,6 +241,11 @@ def _of_rosidl(files: Mapping[str, Source]) -> bool | None:
     manifests = [s.text for path, s in files.items() if path.endswith("package.xml")]
     found = {"rosidl_" in text for text in manifests if _GENERATES.search(text)}
     return found.pop() if len(found) == 1 else None
+
+
+def _dimension(length: int | None) -> str:
+    """How the type of a field says that it is an array: of any length, or of a fixed one."""
+    return "" if length is None else f"[{length or ''}]"
 
 
 def _field(text: str) -> tuple[str, str, int | None]:

@@ -80,6 +80,11 @@ class Property:
     setter: str | None = None
     deleter: str | None = None
 
+    @property
+    def functions(self) -> tuple[str, ...]:
+        """Those of them that there are."""
+        return tuple(f for f in (self.getter, self.setter, self.deleter) if f is not None)
+
 
 @dataclass(frozen=True, slots=True)
 class Field:
@@ -98,7 +103,8 @@ class Class:
     A base is the name of a class of the program, of a library, or None if it is not known.
     `methods` are pairs of a name and a function; `operators` say which method names operators
     and implicit calls are answered by, in this language. It is `complete` if nothing changes or
-    adds to what is said here: no decorator, metaclass, or attribute that is set from outside.
+    adds to what is said here: no decorator, metaclass, or attribute that is set from outside; one
+    that is only `is_plain` may have decorators.
     `virtual` are the methods that a call finds by the object's own class; None is all of them.
     """
 
@@ -113,6 +119,7 @@ class Class:
     destructor: str | None = None
     body: str | None = None
     complete: bool = False
+    is_plain: bool = False
     place: Span = place_field()
 
 

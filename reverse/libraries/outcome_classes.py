@@ -115,6 +115,7 @@ PLAIN_CLASSES = frozenset(
 ENUMERATIONS = frozenset(
     {"enum.Enum", "enum.IntEnum", "enum.StrEnum", "enum.Flag", "enum.IntFlag", "enum.ReprEnum"}
 )
+NUMBERED = frozenset({"enum.IntEnum", "enum.IntFlag"})  # whose members are numbers
 UNKNOWN_CLASS = "constructor of a type that is not known"  # what a template gives, perhaps
 # Names of classes that do the same as another.
 CLASSES: Mapping[str, str] = {

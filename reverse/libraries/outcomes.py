@@ -9,8 +9,9 @@ function of any other library gets values, and gives one.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from typing import TypeAlias
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import (
@@ -36,6 +37,14 @@ _UNKNOWN = "nothing is known of it"
 _ANY_EXCEPTION = frozenset(
     {"builtins.Exception"}
 )  # what Python may raise of which no more is known
+
+
+MessageFields: TypeAlias = Callable[[str], Mapping[str, str] | None]
+
+
+def no_fields(type_: str) -> Mapping[str, str] | None:
+    """The fields of messages where none are known."""
+    return None
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,12 +79,14 @@ class LibraryOutcomes:
     which it is not known where they are. Where it `trusts_others`, methods of what a library made
     that no table knows raise nothing by their names alone. `messages` are classes in C++ of which
     headers are included that hold nothing but a message.
+    `fields` gives the fields of a type of messages with their types, by their names in ROS.
     """
 
     language: Language
     opaque: frozenset[str] = frozenset()
     trusts_others: bool = False
     messages: frozenset[str] = frozenset()
+    fields: MessageFields = no_fields
 
     @property
     def _named(self) -> Mapping[str, CallOutcome]:

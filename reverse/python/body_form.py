@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import cached_property
 
 from tree_sitter import Node
@@ -15,10 +15,12 @@ from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
 from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.analysis.size_changes import GROWING
+from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, Program
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries import python
 from rebsync.reverse.libraries.endless import FINITE
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
@@ -47,11 +49,13 @@ class PyForm:
     def __init__(
         self,
         code: PyCode,
+        types: MessageTypes,
         *,
         without_runtime: bool = False,
         typed: Callable[[Program], Program] = lambda program: program,
     ) -> None:
         self._code = code
+        self._types = types
         self._without_runtime = without_runtime
         self._typed = typed
 
@@ -76,8 +80,18 @@ class PyForm:
 
     @cached_property
     def _outcomes(self) -> OutcomeAnalysis:
-        table = LibraryOutcomes(Language.PYTHON, trusts_others=True)
+        table = LibraryOutcomes(Language.PYTHON, trusts_others=True, fields=self._fields)
         return OutcomeAnalysis(self.program, table, lambda name: False)
+
+    def _fields(self, type_: str) -> Mapping[str, str] | None:
+        """The fields of a type of messages, as the client library has them that files import."""
+        return self._types.python_fields(type_, self._has_stamps)
+
+    @cached_property
+    def _has_stamps(self) -> bool:
+        """Whether times are messages: in a client library whose nodes are objects."""
+        modules = {m[1].decode() for py in self._files for m in _IMPORTS.finditer(py.data)}
+        return any(map(python.of_nodes, modules))
 
     def raised(self, py: Py, place: Span) -> Iterator[tuple[Problem, Scope]]:
         """The exceptions that leave a function from a place in it, each with where it is raised."""

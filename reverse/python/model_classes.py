@@ -15,6 +15,7 @@ from rebsync.names import carry, original, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES, OFFERS, RUNTIME_TOPICS
 from rebsync.reverse.bodies.overloads import Served
+from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.annotations import of_class, of_server
 from rebsync.reverse.generated.messages import NO_MESSAGES, OwnMessages
@@ -66,6 +67,7 @@ class ModelClasses:
         self._named = CodeConstants(self._values, self.messages.constants)
         self._form = PyForm(
             self.code,
+            MessageTypes({}, ""),
             without_runtime=True,
             typed=lambda program: typed(program, self.roles.values()),
         )

@@ -180,7 +180,7 @@ def class_of_program(world: World, owner: ClassSymbol) -> Class:
         destructor.name if destructor is not None and has_body else None,
         None,
         all(b is not None for _, b in bases) and not owner.is_template,
-        owner.cpp.span(owner.node),
+        place=owner.cpp.span(owner.node),
     )
 
 

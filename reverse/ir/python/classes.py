@@ -80,14 +80,23 @@ _PLAIN = frozenset(
 )
 
 
+# Decorators of classes that give the class that they get.
+_KEEPING = frozenset(
+    {
+        *("dataclass", "dataclasses.dataclass", "unique", "enum.unique"),
+        *("total_ordering", "functools.total_ordering", "final", "typing.final"),
+    }
+)
+
+
 def class_of(names: NameLookup, binder: Binder, scope: Symbols) -> Class:
     """A class of the text; it is complete where nothing but plain methods and values is in it."""
     methods: dict[str, str] = {}
     properties: dict[str, Property] = {}
-    complete = not decorators_of(scope.node) and not _keywords(scope.node)
+    is_plain = not _keywords(scope.node)
     for child in scope.children:
         if child.kind is ScopeKind.FUNCTION:
-            complete &= _add(child, scope, methods, properties)
+            is_plain &= _add(child, scope, methods, properties)
     bases = tuple(base_name(names, node, scope) for node in _bases(scope.node))
     declared = {m for m, _ in methods.items()} | set(properties)
     index = names.code.scopes.get((binder.py.source.path, scope.node.id))
@@ -105,7 +114,8 @@ def class_of(names: NameLookup, binder: Binder, scope: Symbols) -> Class:
         constructor=methods.get("__init__"),
         destructor=methods.get("__del__"),
         body=scope.name,
-        complete=complete and None not in bases,
+        complete=is_plain and None not in bases and not decorators_of(scope.node),
+        is_plain=is_plain and None not in bases,
         place=binder.py.span(scope.node),
     )
 
@@ -151,7 +161,8 @@ def base_name(names: NameLookup, node: Node, scope: Symbols) -> str | None:
             ]
             is_one = bound == 1 and len(classes) == 1
             is_one &= name not in module_names.assigned_globals
-            return classes[0].name if is_one and not decorators_of(classes[0].node) else None
+            is_kept = is_one and _KEEPING.issuperset(decorators_of(classes[0].node))
+            return classes[0].name if is_kept else None
         case _:
             return None
 

@@ -1,0 +1,196 @@
+"""The types of Python's values, as far as an analysis tells them apart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from enum import Enum
+from typing import TypeAlias
+
+from rebsync.records import dataclass
+
+
+class OwnType(Enum):
+    """A type of Python's own; numbers are one, with truth values."""
+
+    NUMBER = "number"
+    TEXT = "str"
+    BYTES = "bytes"
+    LIST = "list"
+    TUPLE = "tuple"
+    SET = "set"
+    MAPPING = "dict"
+    QUEUE = "deque"
+    ARRAY = "array"  # the elements of a message's field: a list, a tuple or an array of numbers
+    MODEL_ARRAY = "array of generated code"  # gone through, asked for one element; without a length
+    MESSAGE = "message"  # of ROS: it has fields, and answers no operator
+    NONE = "None"  # among the elements of containers; elsewhere None is looked for apart
+
+
+@dataclass(frozen=True, slots=True)
+class ContainerType:
+    """A container with the types of its elements; those of a mapping are its keys.
+
+    `own` is None for what is only gone through, as ranges. A tuple of known length has `parts`,
+    and a mapping has `items` by the keys that the source writes.
+    """
+
+    own: OwnType | None
+    elements: ValueTypes
+    values: ValueTypes = frozenset((None,))
+    parts: tuple[ValueTypes, ...] | None = None
+    items: frozenset[tuple[object, ValueTypes]] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryType:
+    """An object of a library's class of which a table has the attributes, by its full name."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class MessageType:
+    """A message of ROS of which the fields are known: `std_msgs/Int32`."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class InstanceType:
+    """An object of a class of the program."""
+
+    name: str
+
+
+# In a set of types None is a value that may be of any type.
+ValueType: TypeAlias = OwnType | ContainerType | LibraryType | MessageType | InstanceType
+ValueTypes: TypeAlias = "frozenset[ValueType | None]"
+ANY_TYPE: ValueTypes = frozenset((None,))
+NO_TYPES: ValueTypes = frozenset()
+A_NUMBER: ValueTypes = frozenset((OwnType.NUMBER,))
+A_TEXT: ValueTypes = frozenset((OwnType.TEXT,))
+
+
+def own_type(type_: ValueType | None) -> OwnType | None:
+    """The type of Python's own that a type is; None for any other."""
+    match type_:
+        case ContainerType(own):
+            return own
+        case OwnType():
+            return type_
+        case MessageType():
+            return OwnType.MESSAGE
+        case _:
+            return None
+
+
+def sequence(own: OwnType | None, *elements: ValueTypes) -> ValueTypes:
+    """A container with elements of some types."""
+    return frozenset((ContainerType(own, union(elements)),))
+
+
+def pair(*parts: ValueTypes) -> ValueTypes:
+    """A tuple with some parts."""
+    return frozenset((ContainerType(OwnType.TUPLE, union(parts), parts=parts),))
+
+
+def union(types: Iterable[ValueTypes]) -> ValueTypes:
+    """A value of the one or the other types."""
+    return NO_TYPES.union(*types)
+
+
+def elements_of(types: ValueTypes) -> ValueTypes:
+    """The types of what is gone through in values of some types, None among them left out."""
+    return union(map(_elements, types)) - {OwnType.NONE}
+
+
+def _elements(type_: ValueType | None) -> ValueTypes:
+    match type_:
+        case ContainerType(_, elements):
+            return elements
+        case OwnType.TEXT:
+            return A_TEXT
+        case OwnType.BYTES:
+            return A_NUMBER
+        case _:
+            return ANY_TYPE
+
+
+def at_index(types: ValueTypes, index: object) -> ValueTypes:
+    """The types of what stands at an index that the source writes, or (None) at any."""
+    return union(_at(type_, index) for type_ in types) - {OwnType.NONE}
+
+
+def _at(type_: ValueType | None, index: object) -> ValueTypes:
+    match type_:
+        case ContainerType(OwnType.MAPPING, _, values, _, items):
+            found = [of for key, of in items if key == index]
+            return found[0] if found else _of_one(values, index)
+        case ContainerType(_, _, _, tuple() as parts) if isinstance(index, int):
+            return parts[index] if -len(parts) <= index < len(parts) else ANY_TYPE
+        case ContainerType(_, elements):
+            return _of_one(elements, index)
+        case OwnType.TEXT:
+            return A_TEXT
+        case OwnType.BYTES:
+            return A_NUMBER
+        case _:
+            return ANY_TYPE
+
+
+def _of_one(elements: ValueTypes, index: object) -> ValueTypes:
+    """The types of one element by its index; it is not told which, where they are of several."""
+    is_mixed = len(set(map(own_type, elements - {OwnType.NONE}))) > 1
+    return ANY_TYPE if is_mixed and index is not None else elements
+
+
+def values_of(types: ValueTypes) -> ValueTypes:
+    """The types of the values of mappings."""
+    found = (t.values if isinstance(t, ContainerType) else ANY_TYPE for t in types)
+    return union(found) - {OwnType.NONE}
+
+
+def limited(types: ValueTypes, depth: int) -> ValueTypes:
+    """Types in which containers stand in one another to some depth; deeper is any type."""
+    return frozenset(_shallow(type_, depth) for type_ in types)
+
+
+def _shallow(type_: ValueType | None, depth: int) -> ValueType | None:
+    if not isinstance(type_, ContainerType):
+        return type_
+    if not depth:
+        return ContainerType(type_.own, ANY_TYPE)
+    parts = None
+    if type_.parts is not None:
+        parts = tuple(limited(part, depth - 1) for part in type_.parts)
+    elements, values = (limited(t, depth - 1) for t in (type_.elements, type_.values))
+    items = frozenset((key, limited(of, depth - 1)) for key, of in type_.items)
+    return ContainerType(type_.own, elements, values, parts, items)
+
+
+def merged(types: ValueTypes) -> ValueTypes:
+    """Types with one container of each own type, which holds what any of them does."""
+    found: dict[OwnType | None, ContainerType] = {}
+    for type_ in types:
+        if isinstance(type_, ContainerType):
+            known = found.get(type_.own)
+            found[type_.own] = type_ if known is None else _joined(known, type_)
+    return frozenset(found.values()) | {t for t in types if not isinstance(t, ContainerType)}
+
+
+def _joined(one: ContainerType, other: ContainerType) -> ContainerType:
+    parts = None
+    if one.parts is not None and other.parts is not None and len(one.parts) == len(other.parts):
+        parts = tuple(merged(a | b) for a, b in zip(one.parts, other.parts, strict=True))
+    elements, values = merged(one.elements | other.elements), merged(one.values | other.values)
+    return ContainerType(one.own, elements, values, parts, joined_items(one.items, other.items))
+
+
+def joined_items(
+    one: frozenset[tuple[object, ValueTypes]], other: Iterable[tuple[object, ValueTypes]]
+) -> frozenset[tuple[object, ValueTypes]]:
+    """The items of mappings, each of which may be either."""
+    found = dict(one)
+    for key, types in other:
+        found[key] = merged(found.get(key, NO_TYPES) | types)
+    return frozenset(found.items())

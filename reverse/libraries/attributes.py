@@ -1,0 +1,219 @@
+"""Which attributes objects of client libraries of Python have, and the classes of what these give.
+
+Those of all versions that are in use: what is not here is in none of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from rebsync.reverse.libraries import python
+from rebsync.reverse.libraries.registry import derived
+
+_NODE = "rclpy.node.Node"
+_OF_NODES = """
+    PARAM_REL_TOL add_on_set_parameters_callback add_post_set_parameters_callback
+    add_pre_set_parameters_callback add_waitable assert_liveliness clients context count_clients
+    count_publishers count_services count_subscribers create_client create_guard_condition
+    create_publisher create_rate create_service create_subscription create_timer declare_parameter
+    declare_parameters default_callback_group describe_parameter describe_parameters destroy_client
+    destroy_guard_condition destroy_node destroy_publisher destroy_rate destroy_service
+    destroy_subscription destroy_timer executor get_client_names_and_types_by_node
+    get_clients_info_by_service get_clock get_fully_qualified_name get_fully_qualified_node_names
+    get_logger get_name get_namespace get_node_names get_node_names_and_namespaces
+    get_node_names_and_namespaces_with_enclaves get_parameter get_parameter_or get_parameter_type
+    get_parameter_types get_parameters get_parameters_by_prefix
+    get_publisher_names_and_types_by_node get_publishers_info_by_topic
+    get_servers_info_by_service get_service_names_and_types
+    get_service_names_and_types_by_node get_subscriber_names_and_types_by_node
+    get_subscriptions_info_by_topic get_topic_names_and_types guards handle has_parameter
+    list_parameters publishers remove_on_set_parameters_callback remove_post_set_parameters_callback
+    remove_pre_set_parameters_callback remove_waitable resolve_service_name resolve_topic_name
+    services set_descriptor set_parameters set_parameters_atomically set_parameters_callback
+    subscriptions timers undeclare_parameter wait_for_node waitables
+    _allow_undeclared_parameters _apply_descriptor _apply_descriptor_and_set _apply_descriptors
+    _apply_floating_point_range _apply_integer_range _call_post_set_parameters_callback
+    _call_pre_set_parameters_callback _check_undeclared_parameters _count_clients_or_servers
+    _count_publishers_or_subscribers _declare_parameter_common _get_info_by_topic
+    _set_parameters_atomically_common _validate_qos_or_depth_parameter
+    _validate_topic_or_service_name _wake_executor _clients _clock _context _default_callback_group
+    _descriptors _guards _logger _on_set_parameters_callbacks _parameter_event_publisher
+    _parameter_overrides _parameter_service _parameters _post_set_parameters_callbacks
+    _pre_set_parameters_callbacks _publishers _rate_group _services _set_parameters_atomically
+    _subscriptions _time_source _timers _type_description_service"""
+_OF_STATES = """
+    add_managed_entity create_lifecycle_publisher destroy_lifecycle_publisher on_activate on_cleanup
+    on_configure on_deactivate on_error on_shutdown trigger_activate trigger_cleanup
+    trigger_configure trigger_deactivate trigger_shutdown _callbacks _managed_entities
+    _state_machine"""
+_THREAD = """
+    daemon getName ident isAlive isDaemon is_alive join name native_id run setDaemon setName
+    start"""
+_OF_TOPICS = (
+    "data_class get_num_connections impl md5sum name reg_type resolved_name type unregister"
+)
+_TIME = "from_sec from_seconds is_zero nsecs secs set canon to_nsec to_sec to_time now"
+
+_TIMES = ("rospy.Time", "rospy.Duration", "time", "duration")  # the last two in messages
+# Classes of times and durations: they add up with each other, and with no numbers.
+TIMES = frozenset({*_TIMES, "rclpy.time.Time", "rclpy.duration.Duration"})
+
+# By the full name of a class the attributes of its objects, beside those of all objects.
+_ATTRIBUTES: Mapping[str, str] = {
+    _NODE: _OF_NODES,
+    "rclpy.publisher.Publisher": """
+        assert_liveliness destroy event_handlers get_subscription_count handle msg_type publish
+        publisher_handle qos_profile topic topic_name wait_for_all_acked""",
+    "rclpy.subscription.Subscription": """
+        callback callback_group destroy event_handlers get_publisher_count handle msg_type
+        qos_profile raw subscription_handle topic topic_name""",
+    "rclpy.timer.Timer": """
+        callback callback_group cancel clock destroy handle is_canceled is_ready reset
+        time_since_last_call time_until_next_call timer_handle timer_period_ns""",
+    "rclpy.client.Client": """
+        call call_async callback_group client_handle configure_introspection context destroy handle
+        get_pending_request qos_profile remove_pending_request service_is_ready service_name
+        srv_name srv_type wait_for_service""",
+    "rclpy.timer.Rate": "destroy sleep",
+    "rclpy.clock.Clock": """
+        clock_handle clock_type create_jump_callback handle now ros_time_is_active
+        set_ros_time_override sleep_for sleep_until""",
+    "rclpy.parameter.Parameter": """
+        Type from_parameter_msg get_parameter_value name to_parameter_msg type_ value""",
+    "rclpy.time.Time": "clock_type from_msg nanoseconds seconds_nanoseconds to_msg",
+    "rclpy.duration.Duration": "from_msg get_c_duration nanoseconds to_msg",
+    "rclpy.logging.Logger": """
+        contexts debug error fatal get_child get_effective_level info is_enabled_for log
+        logger_sublogger_namepair name set_level warn warning""",
+    "rospy.Publisher": f"publish {_OF_TOPICS}",
+    "rospy.Subscriber": f"callback callback_args {_OF_TOPICS}",
+    "rospy.Timer": f"shutdown {_THREAD}",
+    "rospy.Rate": "last_time remaining sleep sleep_dur",
+    **dict.fromkeys(_TIMES, _TIME),
+}
+# By the full name of a function or method the class of what it gives.
+_GIVES: Mapping[str, str] = {
+    "rclpy.create_node": _NODE,
+    f"{_NODE}.create_publisher": "rclpy.publisher.Publisher",
+    f"{_NODE}.create_subscription": "rclpy.subscription.Subscription",
+    f"{_NODE}.create_timer": "rclpy.timer.Timer",
+    f"{_NODE}.create_client": "rclpy.client.Client",
+    f"{_NODE}.create_rate": "rclpy.timer.Rate",
+    **dict.fromkeys(
+        (f"{_NODE}.declare_parameter", f"{_NODE}.get_parameter"), "rclpy.parameter.Parameter"
+    ),
+    f"{_NODE}.get_clock": "rclpy.clock.Clock",
+    f"{_NODE}.get_logger": "rclpy.logging.Logger",
+    **dict.fromkeys((f"{_NODE}.get_name", f"{_NODE}.get_namespace"), "str"),
+    "rclpy.logging.get_logger": "rclpy.logging.Logger",
+    "rclpy.clock.Clock.now": "rclpy.time.Time",
+    "rclpy.time.Time.to_msg": "builtin_interfaces/Time",
+    "rclpy.duration.Duration.to_msg": "builtin_interfaces/Duration",
+    **dict.fromkeys(("rospy.Time.now", "rospy.get_rostime", "rospy.Time.from_sec"), "rospy.Time"),
+    "rospy.Duration.from_sec": "rospy.Duration",
+    "rospy.get_time": "number",
+    **dict.fromkeys(("rospy.get_name", "rospy.get_namespace", "rospy.get_caller_id"), "str"),
+    **{f"{of}.{name}": "number" for of in _TIMES for name in ("to_sec", "to_nsec")},
+}
+# By the full name of an attribute the class of its value.
+_HOLDS: Mapping[str, str] = {
+    **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
+    **{f"{of}.{name}": "number" for of in _TIMES for name in ("secs", "nsecs")},
+}
+# Methods that take no arguments.
+_ALONE = frozenset(
+    {
+        *(f"{_NODE}.{name}" for name in ("get_logger", "get_clock", "get_name", "get_namespace")),
+        *(f"rclpy.timer.Timer.{name}" for name in ("cancel", "reset", "is_ready", "is_canceled")),
+        *("rclpy.clock.Clock.now", "rclpy.time.Time.to_msg", "rclpy.duration.Duration.to_msg"),
+        *("rospy.Time.now", "rospy.get_time", "rospy.get_rostime", "rospy.Timer.shutdown"),
+        *(f"{of}.{name}" for of in _TIMES for name in ("to_sec", "to_nsec", "is_zero")),
+    }
+)
+_EXCEPTIONS = """
+    ROSException ROSInitException ROSInternalException ROSInterruptException
+    ROSSerializationException ROSTimeMovedBackwardsException TransportException TransportInitError
+    TransportTerminated ServiceException"""
+# What modules have, where that is known.
+_MODULES: Mapping[str, str] = {
+    "rospy": f"""
+        AnyMsg DEBUG Duration ERROR FATAL Header INFO MasterProxy Message Publisher Rate Service
+        ServiceProxy SubscribeListener Subscriber Time Timer WARN delete_param get_caller_id
+        get_master get_name get_namespace get_node_uri get_param get_param_cached get_param_names
+        get_published_topics get_ros_root get_rostime get_time has_param init_node is_shutdown
+        logdebug logdebug_once logdebug_throttle logdebug_throttle_identical logerr logerr_once
+        logerr_throttle logerr_throttle_identical logfatal logfatal_once logfatal_throttle
+        logfatal_throttle_identical loginfo loginfo_once loginfo_throttle
+        loginfo_throttle_identical logout logwarn logwarn_once logwarn_throttle
+        logwarn_throttle_identical myargv on_shutdown parse_rosrpc_uri remap_name resolve_name
+        search_param set_param signal_shutdown sleep spin wait_for_message wait_for_service
+        client core exceptions impl msg msproxy names numpy_msg rostime service services timer
+        topics validators {_EXCEPTIONS}""",
+}
+# Constants of messages are written in capitals; the rest are what generators add.
+_OF_MESSAGES = frozenset(
+    {
+        *("serialize", "deserialize", "serialize_numpy", "deserialize_numpy"),
+        "get_fields_and_field_types",
+    }
+)
+# Enumerations, and what they are beside: the members have these too.
+_OF_MEMBERS: Mapping[str, frozenset[str]] = {
+    "enum.Enum": frozenset(dir(object)),
+    "enum.IntEnum": frozenset(dir(int)),
+    "enum.StrEnum": frozenset(dir(str)),
+    "enum.Flag": frozenset(dir(object)),
+    "enum.IntFlag": frozenset(dir(int)),
+}
+_MEMBER = frozenset({"name", "value", "_name_", "_value_", "__members__", "__dict__"})
+# Bases of which nothing is to be seen in the objects.
+_PLAIN_BASES = frozenset({"builtins.object", "abc.ABC", "typing.Generic", "typing.Protocol"})
+
+
+def _is_node(name: str) -> bool:
+    """Whether a class is one of rclpy's nodes, by any of the names that packages give it."""
+    return name in python.node_classes() and name.startswith("rclpy.")
+
+
+@derived
+def attributes_of(name: str) -> frozenset[str] | None:
+    """The attributes of objects of a class, by its full name; None if no table has it."""
+    if _is_node(name):
+        return frozenset((_OF_NODES + _OF_STATES * (name in python.managed())).split())
+    if name in _OF_MEMBERS:
+        return _OF_MEMBERS[name] | _MEMBER
+    found = "" if name in _PLAIN_BASES else _ATTRIBUTES.get(name)
+    return frozenset(found.split()) if found is not None else None
+
+
+@derived
+def result_of(name: str) -> str:
+    """The class of what a function or method gives; empty if that is not known."""
+    of, _, last = name.rpartition(".")
+    if _is_node(of):
+        name = f"{_NODE}.{last}"
+    return _GIVES.get(name, "")
+
+
+@derived
+def takes_nothing(name: str) -> bool:
+    """Whether a function or method takes no arguments, by its full name."""
+    of, _, last = name.rpartition(".")
+    return name in _ALONE or (_is_node(of) and f"{_NODE}.{last}" in _ALONE)
+
+
+def held_in(name: str) -> str:
+    """The class of the value of an attribute; empty if that is not known."""
+    return _HOLDS.get(name, "")
+
+
+@derived
+def has_name(module: str, name: str) -> bool:
+    """Whether a module of a client library may have a name."""
+    known = _MODULES.get(module)
+    return known is None or name in known.split() or name.startswith("_")
+
+
+def may_be_of_messages(name: str) -> bool:
+    """Whether a message may have an attribute that is none of its fields."""
+    return name in _OF_MESSAGES or name.startswith("_") or name.isupper()
