@@ -212,6 +212,8 @@ class LibraryExceptions:
     def _is_number_text(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a value is a number, or a text that is one."""
         is_known = self.expressions.types.kinds.of(value, facts) == {OwnType.NUMBER}
+        if isinstance(value, e.Convert) and isinstance(value.type, t.Integer | t.Float):
+            return True
         return is_known or self._is_number(value) or self._is_of_number(value, float)
 
     def _is_of_number(self, value: e.Expression, kind: type[int] | type[float]) -> bool:

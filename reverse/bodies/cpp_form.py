@@ -112,6 +112,11 @@ class CppForm:
         return {f.code.node.id: f for f in symbols if f.code.body is not None}
 
     @cached_property
+    def _of_known(self) -> frozenset[str]:
+        """The functions of known files: the times that they ask for are of one clock."""
+        return frozenset(f.name for f in self._functions.values() if f.code.cpp in self._known)
+
+    @cached_property
     def _guards(self) -> frozenset[bytes]:
         """Other names of guards."""
         found = (m for cpp in self._code.files for m in _RENAMED.finditer(cpp.data))
@@ -219,11 +224,12 @@ class CppForm:
         if name is None:
             return frozenset()
         function = self._program.function(name)
-        found = self._outcomes.raised_by(function, cpp.span(statement))
+        every = self._outcomes.raised_by(function, cpp.span(statement))
+        found = {p for p in every if p.why not in UNSAID or p.function not in self._of_known}
         odd = {p for p in found if p.why in UNSAID and p.function == name}
         timers = list(map(cpp.span, _timers(statement))) if odd else []
         within = (p for p in odd for t in timers if t.start <= p.place.start < t.end)
-        return found.difference(within)
+        return frozenset(found.difference(within))
 
     def raised_at_start(self, owner: CppClass, member: str) -> str | None:
         """What an exception is that a class's member may end with where it is made."""

@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_present import Question, is_asked
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
 from rebsync.reverse.syntax.cpp_tree import inside, named, operator_of, part, squeezed, text_of
 
@@ -26,6 +27,7 @@ _KINDS = ("subscript_expression", "pointer_expression", "call_expression", "fiel
 _ENDS = frozenset({"front", "back"})
 _FIRST = re.compile(r"(\w+)\.(?:c?begin|c?rbegin)\(\)")
 _SEARCH = re.compile(r"(?:std::)?(?:find|find_if|lower_bound|upper_bound)\(.*|\w+\.find\(.*")
+_BODIES = ("function_definition", "lambda_expression")
 _GREATEST = re.compile(r"(?:std::)?(?:max|min)_element\((\w+)\.c?begin\(\),.*")
 
 
@@ -75,8 +77,8 @@ class _Lookups:
         name, declared = self._declared(whole)
         index = squeezed(node).removeprefix("this->").removeprefix(name).strip("[]")
         found = _ARRAY.match(declared)
-        if not index.isdecimal():
-            return False  # numbers that are computed are trusted
+        if not index.isdecimal():  # numbers that are computed are trusted, what comes is not
+            return "map<" not in declared and _is_untested_parameter(index, node)
         if found is not None:
             return int(index) >= int(found[1] or found[2])
         is_table = re.search(r"(?:map|set)<", declared.partition("<")[0] + "<") is not None
@@ -109,3 +111,16 @@ class _Lookups:
         stores = r"=(?!=)\s*(?!nullptr|std::nullopt)|\.(?:reset|emplace)\(\S|\{|\("
         sets = re.compile(rf"\b{name}\s*(?:{stores})")
         return any(sets.search(text) for text in self._texts)
+
+
+def _is_untested_parameter(index: str, node: Node) -> bool:
+    """Whether an index is a parameter of the function around, which nothing before it looks at."""
+    function = climb(node, lambda above: above.type in _BODIES)
+    if function is None or not index.isidentifier():
+        return False
+    names = inside(part(function, "declarator"), "parameter_declaration")
+    if not any(index == text_of(n) for p in names for n in inside(p, "identifier")):
+        return False
+    before = text_of(function)[: node.start_byte - function.start_byte]
+    body = before.partition("{")[2]
+    return re.search(rf"\b{index}\b", body) is None

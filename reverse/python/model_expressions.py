@@ -67,6 +67,8 @@ class Expressions(ModelExpressionReader):
                 return float_literal(text_of(node), span)
             case "true" | "false":
                 return m.BoolLiteral(node.type == "true", span)
+            case "string" if not _is_argument(node):
+                raise self.unread(node, "no variable of the model holds a text")
             case "string":
                 return m.StringLiteral(with_escapes(in_double_quotes(text_of(node))), span)
             case "identifier":
@@ -336,3 +338,8 @@ class Expressions(ModelExpressionReader):
 
 
 _SAME = {"is": "==", "is not": "!="}
+
+
+def _is_argument(node: Node) -> bool:
+    """Whether an expression is an argument of a call by its place, as what an assertion says."""
+    return node.parent is not None and node.parent.type == "argument_list"
