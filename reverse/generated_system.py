@@ -15,7 +15,7 @@ from rebsync.package import Value
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED_GLOBALS
 from rebsync.reverse.bodies.cpp_messages import zero_of
-from rebsync.reverse.bodies.cpp_types import class_name, type_of
+from rebsync.reverse.bodies.types.cpp_types import class_name, type_of
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.generated.env_values import (

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.evaluation_order import out_of_order
+from rebsync.reverse.analysis.intervals.evaluation_order import out_of_order
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.build.built import unbuilt
 from rebsync.reverse.build.field_order import in_order
@@ -194,7 +194,7 @@ class _Reading:
         """Lists what launch files in Python do that start generated nodes."""
         sources = self.launched.sources if self.launched is not None else ()
         for source in (s for s in sources if s.path.endswith(".py")):
-            from rebsync.reverse.python.import_effects import list_launch_effects
+            from rebsync.reverse.python.generated.import_effects import list_launch_effects
 
             list_launch_effects(source, self.findings)
 

@@ -8,11 +8,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from rebsync.records import dataclass
 from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.graph import ClientFact, Graph, NodeFact, UnmodelledFact
-from rebsync.reverse.python.body_scope import PyUnit
-from rebsync.reverse.python.body_started import is_module, scripts_of
-from rebsync.reverse.python.body_units import units_of
-from rebsync.reverse.python.py_unmodelled import whole_graph
-from rebsync.reverse.python.py_values import PyValues
+from rebsync.reverse.python.bodies.body_scope import PyUnit
+from rebsync.reverse.python.bodies.body_units import units_of
+from rebsync.reverse.python.nodes.body_started import is_module, scripts_of
+from rebsync.reverse.python.values.py_unmodelled import whole_graph
+from rebsync.reverse.python.values.py_values import PyValues
 from rebsync.reverse.syntax.py_index import PyCode
 from rebsync.reverse.syntax.py_tree import parse
 from rebsync.reverse.values.cpp_values_names import one_of

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from rebsync.records import dataclass
+from rebsync.reverse.analysis.numbers.source_numbers import SourceNumbers
 from rebsync.reverse.analysis.origins import Origins
-from rebsync.reverse.analysis.source_numbers import SourceNumbers
 from rebsync.reverse.analysis.stores import AnyValue, CallResult, Key, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s

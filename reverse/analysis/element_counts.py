@@ -8,7 +8,7 @@ from functools import cached_property
 from rebsync.reverse.analysis.foreign_emptying import ForeignEmptying
 from rebsync.reverse.analysis.held_values import held_by, is_own
 from rebsync.reverse.analysis.origins import FunctionOrigin, LibraryOrigin, Origin, Origins
-from rebsync.reverse.analysis.python_rules import PythonRules
+from rebsync.reverse.analysis.python.python_rules import PythonRules
 from rebsync.reverse.analysis.stores import (
     AnyValue,
     CallResult,

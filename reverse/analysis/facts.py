@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.value_types import ANY_TYPE, ValueTypes
+from rebsync.reverse.analysis.python.value_types import ANY_TYPE, ValueTypes
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir.operators import MIRRORED, Operator
 from rebsync.reverse.ir.walk import walk

@@ -13,9 +13,9 @@ from typing import TypeAlias
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.cpp_facts import CppFacts
-from rebsync.reverse.analysis.enumeration_members import EnumerationMembers
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
 from rebsync.reverse.analysis.program_names import ProgramNames
+from rebsync.reverse.analysis.python.enumeration_members import EnumerationMembers
 from rebsync.reverse.analysis.stores import (
     AnyValue,
     CallResult,

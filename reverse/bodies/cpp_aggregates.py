@@ -13,11 +13,11 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies import cpp_inline
-from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-from rebsync.reverse.bodies.cpp_types import Carried
-from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
 from rebsync.reverse.bodies.scope import Inline, Record, Variable
+from rebsync.reverse.bodies.types.cpp_conversions import type_in
+from rebsync.reverse.bodies.types.cpp_types import Carried
+from rebsync.reverse.bodies.types.cpp_widths import place_of, wide_of
 from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of

@@ -9,12 +9,12 @@ from functools import reduce
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_conversions import operands, type_in
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import resolve
-from rebsync.reverse.bodies.cpp_widths import check_whole, wide_of
-from rebsync.reverse.bodies.known_functions import takes_values
+from rebsync.reverse.bodies.effects.known_functions import takes_values
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.bodies.types.cpp_conversions import operands, type_in
+from rebsync.reverse.bodies.types.cpp_widths import check_whole, wide_of
 from rebsync.reverse.models.building import binary, chosen, is_calm
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_declarations import CppParameter, parameters_in

@@ -10,11 +10,11 @@ from collections.abc import Sequence
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_conversions import converted_to, operands
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader, Exchange
 from rebsync.reverse.bodies.cpp_places import resolve
-from rebsync.reverse.bodies.cpp_widths import check
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.bodies.types.cpp_conversions import converted_to, operands
+from rebsync.reverse.bodies.types.cpp_widths import check
 from rebsync.reverse.models.building import binary
 from rebsync.reverse.syntax.cpp_tree import text_of
 

@@ -9,11 +9,11 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
+from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import Outside, Record, Variable
-from rebsync.reverse.bodies.touches import Touches
+from rebsync.reverse.bodies.types.cpp_conversions import type_in
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 

@@ -11,7 +11,6 @@ from rebsync import precedence
 from rebsync.reverse.bodies import cpp_idioms, cpp_mailbox
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import element_of, is_this
-from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.scope import (
     Around,
@@ -23,6 +22,7 @@ from rebsync.reverse.bodies.scope import (
     Sends,
     is_another,
 )
+from rebsync.reverse.bodies.types.cpp_types import class_name
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
 _OPERATIONS = {

@@ -5,9 +5,9 @@ from __future__ import annotations
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
-from rebsync.reverse.bodies.cpp_types import Carried, is_time
+from rebsync.reverse.bodies.types.cpp_conversions import type_in
+from rebsync.reverse.bodies.types.cpp_types import Carried, is_time
 from rebsync.reverse.models.building import bare
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.static.constants import constant

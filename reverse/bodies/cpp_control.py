@@ -9,8 +9,8 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_locals, cpp_loops, cpp_plain_locals, cpp_special
-from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
+from rebsync.reverse.bodies.effects.cpp_effects import Effects
 from rebsync.reverse.bodies.scope import Outside, Record, Variable
 from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_effects import Effects
-from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
-from rebsync.reverse.bodies.cpp_roots import is_modelled, root
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
+from rebsync.reverse.bodies.effects.cpp_effects import Effects
+from rebsync.reverse.bodies.effects.cpp_kinds import SHORT_CIRCUIT
+from rebsync.reverse.bodies.effects.cpp_roots import is_modelled, root
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 

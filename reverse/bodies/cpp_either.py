@@ -14,8 +14,8 @@ from rebsync import model as m
 from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, only_value, taken_apart
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_places import resolve
-from rebsync.reverse.bodies.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
+from rebsync.reverse.bodies.effects.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_tree import part, text_of

@@ -5,12 +5,12 @@ from __future__ import annotations
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_conversions import converted_to, operands, place_of
 from rebsync.reverse.bodies.cpp_expression_reader import Exchange
-from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-from rebsync.reverse.bodies.cpp_widths import check
+from rebsync.reverse.bodies.effects.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.bodies.types.cpp_conversions import converted_to, operands, place_of
+from rebsync.reverse.bodies.types.cpp_widths import check
 from rebsync.reverse.models.building import bare, binary, is_calm, is_place
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 

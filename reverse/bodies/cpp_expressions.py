@@ -13,30 +13,19 @@ from rebsync.records import dataclass
 from rebsync.reverse.bodies import (
     cpp_algorithms,
     cpp_called,
-    cpp_casts,
     cpp_idioms,
     cpp_mailbox,
     cpp_pointers,
     cpp_texts,
-    cpp_widths,
 )
 from rebsync.reverse.bodies.cpp_constants import of_constant
-from rebsync.reverse.bodies.cpp_conversions import (
-    alternatives,
-    as_number,
-    converted_to,
-    operands,
-    place_of,
-    type_in,
-)
-from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader, Exchange
-from rebsync.reverse.bodies.cpp_literals import in_range, is_bare_macro, literal, text_in
 from rebsync.reverse.bodies.cpp_misread import Chain, ChainOperand, Operation, chain_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_stores import kept
 from rebsync.reverse.bodies.cpp_time import written
 from rebsync.reverse.bodies.cpp_unknowns import HINT, Unknown, choice, domain_near
+from rebsync.reverse.bodies.effects.cpp_effects import Effects
 from rebsync.reverse.bodies.scope import (
     Inline,
     Itself,
@@ -49,6 +38,16 @@ from rebsync.reverse.bodies.scope import (
     Variable,
 )
 from rebsync.reverse.bodies.serving import Serves
+from rebsync.reverse.bodies.types import cpp_casts, cpp_widths
+from rebsync.reverse.bodies.types.cpp_conversions import (
+    alternatives,
+    as_number,
+    converted_to,
+    operands,
+    place_of,
+    type_in,
+)
+from rebsync.reverse.bodies.types.cpp_literals import in_range, is_bare_macro, literal, text_in
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import binary, is_calm, is_place, tight
 from rebsync.reverse.models.texts import TEXT, text_literal

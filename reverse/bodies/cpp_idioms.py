@@ -11,15 +11,15 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_algorithms, cpp_atomics, cpp_optional_calls, cpp_texts
-from rebsync.reverse.bodies.cpp_conversions import as_number, operands, type_in
-from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader, Exchange
-from rebsync.reverse.bodies.cpp_literals import lower
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_time import is_flat, time_called, to_seconds
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
-from rebsync.reverse.bodies.cpp_widths import check_whole, check_wide_call
+from rebsync.reverse.bodies.effects.cpp_effects import Effects
 from rebsync.reverse.bodies.scope import Called, Record, Variable
+from rebsync.reverse.bodies.types.cpp_conversions import as_number, operands, type_in
+from rebsync.reverse.bodies.types.cpp_literals import lower
+from rebsync.reverse.bodies.types.cpp_widths import check_whole, check_wide_call
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind

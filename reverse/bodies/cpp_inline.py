@@ -8,19 +8,16 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_aliases, cpp_captures, cpp_idioms, cpp_sequencing
-from rebsync.reverse.bodies.cpp_conversions import as_boolean, type_in
-from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies import cpp_idioms, cpp_sequencing
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_pointer_parameters import check_pointer
-from rebsync.reverse.bodies.cpp_return_types import return_type
-from rebsync.reverse.bodies.cpp_roots import is_element
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-from rebsync.reverse.bodies.cpp_types import Carried
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
-from rebsync.reverse.bodies.cpp_widths import place_of
-from rebsync.reverse.bodies.known_functions import is_matrix
+from rebsync.reverse.bodies.effects import cpp_captures
+from rebsync.reverse.bodies.effects.cpp_effects import Effects
+from rebsync.reverse.bodies.effects.cpp_roots import is_element
+from rebsync.reverse.bodies.effects.known_functions import is_matrix
 from rebsync.reverse.bodies.returns import without_returns
 from rebsync.reverse.bodies.scope import (
     Inline,
@@ -34,6 +31,11 @@ from rebsync.reverse.bodies.scope import (
     Variable,
 )
 from rebsync.reverse.bodies.serving import Serves
+from rebsync.reverse.bodies.types import cpp_aliases
+from rebsync.reverse.bodies.types.cpp_conversions import as_boolean, type_in
+from rebsync.reverse.bodies.types.cpp_return_types import return_type
+from rebsync.reverse.bodies.types.cpp_types import Carried
+from rebsync.reverse.bodies.types.cpp_widths import place_of
 from rebsync.reverse.models.building import bare, cast, is_calm, is_effect
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppParameter

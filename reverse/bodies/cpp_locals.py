@@ -12,28 +12,28 @@ from rebsync import model as m
 from rebsync.reverse.bodies import (
     cpp_aggregates,
     cpp_bindings,
-    cpp_captures,
     cpp_messages,
     cpp_optionals,
     cpp_plain_locals,
 )
-from rebsync.reverse.bodies.cpp_call_effects import check_object
-from rebsync.reverse.bodies.cpp_conversions import converted_to, type_in
 from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, number_of, only_value, taken_apart
-from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_misparsed import check_misparsed
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_references import is_made, is_made_pointer, message_of, stays
-from rebsync.reverse.bodies.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import seconds_of
-from rebsync.reverse.bodies.cpp_types import Carried
-from rebsync.reverse.bodies.cpp_unset_locals import SCALARS, UNSET, may_be_unset
-from rebsync.reverse.bodies.cpp_widths import place_of, wide_of
-from rebsync.reverse.bodies.known_functions import is_matrix, type_takes_values
+from rebsync.reverse.bodies.effects import cpp_captures
+from rebsync.reverse.bodies.effects.cpp_call_effects import check_object
+from rebsync.reverse.bodies.effects.cpp_effects import Effects
+from rebsync.reverse.bodies.effects.cpp_roots import specifiers_of
+from rebsync.reverse.bodies.effects.cpp_unset_locals import SCALARS, UNSET, may_be_unset
+from rebsync.reverse.bodies.effects.known_functions import is_matrix, type_takes_values
+from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
-from rebsync.reverse.bodies.touches import Touches
+from rebsync.reverse.bodies.types.cpp_conversions import converted_to, type_in
+from rebsync.reverse.bodies.types.cpp_types import Carried
+from rebsync.reverse.bodies.types.cpp_widths import place_of, wide_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.models.texts import TEXT, is_constant

@@ -10,9 +10,9 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_special
 from rebsync.reverse.bodies.cpp_algorithms import plain_type, whole_array
-from rebsync.reverse.bodies.cpp_conversions import converted_to, place_of, type_in
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.bodies.types.cpp_conversions import converted_to, place_of, type_in
 from rebsync.reverse.models.building import binary, negated
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of

@@ -11,11 +11,11 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync import precedence
 from rebsync.names import original
-from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.overloads import HINT, WHY, telling
 from rebsync.reverse.bodies.scope import Record, Runtime, Scope, Sends, Variable
+from rebsync.reverse.bodies.types.cpp_conversions import type_in
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.syntax.cpp_calls import string_of

@@ -11,14 +11,12 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_mailbox, overloads
-from rebsync.reverse.bodies.cpp_conversions import converted_to, type_in
-from rebsync.reverse.bodies.cpp_effects import Effects
 from rebsync.reverse.bodies.cpp_places import field_of, resolve
 from rebsync.reverse.bodies.cpp_pointers import check_shared, is_null, pointed, points
-from rebsync.reverse.bodies.cpp_roots import path_in
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-from rebsync.reverse.bodies.cpp_types import wider
 from rebsync.reverse.bodies.cpp_unknowns import HINT, Demote, Unknown, choice, domain_near
+from rebsync.reverse.bodies.effects.cpp_effects import Effects
+from rebsync.reverse.bodies.effects.cpp_roots import path_in
 from rebsync.reverse.bodies.overloads import plain, telling
 from rebsync.reverse.bodies.scope import (
     Called,
@@ -30,6 +28,8 @@ from rebsync.reverse.bodies.scope import (
     Variable,
     of_width,
 )
+from rebsync.reverse.bodies.types.cpp_conversions import converted_to, type_in
+from rebsync.reverse.bodies.types.cpp_types import wider
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind

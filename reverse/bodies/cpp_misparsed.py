@@ -9,9 +9,9 @@ from functools import cache
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_call_effects import is_calm
-from rebsync.reverse.bodies.cpp_effect_reader import EffectReader
-from rebsync.reverse.bodies.cpp_undefined import is_library
+from rebsync.reverse.bodies.effects.cpp_call_effects import is_calm
+from rebsync.reverse.bodies.effects.cpp_effect_reader import EffectReader
+from rebsync.reverse.bodies.effects.cpp_undefined import is_library
 from rebsync.reverse.bodies.scope import Called, Ignored, Inline, meant_by
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes

@@ -8,9 +8,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_mailbox
-from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Record, Variable
+from rebsync.reverse.bodies.types.cpp_conversions import type_in
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.static.types import INT, converts, is_integer

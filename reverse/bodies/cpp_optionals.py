@@ -11,13 +11,13 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_messages, cpp_texts
-from rebsync.reverse.bodies.cpp_conversions import converted_to, type_in
 from rebsync.reverse.bodies.cpp_places import HELD, resolve
 from rebsync.reverse.bodies.cpp_pointers import is_null, points
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-from rebsync.reverse.bodies.cpp_types import arguments_of
-from rebsync.reverse.bodies.cpp_widths import check_stored, place_of
 from rebsync.reverse.bodies.scope import Record, Variable
+from rebsync.reverse.bodies.types.cpp_conversions import converted_to, type_in
+from rebsync.reverse.bodies.types.cpp_types import arguments_of
+from rebsync.reverse.bodies.types.cpp_widths import check_stored, place_of
 from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named

@@ -9,10 +9,10 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_messages
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-from rebsync.reverse.bodies.cpp_types import type_of
-from rebsync.reverse.bodies.cpp_unset_locals import SCALARS, UNSET, may_be_unset
+from rebsync.reverse.bodies.effects.cpp_unset_locals import SCALARS, UNSET, may_be_unset
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.bodies.shared import WORDS
+from rebsync.reverse.bodies.types.cpp_types import type_of
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
 from rebsync.source import Span
 

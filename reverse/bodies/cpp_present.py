@@ -12,7 +12,7 @@ from enum import Enum
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_kinds import LOOPS
+from rebsync.reverse.bodies.effects.cpp_kinds import LOOPS
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_tree import named, operator_of, text_of
 

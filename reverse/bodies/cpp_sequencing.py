@@ -14,11 +14,16 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_effects import touching
-from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
-from rebsync.reverse.bodies.cpp_roots import declared_in, identifiers_in, parameters_of, root
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-from rebsync.reverse.bodies.known_functions import may_change
+from rebsync.reverse.bodies.effects.cpp_effects import touching
+from rebsync.reverse.bodies.effects.cpp_kinds import SHORT_CIRCUIT
+from rebsync.reverse.bodies.effects.cpp_roots import (
+    declared_in,
+    identifiers_in,
+    parameters_of,
+    root,
+)
+from rebsync.reverse.bodies.effects.known_functions import may_change
 from rebsync.reverse.bodies.scope import (
     Called,
     Inline,

@@ -19,16 +19,15 @@ from rebsync.reverse.bodies import (
     cpp_texts,
     cpp_timers,
 )
-from rebsync.reverse.bodies.cpp_call_effects import check_operator
-from rebsync.reverse.bodies.cpp_conversions import as_boolean, as_number, converted_to, place_of
-from rebsync.reverse.bodies.cpp_effects import Effects, touching
-from rebsync.reverse.bodies.cpp_failing import failing
-from rebsync.reverse.bodies.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import pause, units
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
-from rebsync.reverse.bodies.cpp_widths import check_whole
+from rebsync.reverse.bodies.effects.cpp_call_effects import check_operator
+from rebsync.reverse.bodies.effects.cpp_effects import Effects, touching
+from rebsync.reverse.bodies.effects.cpp_failing import failing
+from rebsync.reverse.bodies.effects.cpp_kinds import SHORT_CIRCUIT
+from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import (
     Called,
     Inline,
@@ -40,7 +39,13 @@ from rebsync.reverse.bodies.scope import (
     Variable,
     meant_by,
 )
-from rebsync.reverse.bodies.touches import Touches
+from rebsync.reverse.bodies.types.cpp_conversions import (
+    as_boolean,
+    as_number,
+    converted_to,
+    place_of,
+)
+from rebsync.reverse.bodies.types.cpp_widths import check_whole
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind

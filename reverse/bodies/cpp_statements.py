@@ -9,15 +9,13 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.evaluation_order import note_body
+from rebsync.reverse.analysis.intervals.evaluation_order import note_body
 from rebsync.reverse.bodies import (
-    cpp_aliases,
     cpp_arrays,
     cpp_control,
     cpp_counts,
     cpp_either,
     cpp_exchange,
-    cpp_failing,
     cpp_inline,
     cpp_locals,
     cpp_loops,
@@ -30,18 +28,20 @@ from rebsync.reverse.bodies import (
     cpp_unsaid_failures,
     cpp_users,
 )
-from rebsync.reverse.bodies.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.cpp_expression_reader import Exchange
 from rebsync.reverse.bodies.cpp_expressions import MOVE
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_unknowns import Demote, Unknown
+from rebsync.reverse.bodies.effects import cpp_failing
+from rebsync.reverse.bodies.effects.cpp_effects import Effects, touching
+from rebsync.reverse.bodies.effects.touches import Touches
+from rebsync.reverse.bodies.effects.unknown_names import UnknownNames
 from rebsync.reverse.bodies.made_locals import tidied
 from rebsync.reverse.bodies.scope import Inline, Lambda, Meaning, Scope, Stores
 from rebsync.reverse.bodies.shared import WORDS
-from rebsync.reverse.bodies.touches import Touches
-from rebsync.reverse.bodies.unknown_names import UnknownNames
-from rebsync.reverse.bodies.wide_locals import broken_locals
+from rebsync.reverse.bodies.types import cpp_aliases
+from rebsync.reverse.bodies.types.wide_locals import broken_locals
 from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import cell, is_calm, is_effect

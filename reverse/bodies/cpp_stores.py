@@ -5,9 +5,9 @@ from __future__ import annotations
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_conversions import converted_to, is_truth
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.bodies.types.cpp_conversions import converted_to, is_truth
 from rebsync.reverse.findings import Unread
 from rebsync.static.types import BOOLEAN
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_conversions import place_of
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.bodies.types.cpp_conversions import place_of
 from rebsync.reverse.models.building import bare, is_calm, is_place
 from rebsync.reverse.syntax.cpp_calls import call_of
 

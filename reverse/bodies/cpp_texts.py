@@ -7,11 +7,11 @@ from collections.abc import Iterable, Sequence
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import resolve
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.scope import Record, Scope, Variable
+from rebsync.reverse.bodies.types.cpp_conversions import type_in
 from rebsync.reverse.models.building import bare, is_calm, negated
 from rebsync.reverse.models.texts import TEXT, is_constant, is_plain, same, text_literal
 from rebsync.reverse.syntax.cpp_calls import call_of

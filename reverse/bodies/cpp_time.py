@@ -7,12 +7,12 @@ from fractions import Fraction
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_conversions import type_in
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_places import resolve
-from rebsync.reverse.bodies.cpp_widths import check_whole
 from rebsync.reverse.bodies.scope import Variable
+from rebsync.reverse.bodies.types.cpp_conversions import type_in
+from rebsync.reverse.bodies.types.cpp_widths import check_whole
 from rebsync.reverse.findings import NotWhole, Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind

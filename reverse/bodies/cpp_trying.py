@@ -8,9 +8,9 @@ from collections.abc import Iterator, Sequence
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_effects import touching
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.bodies.effects.cpp_effects import touching
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, is_calm
 from rebsync.reverse.syntax.cpp_calls import calls_in

@@ -9,11 +9,11 @@ from collections.abc import Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_effects import Effects
-from rebsync.reverse.bodies.cpp_failing import may_fail
 from rebsync.reverse.bodies.cpp_plain_locals import declared_names
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-from rebsync.reverse.bodies.known_functions import UNUSED
+from rebsync.reverse.bodies.effects.cpp_effects import Effects
+from rebsync.reverse.bodies.effects.cpp_failing import may_fail
+from rebsync.reverse.bodies.effects.known_functions import UNUSED
 from rebsync.reverse.bodies.scope import Ignored
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind

@@ -14,10 +14,10 @@ from tree_sitter import Node
 from rebsync.model import Expression, Name, Statement, Type
 from rebsync.records import dataclass
 from rebsync.reserved import RESERVED, uncarry_local
-from rebsync.reverse.bodies.calm import Calm
-from rebsync.reverse.bodies.cpp_form import CppForm
-from rebsync.reverse.bodies.cpp_types import Carried, carried
+from rebsync.reverse.bodies.effects.calm import Calm
+from rebsync.reverse.bodies.effects.cpp_form import CppForm
 from rebsync.reverse.bodies.serving import Serves
+from rebsync.reverse.bodies.types.cpp_types import Carried, carried
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of

@@ -10,10 +10,10 @@ from collections.abc import Iterator, Mapping
 
 from rebsync import model as m
 from rebsync.intervals import Interval
-from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
+from rebsync.reverse.analysis.intervals.interval_analysis import IntervalAnalysis
 from rebsync.reverse.bodies.scope import Scope
 from rebsync.reverse.bodies.shared import Shared
-from rebsync.reverse.bodies.wide_locals import ranges_of, variables_in
+from rebsync.reverse.bodies.types.wide_locals import ranges_of, variables_in
 from rebsync.reverse.findings import Unread
 from rebsync.source import Span
 

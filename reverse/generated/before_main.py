@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.known_functions import acts, is_known, starts_nothing
+from rebsync.reverse.bodies.effects.known_functions import acts, is_known, starts_nothing
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.generated.ros1_hand import is_passive
 from rebsync.reverse.generated.ros1_idle import working

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_unset_locals import may_reach_end
+from rebsync.reverse.bodies.effects.cpp_unset_locals import may_reach_end
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import assigned_in

@@ -11,10 +11,10 @@ import re
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_call_effects import is_calm
-from rebsync.reverse.bodies.cpp_effects import Effects
+from rebsync.reverse.bodies.effects.cpp_call_effects import is_calm
+from rebsync.reverse.bodies.effects.cpp_effects import Effects
+from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import Called, Inline, Outside, Scope, Variable, meant_by
-from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros1_names import declared_type

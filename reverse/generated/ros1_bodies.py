@@ -10,7 +10,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.evaluation_order import note_body
+from rebsync.reverse.analysis.intervals.evaluation_order import note_body
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
 from rebsync.reverse.bodies.cpp_references import is_made
 from rebsync.reverse.bodies.cpp_statements import CppStatements

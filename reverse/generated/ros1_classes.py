@@ -11,11 +11,11 @@ from rebsync import model as m
 from rebsync.names import carry, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_CLASSES, RESERVED
-from rebsync.reverse.bodies.cpp_form import CppForm
-from rebsync.reverse.bodies.cpp_types import class_name
+from rebsync.reverse.bodies.effects.cpp_form import CppForm
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.bodies.runtime_part import runtime_part
 from rebsync.reverse.bodies.scope import Around, Called, Function, Ignored, Member, Scope
+from rebsync.reverse.bodies.types.cpp_types import class_name
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.own_parameters import with_own
 from rebsync.reverse.generated.receivers import known_rebecs

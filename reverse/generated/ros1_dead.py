@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterator, Mapping
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_users import is_logging
-from rebsync.reverse.bodies.known_functions import is_known
+from rebsync.reverse.bodies.effects.known_functions import is_known
 from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros2_words import constant_of_model, known_rebec
 from rebsync.reverse.libraries import cpp as libraries

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 
 from rebsync.reserved import RUNTIME_FUNCTIONS
-from rebsync.reverse.bodies.cpp_types import type_of
+from rebsync.reverse.bodies.types.cpp_types import type_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 
 _NONE: Mapping[str, CppFunction] = MappingProxyType({})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.known_functions import takes_values
+from rebsync.reverse.bodies.effects.known_functions import takes_values
 from rebsync.reverse.generated.ros2_words import ASKS
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind

@@ -10,8 +10,8 @@ from tree_sitter import Node
 from rebsync.model import Type
 from rebsync.names import carry, free_name, uncarry
 from rebsync.reserved import RESERVED, RESERVED_GLOBALS, RUNTIME_MEMBERS
-from rebsync.reverse.bodies.cpp_types import Carried, carried, type_of
 from rebsync.reverse.bodies.scope import Called, Runtime
+from rebsync.reverse.bodies.types.cpp_types import Carried, carried, type_of
 from rebsync.reverse.generated.own_parameters import Stored
 from rebsync.reverse.generated.ros1_roles import Roles
 from rebsync.reverse.generated.ros2_words import message_name

@@ -9,7 +9,7 @@ from tree_sitter import Node
 
 from rebsync.package import Value
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_types import type_of
+from rebsync.reverse.bodies.types.cpp_types import type_of
 from rebsync.reverse.generated.env_values import constant
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
 from rebsync.reverse.generated.parameters import DECLARES, MOST_DECLARED

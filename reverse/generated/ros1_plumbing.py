@@ -11,9 +11,9 @@ from collections.abc import Callable, Collection, Container, Iterable, Iterator,
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_form import CppForm
-from rebsync.reverse.bodies.cpp_lookups import unsure_lookups
 from rebsync.reverse.bodies.cpp_users import is_logging
+from rebsync.reverse.bodies.effects.cpp_form import CppForm
+from rebsync.reverse.bodies.effects.cpp_lookups import unsure_lookups
 from rebsync.reverse.bodies.scope import Scope
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.annotations import best_priority

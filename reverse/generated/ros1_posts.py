@@ -12,9 +12,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.overloads import Served, Signature, plain
 from rebsync.reverse.bodies.scope import Sends
+from rebsync.reverse.bodies.types.cpp_types import class_name
 from rebsync.reverse.generated.annotations import PRIORITIES
 from rebsync.reverse.generated.ros1_annotations import set_up_of
 from rebsync.reverse.generated.ros1_descriptors import priority_of, server_of, tells_priority

@@ -13,9 +13,9 @@ from tree_sitter import Node
 
 from rebsync.names import uncarry
 from rebsync.reserved import RUNTIME_CLASSES, RUNTIME_TOPICS
-from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.overloads import Served, Signature, plain
 from rebsync.reverse.bodies.scope import Sends
+from rebsync.reverse.bodies.types.cpp_types import class_name
 from rebsync.reverse.generated.ros1_descriptors import server_of
 from rebsync.reverse.generated.ros1_idle import working
 from rebsync.reverse.generated.ros1_names import declared_type

@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
+from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
 from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.generated.ros1_meanings import is_runtime_header

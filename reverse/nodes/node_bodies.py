@@ -9,12 +9,11 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.calm import Calm, Sure
 from rebsync.reverse.bodies.cpp_expressions import CppExpressions
-from rebsync.reverse.bodies.cpp_form import CppForm
-from rebsync.reverse.bodies.cpp_regions import Regions
 from rebsync.reverse.bodies.cpp_statements import CppStatements
-from rebsync.reverse.bodies.cpp_types import carried
+from rebsync.reverse.bodies.effects.calm import Calm, Sure
+from rebsync.reverse.bodies.effects.cpp_form import CppForm
+from rebsync.reverse.bodies.effects.cpp_regions import Regions
 from rebsync.reverse.bodies.scope import (
     Function,
     Lambda,
@@ -30,6 +29,7 @@ from rebsync.reverse.bodies.scope import (
     Variable,
 )
 from rebsync.reverse.bodies.serving import Serves
+from rebsync.reverse.bodies.types.cpp_types import carried
 from rebsync.reverse.build.message_types import Fields
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (

@@ -11,12 +11,13 @@ from typing import TypeAlias
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.outcomes import RECURSES
-from rebsync.reverse.bodies.calm import Calm
-from rebsync.reverse.bodies.cpp_call_effects import check_object
-from rebsync.reverse.bodies.cpp_effects import Effects
-from rebsync.reverse.bodies.cpp_roots import is_modelled, root
-from rebsync.reverse.bodies.known_functions import may_change
+from rebsync.reverse.analysis.outcomes.outcomes import RECURSES
+from rebsync.reverse.bodies.effects.calm import Calm
+from rebsync.reverse.bodies.effects.cpp_call_effects import check_object
+from rebsync.reverse.bodies.effects.cpp_effects import Effects
+from rebsync.reverse.bodies.effects.cpp_roots import is_modelled, root
+from rebsync.reverse.bodies.effects.known_functions import may_change
+from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import (
     Called,
     Function,
@@ -27,7 +28,6 @@ from rebsync.reverse.bodies.scope import (
     Scope,
     Variable,
 )
-from rebsync.reverse.bodies.touches import Touches
 from rebsync.reverse.calls.beside import used_names
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries

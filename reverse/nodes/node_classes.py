@@ -8,10 +8,10 @@ from typing import TypeVar
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_conversions import converted_to
-from rebsync.reverse.bodies.cpp_effects import touching
 from rebsync.reverse.bodies.cpp_timers import stale_messages, without_stale
 from rebsync.reverse.bodies.cpp_unknowns import choice
+from rebsync.reverse.bodies.effects.cpp_effects import touching
+from rebsync.reverse.bodies.types.cpp_conversions import converted_to
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import TimerFact
 from rebsync.reverse.models.rewriting import STATEMENTS, rewritten

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_roots import identifiers_in
+from rebsync.reverse.bodies.effects.cpp_roots import identifiers_in
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_effects import touching
+from rebsync.reverse.bodies.effects.cpp_effects import touching
 from rebsync.reverse.bodies.scope import Called, Inline, Scope
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_programs import NodeObject

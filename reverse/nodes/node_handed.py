@@ -13,7 +13,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_messages import is_pointer
-from rebsync.reverse.bodies.cpp_pointees import is_only_read, leads_to, made_in
+from rebsync.reverse.bodies.effects.cpp_pointees import is_only_read, leads_to, made_in
 from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind

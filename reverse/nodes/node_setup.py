@@ -10,10 +10,10 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.package import Value
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_roots import identifiers_in
 from rebsync.reverse.bodies.cpp_timers import SWITCHING, again, started
-from rebsync.reverse.bodies.cpp_types import carried
+from rebsync.reverse.bodies.effects.cpp_roots import identifiers_in
 from rebsync.reverse.bodies.scope import Outside, Stores, Switch, TimerOf, Variable
+from rebsync.reverse.bodies.types.cpp_types import carried
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.graph import (
     ClientFact,

@@ -7,7 +7,7 @@ from dataclasses import field
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_types import carried
+from rebsync.reverse.bodies.types.cpp_types import carried
 from rebsync.reverse.nodes.node_views import is_header
 from rebsync.reverse.syntax.cpp_declarations import with_defaults
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction

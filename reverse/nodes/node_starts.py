@@ -9,7 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_roots import identifiers_in
+from rebsync.reverse.bodies.effects.cpp_roots import identifiers_in
 from rebsync.reverse.bodies.scope import Itself, Member, Outside, Stores
 from rebsync.reverse.graph import TimerFact
 from rebsync.reverse.libraries import cpp as libraries

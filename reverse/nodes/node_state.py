@@ -11,13 +11,13 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.bodies.cpp_messages import is_pointer, zero_of
 from rebsync.reverse.bodies.cpp_places import HELD
-from rebsync.reverse.bodies.cpp_pointees import is_changed
 from rebsync.reverse.bodies.cpp_pointers import is_null, is_tested
-from rebsync.reverse.bodies.cpp_types import Carried, arguments_of, carried, is_time, wider
 from rebsync.reverse.bodies.cpp_unknowns import domain_near
-from rebsync.reverse.bodies.cpp_widths import place_of
-from rebsync.reverse.bodies.known_functions import is_matrix
+from rebsync.reverse.bodies.effects.cpp_pointees import is_changed
+from rebsync.reverse.bodies.effects.known_functions import is_matrix
 from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variable
+from rebsync.reverse.bodies.types.cpp_types import Carried, arguments_of, carried, is_time, wider
+from rebsync.reverse.bodies.types.cpp_widths import place_of
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.models.texts import TEXT

@@ -10,8 +10,8 @@ from rebsync import model as m
 from rebsync.config import FILE_NAME, parse_config
 from rebsync.literals import literal_of
 from rebsync.records import dataclass
-from rebsync.reverse.bodies.cpp_types import class_name
 from rebsync.reverse.bodies.scope import Target
+from rebsync.reverse.bodies.types.cpp_types import class_name
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.graph import Fact, Graph, PublisherFact, SubscriptionFact

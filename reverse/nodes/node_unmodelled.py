@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.intervals import TRUTH, Interval, signed, unsigned
-from rebsync.reverse.bodies.cpp_ranges import range_of
+from rebsync.reverse.bodies.types.cpp_ranges import range_of
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_namespaces import note_namespaces
 from rebsync.reverse.nodes.node_units import Unit

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from rebsync import model as m
 from rebsync.intervals import ANY, Interval, around, unsigned
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
+from rebsync.reverse.analysis.intervals.interval_analysis import IntervalAnalysis
 from rebsync.reverse.bodies.scope import WIDE
-from rebsync.reverse.bodies.wide_locals import ranges_of, variables_in
+from rebsync.reverse.bodies.types.wide_locals import ranges_of, variables_in
 from rebsync.reverse.nodes.node_bodies import Bodies
 
 

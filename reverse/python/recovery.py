@@ -30,23 +30,23 @@ from rebsync.reverse.graph import (
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_joined import Part
 from rebsync.reverse.nodes.node_system import unit_of_time
-from rebsync.reverse.python.body_started import Started, entries_of, is_module, scripts_of
-from rebsync.reverse.python.body_system import PyNodes, PySystem
-from rebsync.reverse.python.import_effects import (
+from rebsync.reverse.python.generated.import_effects import (
     list_definition_effects,
     list_import_effects,
     list_setup_effects,
 )
-from rebsync.reverse.python.model_classes import ModelClasses
-from rebsync.reverse.python.model_env import integer_constants
-from rebsync.reverse.python.model_parameters import constant, parameter_read
-from rebsync.reverse.python.model_types import class_name
-from rebsync.reverse.python.py_calls import owner_of
-from rebsync.reverse.python.py_hooks import hooks_in
-from rebsync.reverse.python.py_unmodelled import whole_graph
-from rebsync.reverse.python.py_values import PyValues
-from rebsync.reverse.python.runtime_files import is_runtime_file
-from rebsync.reverse.python.sensor_effects import list_sensor_effects
+from rebsync.reverse.python.generated.model_classes import ModelClasses
+from rebsync.reverse.python.generated.model_env import integer_constants
+from rebsync.reverse.python.generated.model_parameters import constant, parameter_read
+from rebsync.reverse.python.generated.model_types import class_name
+from rebsync.reverse.python.generated.sensor_effects import list_sensor_effects
+from rebsync.reverse.python.nodes.body_started import Started, entries_of, is_module, scripts_of
+from rebsync.reverse.python.nodes.body_system import PyNodes, PySystem
+from rebsync.reverse.python.values.py_calls import owner_of
+from rebsync.reverse.python.values.py_hooks import hooks_in
+from rebsync.reverse.python.values.py_unmodelled import whole_graph
+from rebsync.reverse.python.values.py_values import PyValues
+from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import PyCode
 from rebsync.reverse.syntax.py_tree import field, named, parse, text_of, unparsed
 from rebsync.source import Source

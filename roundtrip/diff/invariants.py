@@ -7,7 +7,7 @@ from functools import reduce
 
 from rebsync import model as m
 from rebsync.intervals import INTEGERS, Interval, exactly
-from rebsync.reverse.analysis.invariants import Body, BodyStart, between_messages
+from rebsync.reverse.analysis.intervals.invariants import Body, BodyStart, between_messages
 from rebsync.static import Analysis
 
 

@@ -76,7 +76,7 @@ def _reader(path: str, text: str) -> _Reader | None:
 
         return cpp_units
     if path.endswith(".py") or (text.startswith("#!") and "python" in text.partition("\n")[0]):
-        from rebsync.reverse.python.py_units import py_units
+        from rebsync.reverse.python.values.py_units import py_units
 
         return py_units
     return None

@@ -39,7 +39,7 @@ def _leaf(ours: CodeUnit, base: CodeUnit, theirs: CodeUnit, labels: tuple[str, s
     gap = new_gap if gap == old_gap else gap
     merged = merged_text(mine, old, new, labels)
     if merged.conflicts and ours.names and theirs.names:
-        from rebsync.reverse.python.py_import_sets import merged_imports
+        from rebsync.reverse.python.values.py_import_sets import merged_imports
 
         joined = merged_imports(mine, old, new)
         merged = merged if joined is None else MergedText(joined)

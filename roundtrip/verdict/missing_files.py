@@ -12,7 +12,7 @@ from rebsync.files import read_source
 from rebsync.reverse.files.packages import MANIFEST
 from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.files.stores import Disk, join
-from rebsync.reverse.python.unbound import unbound_names
+from rebsync.reverse.python.generated.unbound import unbound_names
 from rebsync.roundtrip.package.managed import ManagedPackage
 from rebsync.roundtrip.package.manifest import BASE
 from rebsync.roundtrip.package.record import Record

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rebsync.reverse.python.py_units import py_units
+from rebsync.reverse.python.values.py_units import py_units
 from rebsync.reverse.syntax.code_units import CodeUnit
 from rebsync.reverse.syntax.cpp_units import cpp_units
 from rebsync.roundtrip.merge.source import merged_source

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rebsync.reverse.analysis.fixpoint import Equation, LeastFixpoint, in_cycles
-from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
+from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
 from rebsync.reverse.ir.cpp.lowering import program_of
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language

@@ -16,9 +16,9 @@ from hypothesis import strategies as st
 from rebsync import model as m
 from rebsync.intervals import ANY, Interval
 from rebsync.printing import print_expression, print_statement
-from rebsync.reverse.analysis.interval_analysis import IntervalAnalysis
-from rebsync.reverse.analysis.invariants import Body, BodyStart, unbounded
-from rebsync.reverse.analysis.needs import Need
+from rebsync.reverse.analysis.intervals.interval_analysis import IntervalAnalysis
+from rebsync.reverse.analysis.intervals.invariants import Body, BodyStart, unbounded
+from rebsync.reverse.analysis.intervals.needs import Need
 from rebsync.reverse.models.rewriting import rewritten
 from tests.reverse.analysis.drawing import BITS, LENGTH, STATE, bodies, type_of, widths
 from tests.reverse.analysis.running import Run, Stop, bits_of, is_int

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from rebsync.reverse.analysis.outcomes import OutcomeAnalysis
+from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
 from rebsync.reverse.ir.cpp.lowering import program_of
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes

@@ -8,8 +8,8 @@ from pathlib import Path
 from rebsync import model as m
 from rebsync.grammars.parser import parse_model
 from rebsync.printing import print_model
-from rebsync.reverse.bodies.cpp_form import CppForm
 from rebsync.reverse.bodies.cpp_statements import CppStatements
+from rebsync.reverse.bodies.effects.cpp_form import CppForm
 from rebsync.reverse.bodies.scope import (
     Called,
     Inline,

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.reverse.bodies.cpp_pointees import is_changed
+from rebsync.reverse.bodies.effects.cpp_pointees import is_changed
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.source import Source

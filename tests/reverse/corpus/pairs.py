@@ -18,7 +18,7 @@ from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.files.reading import Chosen, packages
 from rebsync.reverse.graph_json import graph_data
-from rebsync.reverse.python.py_calls import graph_of as python_graph
+from rebsync.reverse.python.values.py_calls import graph_of as python_graph
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.reverse.syntax.py_index import PyCode

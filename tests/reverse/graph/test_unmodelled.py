@@ -9,8 +9,8 @@ import pytest
 
 from rebsync.reverse.calls.ros_calls import graph_of
 from rebsync.reverse.graph import Graph, UnmodelledFact
-from rebsync.reverse.python.py_unmodelled import whole_graph
-from rebsync.reverse.python.py_values import PyValues
+from rebsync.reverse.python.values.py_unmodelled import whole_graph
+from rebsync.reverse.python.values.py_values import PyValues
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.reverse.syntax.py_index import PyCode

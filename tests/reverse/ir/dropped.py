@@ -17,7 +17,7 @@ from pathlib import Path
 
 from rebsync import model as m
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.writes import written
+from rebsync.reverse.analysis.intervals.writes import written
 from rebsync.reverse.findings import Grade
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir.program import Class, Program

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from rebsync.reverse.findings import Findings
-from rebsync.reverse.python.py_calls import graph_of
 from rebsync.reverse.python.recovery import PythonCode, read_python
+from rebsync.reverse.python.values.py_calls import graph_of
 from rebsync.reverse.syntax.py_index import PyCode
 from rebsync.reverse.syntax.py_tree import parse, unparsed
 from rebsync.source import Source

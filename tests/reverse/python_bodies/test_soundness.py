@@ -6,7 +6,7 @@ import os
 
 import pytest
 
-from rebsync.reverse.python import body_system
+from rebsync.reverse.python.nodes import body_system
 from tests.reverse.python_bodies.trial import tallied
 
 DRAWN = int(os.environ.get("REBSYNC_DRAWN_NODES", "16"))

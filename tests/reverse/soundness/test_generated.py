@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.reverse.python import model_loops
+from rebsync.reverse.python.generated import model_loops
 from tests.reverse.soundness.generated import tallied
 
 

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_call_effects, cpp_widths
+from rebsync.reverse.bodies.effects import cpp_call_effects
+from rebsync.reverse.bodies.types import cpp_widths
 from tests.reverse.soundness.comparing import CALLS, recovered, tallied
 from tests.reverse.soundness.effects import compare
 from tests.reverse.soundness.nodes import LIBRARY_FROM, WIDE_FROM, draw_node

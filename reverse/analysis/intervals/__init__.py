@@ -1,0 +1,1 @@
+"""Intervals of the variables of a class, over statements of the model."""

@@ -1,0 +1,1 @@
+"""How functions may end, and what else they may do: exceptions, loops, locks."""

@@ -1,0 +1,1 @@
+"""What Python refuses: calls, types, attributes, names without a value."""

@@ -1,0 +1,145 @@
+"""What functions of Python get for their parameters: by the calls that reach them, and messages.
+
+Calls of which it is not known what they reach give nothing here: more may come.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import cached_property
+
+from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origins
+from rebsync.reverse.analysis.python.call_binding import bound
+from rebsync.reverse.analysis.python.message_values import callback_functions, first_parameter
+from rebsync.reverse.analysis.stores import ElementOf, Source
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.program import Function
+from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries import python
+from rebsync.reverse.libraries.routines import Kind, Routine
+
+_FOR_EACH = frozenset({"builtins.map", "builtins.filter"})
+_MESSAGE = re.compile(r"(\w+)\.msg(?:\._\w+)?\.(\w+)")
+
+
+def message_name(name: str) -> str | None:
+    """`std_msgs/Int32` for the class `std_msgs.msg.Int32`; None for any other name."""
+    found = _MESSAGE.fullmatch(name)
+    return f"{found[1]}/{found[2]}" if found is not None else None
+
+
+class ArgumentTypes:
+    """The arguments and messages of one program."""
+
+    def __init__(self, origins: Origins) -> None:
+        self._origins = origins
+        self._graph = origins.graph
+        self._program = origins.graph.program
+
+    def arguments(self, function: str, parameter: str) -> list[Source]:
+        """What calls give for a parameter, with the functions that these stand in; defaults too."""
+        return self._given.get((function, parameter), [])
+
+    def messages(self, function: str, parameter: str) -> list[str]:
+        """The types of the messages that subscriptions give for a parameter."""
+        return self._subscribed.get((function, parameter), [])
+
+    @cached_property
+    def _given(self) -> dict[tuple[str, str], list[Source]]:
+        found: dict[tuple[str, str], list[Source]] = {}
+        for name in self._program.functions:
+            around = self._program.function(name)
+            for node in walk(around):
+                match node:
+                    case s.Call():
+                        for called in self._called(node, around):
+                            given = bound(node, self._program.function(called))
+                            for parameter, value in given.items():
+                                found.setdefault((called, parameter), []).append((name, value))
+                        for called, element in self._called_for_each(node, around):
+                            for parameter in first_parameter(self._program.function(called)):
+                                known = found.setdefault((called, parameter), [])
+                                known.append((name, element))
+                    case e.Closure(of, _, defaults):
+                        for parameter, value in defaults:
+                            found.setdefault((of, parameter), []).append((name, value))
+                    case _:
+                        pass
+        return found
+
+    def _called(self, call: s.Call, around: Function) -> frozenset[str]:
+        """The functions of the program that a call reaches, as far as that is known."""
+        match call.callee:
+            case s.FunctionCallee(name):
+                return frozenset({name})
+            case s.ValueCallee(value):
+                return self._graph.value(value, around).functions
+            case s.MethodCallee(e.Local() as receiver, _, None, None) as callee if (
+                self._graph.class_of(receiver, around) is not None
+            ):
+                return self._graph.callee(callee, around).functions
+            case s.MethodCallee(receiver, name, None, None):
+                held = self._origins.of(receiver, around.name)
+                classes = (o.name for o in held if isinstance(o, ClassOrigin))
+                found = (self._origins.methods(each, name) for each in classes)
+                return frozenset[str]().union(*found)
+            case _:
+                return frozenset()
+
+    def _called_for_each(self, call: s.Call, around: Function) -> Iterator[tuple[str, ElementOf]]:
+        """The functions that one of Python's calls for each element of a container."""
+        match call:
+            case s.Call(_, s.LibraryCallee(name), (function, container)) if name in _FOR_EACH:
+                values = [function.value]
+            case s.Call(_, s.LibraryCallee(), (container, *more)):
+                values = [a.value for a in more if a.name == "key"]
+            case _:
+                return
+        for value in values:
+            for called in self._graph.value(value, around).functions:
+                yield called, ElementOf(container.value)
+
+    @cached_property
+    def _subscribed(self) -> dict[tuple[str, str], list[str]]:
+        found: dict[tuple[str, str], list[str]] = {}
+        for name in self._program.functions:
+            for node in walk(self._program.function(name)):
+                for type_, callback in _subscriptions(node):
+                    for called in callback_functions(self._graph, callback, name):
+                        for parameter in first_parameter(self._program.function(called)):
+                            known = found.setdefault((called, parameter), [])
+                            known += self._messages(type_, name)
+        return found
+
+    def _messages(self, type_: e.Expression, function: str) -> Iterator[str]:
+        for origin in self._origins.of(type_, function):
+            if isinstance(origin, LibraryOrigin) and not origin.of_object:
+                name = message_name(origin.name)
+                if name is not None:
+                    yield name
+
+
+def _subscriptions(node: object) -> Iterator[tuple[e.Expression, e.Expression]]:
+    """The types and callbacks of the subscriptions that a call asks for."""
+    match node:
+        case s.Call(_, s.LibraryCallee(name), arguments):
+            routine = python.function(name, len(arguments))
+        case s.Call(_, s.MethodCallee(_, name), arguments):
+            routine = python.node_method(name)
+        case _:
+            return
+    if routine is not None and routine.kind is Kind.SUBSCRIPTION:
+        type_, callback = (_argument(node, routine, role) for role in ("type", "callback"))
+        if type_ is not None and callback is not None:
+            yield type_, callback
+
+
+def _argument(call: s.Call, routine: Routine, role: str) -> e.Expression | None:
+    """The argument of a call with a role, by place or by name."""
+    plain = [a.value for a in call.arguments if a.name is None and not a.stars]
+    by_place = dict(zip(routine.arguments, plain, strict=False))
+    names = {role, *(name for name, of in routine.keywords if of == role)}
+    named = (a.value for a in call.arguments if a.name in names)
+    return by_place.get(role, next(named, None))

@@ -1,0 +1,143 @@
+"""What is asked of values of Python that have no such attribute: an AttributeError."""
+
+from __future__ import annotations
+
+from rebsync.reverse.analysis.facts import Facts
+from rebsync.reverse.analysis.origins import ClassOrigin
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.python.operand_kinds import ATTRIBUTES, OperandKinds
+from rebsync.reverse.analysis.python.value_types import (
+    InstanceType,
+    LibraryType,
+    MessageType,
+    ValueType,
+    own_type,
+)
+from rebsync.reverse.analysis.stores import GlobalVariable, Member
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.walk import Node, walk
+from rebsync.reverse.libraries.attributes import (
+    attributes_of,
+    has_name,
+    may_be_of_messages,
+    takes_nothing,
+)
+
+_REFUSED = "gets other arguments than it takes"
+_LACKS = "has no such attribute"
+_UNDEFINED = "names what nothing defines"
+_OF_MODULES = frozenset({"__name__", "__file__", "__doc__", "__package__", "__spec__"})
+_HOOKS = ("__getattr__", "__getattribute__")
+_OF_CLASSES = frozenset(dir(type)) | {"__members__"}
+_OF_OBJECTS = frozenset(dir(object)) | {"__dict__", "__module__", "__name__", "__slots__"}
+
+
+class AttributeErrors:
+    """The values of one function, in Python."""
+
+    def __init__(self, notes: ProblemNotes, kinds: OperandKinds) -> None:
+        self._notes = notes
+        self._kinds = kinds
+        self._rules = notes.counts.rules
+        self._program = notes.origins.graph.program
+
+    def asks(
+        self, node: s.Statement | e.Expression, of: e.Expression, name: str, facts: Facts
+    ) -> None:
+        """Notes that an attribute is asked of a value that may have none of the name."""
+        types = self._kinds.types(of, facts)
+        if any(self._has_not(type_, name) for type_ in types) or self._is_of_none(of, name, facts):
+            self._notes.fails(node, _LACKS)
+
+    def _has_not(self, type_: ValueType | None, name: str) -> bool:
+        """Whether values of a type have no attribute of a name."""
+        match type_:
+            case None:
+                return False
+            case MessageType(of):
+                fields = self._notes.table.fields(of)
+                return fields is not None and name not in fields and not may_be_of_messages(name)
+            case LibraryType(of):
+                known = attributes_of(of)
+                return known is not None and name not in known | _OF_OBJECTS
+            case InstanceType(of):
+                return self._lacks(of, name)
+            case _:
+                known = ATTRIBUTES.get(own_type(type_))
+                return known is not None and name not in known
+
+    def _is_of_none(self, of: e.Expression, name: str, facts: Facts) -> bool:
+        """Whether no object of the classes that a value is of may have an attribute."""
+        if self._kinds.of(of, facts) != {None}:
+            return False
+        origins = self._notes.origins
+        own = origins.graph.class_of(of, self._notes.function)
+        held = origins.of(of, self._notes.function.name)
+        if held and all(isinstance(o, ClassOrigin) and not o.of_object for o in held):
+            names = {o.name for o in held if isinstance(o, ClassOrigin)}
+            is_stored = bool(origins.graph.stores.of(Member(name))) or name in _OF_CLASSES
+            return not is_stored and any(
+                self._rules.objects.lacks_attribute(n, name) for n in names
+            )
+        classes = {o.name for o in held if isinstance(o, ClassOrigin) and o.of_object}
+        if own is not None:
+            classes = {own}
+        elif len(classes) != len(held):
+            return False
+        return bool(classes) and any(self._lacks(each, name) for each in classes)
+
+    def _lacks(self, of: str, name: str) -> bool:
+        """Whether a class, and all that it extends, say nothing of an attribute."""
+        origins = self._notes.origins
+        if name in _OF_OBJECTS or origins.graph.stores.of(Member(name)):
+            return False
+        family = origins.graph.family(of)
+        classes = [self._program.classes[c] for c in family if c in self._program.classes]
+        others = [attributes_of(c) for c in family - self._program.classes.keys()]
+        is_open = any(None in c.bases or not self._rules.decorators.is_plain(c) for c in classes)
+        if is_open or None in others or origins.names.sets_by_text:
+            return False
+        known = {n for c in classes for n, _ in c.methods}
+        known |= {p.name for c in classes for p in c.properties}
+        known |= {f.name for c in classes for f in c.fields}
+        is_known = any(name in (other or ()) for other in others)
+        return not is_known and known.isdisjoint({name, *_HOOKS})
+
+    def named(self, value: e.Expression, module: str, name: str) -> None:
+        """Notes a name that no scope of a module binds, and no import brings in unseen."""
+        graph = self._notes.origins.graph
+        if name in _OF_MODULES or graph.stores.of(GlobalVariable(module, name)):
+            return
+        body = graph.program.modules.get(module)
+        if body is None or self._notes.origins.names.sets_by_text:
+            return
+        nodes = walk(graph.program.function(body))
+        if not any(isinstance(n, s.Unsupported) or _is_star(n) for n in nodes):
+            self._notes.fails(value, _UNDEFINED)
+
+    def takes_nothing(self, node: s.Call, receiver: e.Expression, name: str, facts: Facts) -> None:
+        """Notes that a method of a library's object gets arguments, which takes none."""
+        if not node.arguments:
+            return
+        for type_ in self._kinds.types(receiver, facts):
+            names = [type_.name] if isinstance(type_, LibraryType) else []
+            if isinstance(type_, InstanceType) and not self._notes.origins.methods(
+                type_.name, name
+            ):
+                names = self._notes.origins.graph.bases(type_.name)
+            if any(takes_nothing(f"{each}.{name}") for each in names):
+                self._notes.fails(node, _REFUSED)
+
+    def of_library(self, node: s.Statement | e.Expression, name: str) -> None:
+        """Notes a full name in a library of which a table has all names, and not this one."""
+        module, _, rest = name.partition(".")
+        if rest and not has_name(module, rest.partition(".")[0]):
+            self._notes.fails(node, _LACKS)
+        if isinstance(node, s.Call) and node.arguments and takes_nothing(name):
+            self._notes.fails(node, _REFUSED)
+
+
+def _is_star(node: Node) -> bool:
+    """Whether a node imports all that a module has."""
+    return isinstance(node, s.Import) and node.name == "*"

@@ -1,0 +1,103 @@
+"""What calls of Python ask of the elements of containers: an order, a sum, texts, hashes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rebsync.reverse.analysis.facts import Facts
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
+from rebsync.reverse.analysis.python.operator_types import are_ordered, is_hashable
+from rebsync.reverse.analysis.python.value_types import (
+    A_NUMBER,
+    A_TEXT,
+    ContainerType,
+    OwnType,
+    ValueTypes,
+    own_type,
+    union,
+)
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.operators import Operator
+
+_WRONG = "is of another type"
+# Functions that compare the elements of what they get, or what they get, if that is several.
+_SORTING = frozenset({"builtins.sorted", "builtins.max", "builtins.min"})
+_HEAPS = frozenset(f"heapq.{name}" for name in ("heappush", "heappushpop", "heapreplace"))
+_OF_HEAPS = frozenset({"heapq.heapify", "heapq.heappop"})
+_SETS = frozenset({"builtins.set", "builtins.frozenset"})
+
+
+class ElementErrors:
+    """The containers of one function, in Python."""
+
+    def __init__(self, notes: ProblemNotes, kinds: OperandKinds) -> None:
+        self._notes = notes
+        self._kinds = kinds
+        self._objects = notes.counts.rules.objects
+        self._decorators = notes.counts.rules.decorators
+
+    def call(self, node: s.Call, plain: Sequence[e.Expression], facts: Facts) -> None:
+        """Notes what a call asks of elements that may have it not."""
+        names = {a.name for a in node.arguments}
+        given = [self._kinds.types(value, facts) for value in plain]
+        match node.callee:
+            case s.LibraryCallee(name) if name in _SORTING and "key" not in names:
+                self._orders(node, union(given) if len(given) > 1 else _inside(given))
+            case s.MethodCallee(receiver, "sort") if "key" not in names:
+                self._orders(node, _inside([self._kinds.types(receiver, facts)]))
+            case s.LibraryCallee(name) if name in _HEAPS and len(given) == 2:
+                self._orders(node, _inside(given[:1]) | given[1])
+            case s.LibraryCallee(name) if name in _OF_HEAPS:
+                self._orders(node, _inside(given))
+            case s.LibraryCallee("builtins.sum"):
+                # It begins with 0, or with what it gets.
+                first = given[1] if len(given) > 1 else A_NUMBER
+                self._fits(node, _inside(given), {OwnType.NUMBER} if first == A_NUMBER else None)
+            case s.MethodCallee(receiver, "join") if self._kinds.types(receiver, facts) == A_TEXT:
+                self._fits(node, _inside(given), {OwnType.TEXT})
+            case s.LibraryCallee(name) if name in _SETS:
+                self._hashes(node, _inside(given))
+            case s.MethodCallee(receiver, "add"):
+                if self._kinds.of(receiver, facts) == {OwnType.SET}:
+                    self._hashes(node, union(given))
+            case _:
+                pass
+
+    def built(self, value: e.Build | e.BuildMapping, facts: Facts) -> None:
+        """Notes that a new set or mapping gets elements or keys without a hash."""
+        match value:
+            case e.BuildMapping(_, entries):
+                keys = [entry[0] for entry in entries if not isinstance(entry, e.Spread)]
+            case e.Build(t.Container(t.ContainerKind.SET), elements):
+                keys = [v for v in elements if not isinstance(v, e.Spread)]
+            case _:
+                return
+        self._hashes(value, union(self._kinds.types(key, facts) for key in keys))
+
+    def is_key(self, node: e.Expression, key: e.Expression, facts: Facts) -> None:
+        """Notes that the key of a mapping may have no hash."""
+        self._hashes(node, self._kinds.types(key, facts))
+
+    def _orders(self, node: s.Statement, types: ValueTypes) -> None:
+        if not are_ordered(types, self._has_order):
+            self._notes.fails(node, _WRONG)
+
+    def _has_order(self, name: str) -> bool:
+        return not self._objects.class_lacks(name, Operator.LESS)
+
+    def _hashes(self, node: s.Statement | e.Expression, types: ValueTypes) -> None:
+        if not is_hashable(types, self._decorators.has_hash):
+            self._notes.fails(node, _WRONG)
+
+    def _fits(self, node: s.Statement, types: ValueTypes, taken: set[OwnType] | None) -> None:
+        if taken is not None and frozenset(map(own_type, types)) - {*taken, None}:
+            self._notes.fails(node, _WRONG)
+
+
+def _inside(given: Sequence[ValueTypes]) -> ValueTypes:
+    """The types of the elements of the first of some values, None among them."""
+    found = (type_.elements for type_ in union(given[:1]) if isinstance(type_, ContainerType))
+    return union(found)

@@ -1,0 +1,90 @@
+"""Texts that `str.format` and `%` fill in, as Python has them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Sequence
+from string import Formatter
+
+from rebsync.reverse.analysis.python.value_types import OwnType
+
+
+def has_pieces(text: str, by_place: int, names: Collection[str]) -> bool:
+    """Whether all that a text has to be filled in is among the arguments, and is nothing else."""
+    try:
+        fields = list(_fields(text))
+    except ValueError:
+        return False
+    automatic = sum(not field for field in fields)
+    numbers = [int(field) for field in fields if field.isdecimal()]
+    if automatic > by_place or any(number >= by_place for number in numbers):
+        return False
+    if automatic and numbers:
+        return False
+    return all(field in names for field in fields if field and not field.isdecimal())
+
+
+def _fields(text: str) -> Iterator[str]:
+    """The names of what is to be filled in, those within styles included."""
+    for _, field, style, _ in Formatter().parse(text):
+        if field is not None:
+            yield field
+            yield from _fields(style or "")
+
+
+OF_NUMBERS = frozenset("bcdeEfFgGnoxX%")  # letters of styles that only numbers have
+
+
+def numbers_in(text: str) -> Iterator[int | str]:
+    """What a text has to be filled in with as a number: by place, or by name."""
+    try:
+        pieces = list(Formatter().parse(text))
+    except ValueError:
+        return
+    for at, (_, field, style, conversion) in enumerate(p for p in pieces if p[1] is not None):
+        if style and style[-1] in OF_NUMBERS and "{" not in style and not conversion:
+            if not field:
+                yield at
+            elif field.isidentifier():
+                yield field
+            elif field.isdecimal():
+                yield int(field)
+
+
+_CONVERSION = re.compile(
+    r"%(?:\((?P<key>[^)]*)\))?[#0\- +]*(?P<width>\*|\d+)?(?:\.(\*|\d+))?[hlL]?(.)"
+)
+
+
+def conversions(text: str) -> list[str] | None:
+    """The letters of what `%` puts into a text, in order; None where it takes them by names.
+
+    A width or precision that is given as well is a number: `d`.
+    """
+    found: list[str] = []
+    for match in _CONVERSION.finditer(text):
+        if match["key"] is not None:
+            return None
+        found += "d" * match[0].count("*")
+        found += match[0][-1] if match[0][-1] != "%" else ""
+    return found
+
+
+def refuses(text: str, values: Sequence[Collection[OwnType | None]]) -> bool:
+    """Whether `%` may not put values into a text, of which the types that each may have are known.
+
+    There may be too many of them, or too few, or one of another type than the text asks for.
+    """
+    letters = conversions(text)
+    if letters is None:
+        return False
+    if len(letters) != len(values) or "%" in _CONVERSION.sub("", text):
+        return True
+    return any(_is_refused(letter, kinds) for letter, kinds in zip(letters, values, strict=True))
+
+
+def _is_refused(letter: str, kinds: Collection[OwnType | None]) -> bool:
+    if letter in "sra":
+        return False
+    taken = {OwnType.NUMBER, OwnType.TEXT, None} if letter == "c" else {OwnType.NUMBER, None}
+    return letter not in "diouxXeEfFgGc" or not taken.issuperset(kinds)

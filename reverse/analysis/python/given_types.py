@@ -1,0 +1,186 @@
+"""Of which types what calls of Python give is: of its own functions and methods, and others."""
+
+from __future__ import annotations
+
+from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origins
+from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
+from rebsync.reverse.analysis.python.type_queries import TypeQueries
+from rebsync.reverse.analysis.python.value_types import (
+    A_NUMBER,
+    A_TEXT,
+    ANY_TYPE,
+    NO_TYPES,
+    ContainerType,
+    InstanceType,
+    LibraryType,
+    OwnType,
+    ValueType,
+    ValueTypes,
+    elements_of,
+    pair,
+    sequence,
+    union,
+    values_of,
+)
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.libraries.attributes import result_of
+
+_LIST, _QUEUE, _SET = OwnType.LIST, OwnType.QUEUE, OwnType.SET
+# Functions that give a container of the elements of their first argument, or go through it.
+_COPYING = {
+    **{"builtins.list": _LIST, "builtins.sorted": _LIST, "builtins.tuple": OwnType.TUPLE},
+    **{"builtins.set": _SET, "builtins.frozenset": _SET, "collections.deque": _QUEUE},
+    **{"builtins.reversed": None, "builtins.iter": None},
+}
+_NUMBERED = frozenset({"index", "count", "find", "rfind", "__len__"})
+_OF_TEXTS = {
+    **dict.fromkeys(
+        (
+            *("strip", "lstrip", "rstrip", "lower", "upper", "title", "capitalize", "swapcase"),
+            *("replace", "join", "format", "ljust", "rjust", "center", "zfill", "casefold"),
+            *("removeprefix", "removesuffix", "expandtabs", "format_map", "translate"),
+        ),
+        A_TEXT,
+    ),
+    **dict.fromkeys(("split", "rsplit", "splitlines"), sequence(_LIST, A_TEXT)),
+    **dict.fromkeys(("partition", "rpartition"), pair(A_TEXT, A_TEXT, A_TEXT)),
+    **dict.fromkeys(
+        (
+            *("find", "rfind", "index", "rindex", "count", "startswith", "endswith", "isdigit"),
+            *("isalpha", "isalnum", "isnumeric", "isdecimal", "isspace", "isupper", "islower"),
+        ),
+        A_NUMBER,
+    ),
+}
+
+
+class GivenTypes:
+    """The calls of one program; `types` are those of the values in it."""
+
+    def __init__(self, origins: Origins, types: TypeQueries, attributes: AttributeTypes) -> None:
+        self._origins = origins
+        self._graph = origins.graph
+        self._types = types
+        self._attributes = attributes
+
+    def of(self, call: s.Call, function: str) -> ValueTypes:
+        """The types of what a call in a function gives."""
+        match call.callee:
+            case s.LibraryCallee(name, None):
+                return self._of_library(call, name, function)
+            case s.MethodCallee(receiver, name, None, None):
+                types = self._types.of(receiver, function)
+                if types and all(map(_has_methods, types)):
+                    return union(self._of_method(t, name, call, function) for t in types)
+        return self._of_program(call, function)
+
+    def _of_program(self, call: s.Call, function: str) -> ValueTypes:
+        """The types of what functions of the program give, and of new objects of its classes."""
+        found = NO_TYPES
+        for origin in self._origins.result(call, function):
+            match origin:
+                case ClassOrigin(name, True):
+                    found |= {InstanceType(name)}
+                case LibraryOrigin(name, True):
+                    found |= self._attributes.of_class(name)
+                case _:
+                    found |= ANY_TYPE
+        if None not in found:
+            return found
+        around = self._graph.program.function(function)
+        targets = self._graph.callee(call.callee, around)
+        if targets.unknown or targets.libraries or not targets.functions:
+            return found
+        return union(map(self._types.result, targets.functions))
+
+    # --- functions of libraries ------------------------------------------------------------------
+
+    def _of_library(self, call: s.Call, name: str, function: str) -> ValueTypes:
+        plain = [a.value for a in call.arguments if a.name is None and not a.stars]
+        given = [self._types.of(value, function) for value in plain]
+        if name in _COPYING:
+            return sequence(_COPYING[name], *map(elements_of, given[:1]))
+        match name:
+            case "builtins.range":
+                return sequence(None, A_NUMBER)
+            case "builtins.enumerate" if given:
+                return sequence(None, pair(A_NUMBER, elements_of(given[0])))
+            case "builtins.zip":
+                return sequence(None, pair(*map(elements_of, given)))
+            case "builtins.filter" if len(given) > 1:
+                return sequence(None, elements_of(given[1]))
+            case "builtins.map" if len(given) > 1:
+                return sequence(None, self._mapped(plain[0], function))
+            case "builtins.dict" if not call.arguments:
+                return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, NO_TYPES),))
+            case "builtins.sum" if len(given) > 1:
+                return ANY_TYPE
+        gives = self._origins.table.function(name).gives or result_of(name) or name
+        return self._attributes.of_class(gives)
+
+    def _mapped(self, value: e.Expression, function: str) -> ValueTypes:
+        """The types of what a function gives that another calls for each element."""
+        match value:
+            case e.LibraryReference(name):
+                return self._attributes.of_class(self._origins.table.function(name).gives)
+            case _:
+                targets = self._graph.value(value, self._graph.program.function(function))
+                if targets.unknown or targets.libraries or not targets.functions:
+                    return ANY_TYPE
+                return union(map(self._types.result, targets.functions))
+
+    # --- methods ---------------------------------------------------------------------------------
+
+    def _of_method(
+        self, type_: ValueType | None, name: str, call: s.Call, function: str
+    ) -> ValueTypes:
+        match type_:
+            case OwnType.TEXT:
+                return _OF_TEXTS.get(name, ANY_TYPE)
+            case ContainerType(OwnType.MAPPING):
+                return self._of_mapping(type_, name, call, function)
+            case ContainerType() if name in ("pop", "popleft"):
+                return elements_of(frozenset((type_,)))
+            case ContainerType() if name == "copy":
+                return frozenset((type_,))
+            case ContainerType() if name in _NUMBERED:
+                return A_NUMBER
+            case LibraryType(of):
+                return self._attributes.of_class(result_of(f"{of}.{name}"))
+            case InstanceType(of):
+                return self._of_instance(of, name, call, function)
+            case _:
+                return ANY_TYPE
+
+    def _of_mapping(
+        self, type_: ContainerType, name: str, call: s.Call, function: str
+    ) -> ValueTypes:
+        keys, values = type_.elements, type_.values
+        match name:
+            case "keys":
+                return sequence(None, keys)
+            case "values":
+                return sequence(None, values)
+            case "items":
+                return sequence(None, pair(keys, values))
+            case "copy":
+                return frozenset((type_,))
+            case "get" | "pop" | "setdefault":
+                others = [a.value for a in call.arguments[1:] if not a.stars]
+                defaults = union(self._types.of(value, function) for value in others)
+                return values_of(frozenset((type_,))) | defaults
+            case _:
+                return ANY_TYPE
+
+    def _of_instance(self, of: str, name: str, call: s.Call, function: str) -> ValueTypes:
+        """A method of an object of the program's: its own, or one of a base in a library."""
+        if self._origins.methods(of, name):
+            return self._of_program(call, function)
+        found = (result_of(f"{base}.{name}") for base in self._graph.bases(of))
+        return self._attributes.of_class(next(filter(None, found), ""))
+
+
+def _has_methods(type_: ValueType | None) -> bool:
+    """Whether a table, or the program, says what methods of a type give."""
+    return isinstance(type_, ContainerType | LibraryType | InstanceType) or type_ is OwnType.TEXT

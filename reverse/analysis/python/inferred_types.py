@@ -1,0 +1,313 @@
+"""Of which types values of Python may be, by what the program stores: a type inference.
+
+Flow-insensitive: the least fixpoint over all that is stored under each name, put into containers,
+drawn from them, given for parameters and given back. What comes from elsewhere is of any type.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import TypeAlias
+
+from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.analysis.python.argument_types import ArgumentTypes
+from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
+from rebsync.reverse.analysis.python.container_stores import ContainerStores, Put
+from rebsync.reverse.analysis.python.given_types import GivenTypes
+from rebsync.reverse.analysis.python.value_types import (
+    A_NUMBER,
+    A_TEXT,
+    ANY_TYPE,
+    NO_TYPES,
+    ContainerType,
+    InstanceType,
+    OwnType,
+    ValueType,
+    ValueTypes,
+    at_index,
+    elements_of,
+    joined_items,
+    limited,
+    merged,
+    own_type,
+    pair,
+    sequence,
+    union,
+)
+from rebsync.reverse.analysis.stores import (
+    ANY_VALUE,
+    AnyValue,
+    CallResult,
+    CapturedVariable,
+    ClassValue,
+    ElementOf,
+    Key,
+    ObjectValue,
+    PartOf,
+    Source,
+    key_of,
+)
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.operators import COMPARISONS, Operator
+from rebsync.reverse.ir.program import FunctionKind
+from rebsync.reverse.ir.walk import walk
+
+_CONTAINERS = {
+    t.ContainerKind.SEQUENCE: OwnType.LIST,
+    t.ContainerKind.TUPLE: OwnType.TUPLE,
+    t.ContainerKind.QUEUE: OwnType.QUEUE,
+    t.ContainerKind.SET: OwnType.SET,
+    t.ContainerKind.MAPPING: OwnType.MAPPING,
+}
+_ADDED = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
+_CHANGING = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
+_DEEPEST = 3  # containers in one another; what is deeper is of any type
+Node: TypeAlias = Key | str  # a name, or the function whose result is meant
+
+
+class InferredTypes:
+    """The types of the values of one program."""
+
+    def __init__(self, origins: Origins, arguments: ArgumentTypes) -> None:
+        self._origins = origins
+        self._graph = origins.graph
+        self._arguments = arguments
+        self._containers = ContainerStores(origins.graph)
+        self.attributes = AttributeTypes(origins, self)
+        self._calls = GivenTypes(origins, self, self.attributes)
+        self._known: dict[Node, ValueTypes] = {}
+        # While types are looked for: what was found of them, and which this round has visited.
+        self._found: dict[Node, ValueTypes] = {}
+        self._visited: set[Node] | None = None
+
+    def of(self, value: e.Expression, function: str) -> ValueTypes:
+        """The types of what an expression of a function may be; None has none."""
+        match value:
+            case e.Literal(None):
+                return NO_TYPES
+            case e.Literal(int() | float()) | e.Unary(Operator.NOT):
+                return A_NUMBER
+            case e.Literal(str()) | e.Format():
+                return A_TEXT
+            case e.Literal(bytes()):
+                return frozenset((OwnType.BYTES,))
+            case e.Build(t.Container(kind), elements):
+                return self._built(_CONTAINERS[kind], elements, function)
+            case e.BuildMapping(_, entries):
+                return self._mapped(entries, function)
+            case e.Conditional(_, one, other) | e.And(one, other) | e.Or(one, other):
+                return self.of(one, function) | self.of(other, function)
+            case e.Binary(operator) if operator in COMPARISONS:
+                return A_NUMBER
+            case e.Binary(operator, left, right):
+                return computed(operator, self.of(left, function), self.of(right, function))
+            case e.Unary(_, of):
+                return A_NUMBER if self.of(of, function) == A_NUMBER else ANY_TYPE
+            case e.Index(of, e.Slice()):
+                return self.of(of, function)
+            case e.Index(of, index):
+                at = index.value if isinstance(index, e.Literal) else None
+                return at_index(self.of(of, function), at)
+            case e.Attribute(of, name):
+                return self.attributes.of(self.of(of, function), of, name, function)
+            case e.Local() | e.Temporary() | e.Captured() | e.Global():
+                if value == e.Local(self._graph.program.function(function).receiver or ""):
+                    return self._receiver(function)
+                key = key_of(value, function)
+                return ANY_TYPE if key is None else self._stored(key)
+            case _:
+                return ANY_TYPE
+
+    def _receiver(self, function: str) -> ValueTypes:
+        owner = self._graph.program.function(function).owner
+        return ANY_TYPE if owner is None else frozenset((InstanceType(owner),))
+
+    # --- containers ------------------------------------------------------------------------------
+
+    def _built(
+        self, own: OwnType, elements: Iterable[e.Expression | e.Spread], function: str
+    ) -> ValueTypes:
+        values = list(elements)
+        if own is OwnType.TUPLE and not any(isinstance(v, e.Spread) for v in values):
+            return pair(*(self._part(v, function) for v in values))  # type: ignore[arg-type]
+        return sequence(own, *(self._element(v, function) for v in values))
+
+    def _mapped(
+        self, entries: Iterable[tuple[e.Expression, e.Expression] | e.Spread], function: str
+    ) -> ValueTypes:
+        keys, values = NO_TYPES, NO_TYPES
+        items = frozenset[tuple[object, ValueTypes]]()
+        for entry in entries:
+            if isinstance(entry, e.Spread):
+                keys, values = keys | ANY_TYPE, values | ANY_TYPE
+                continue
+            found = self._element(entry[1], function)
+            keys, values = keys | self._element(entry[0], function), values | found
+            items = joined_items(items, written(entry[0], found))
+        return frozenset((ContainerType(OwnType.MAPPING, keys, values, None, items),))
+
+    def _element(self, value: e.Expression | e.Spread, function: str) -> ValueTypes:
+        match value:
+            case e.Spread(of):
+                return elements_of(self.of(of, function))
+            case e.Literal(None):
+                return frozenset((OwnType.NONE,))
+            case _:
+                return self.of(value, function)
+
+    def _part(self, value: e.Expression, function: str) -> ValueTypes:
+        """A part of a tuple; what is counted on differs each time, and is of any type here."""
+        key = key_of(value, function)
+        is_counter = key is not None and bool(self._graph.stores.changed(key))
+        return ANY_TYPE if is_counter else self._element(value, function)
+
+    def with_puts(self, key: Key, types: ValueTypes) -> ValueTypes:
+        """The types of a container's name with what is put into it under that name."""
+        puts = self._containers.puts(key)
+        if not puts:
+            return types
+        return frozenset(self._filled(type_, puts) for type_ in types)
+
+    def _filled(self, type_: ValueType | None, puts: list[Put]) -> ValueType | None:
+        if not (isinstance(type_, ContainerType) and type_.own in _CHANGING):
+            return type_
+        elements, values, items = type_.elements, type_.values, type_.items
+        for put in puts:
+            found = self._element(put.value, put.function)
+            if put.is_all:
+                elements |= elements_of(found)
+            elif put.key is None:
+                elements |= found
+            elif type_.own is OwnType.MAPPING:
+                elements |= self._element(put.key, put.function)
+                values |= found
+                items = joined_items(items, written(put.key, found))
+            else:
+                elements |= found
+        return replace(type_, elements=elements, values=values, items=items)
+
+    # --- names -----------------------------------------------------------------------------------
+
+    def of_name(self, key: Key) -> ValueTypes:
+        """The types of what is stored under a name."""
+        return self._stored(key)
+
+    def _stored(self, node: Node) -> ValueTypes:
+        """The types of what is stored under a name, or a function gives: the least fixpoint."""
+        if node in self._known:
+            return self._known[node]
+        if self._visited is not None:
+            return self._visit(node, self._visited)
+        before: dict[Node, ValueTypes] | None = None
+        try:
+            while before != self._found:
+                before = dict(self._found)
+                self._visited = set()
+                self._visit(node, self._visited)
+            self._known |= self._found
+        finally:
+            self._visited = None
+            self._found.clear()
+        return self._known[node]
+
+    def _visit(self, node: Node, visited: set[Node]) -> ValueTypes:
+        """What was found up to this round, in which each name is visited once."""
+        if node not in visited:
+            visited.add(node)
+            found = self._result(node) if isinstance(node, str) else self._named(node)
+            # Never less than in the round before, and of a bounded depth: the rounds end.
+            found = limited(found, _DEEPEST) | self._found.get(node, NO_TYPES)
+            self._found[node] = merged(found)
+        return self._found.get(node, NO_TYPES)
+
+    def _named(self, key: Key) -> ValueTypes:
+        sources = self.sources(key)
+        if not sources:
+            return self.parameter(key) or ANY_TYPE
+        return self.with_puts(key, union(map(self.of_stored, sources)) | self.parameter(key))
+
+    def sources(self, key: Key) -> list[Source]:
+        """All that is stored under a name, but for what a function gets for a parameter."""
+        sources = self._graph.stores.sources(key)
+        if isinstance(key, CapturedVariable) and self.parameter(key):
+            sources.remove((key.function, ANY_VALUE))
+        return sources
+
+    def parameter(self, key: Key) -> ValueTypes:
+        """The types of what calls and subscriptions give for a parameter, as far as known."""
+        if not isinstance(key, CapturedVariable) or not self._is_parameter(key):
+            return NO_TYPES
+        given = self._arguments.arguments(key.function, key.name)
+        messages = self._arguments.messages(key.function, key.name)
+        found = union(map(self.of_stored, given))
+        return found | union(map(self.attributes.of_class, messages))
+
+    def _is_parameter(self, key: CapturedVariable) -> bool:
+        program = self._graph.program
+        if key.function not in program:
+            return False
+        return any(p.name == key.name for p in program.function(key.function).parameters)
+
+    def of_stored(self, stored: Source) -> ValueTypes:
+        """The types of what is stored somewhere."""
+        function, value = stored
+        match value:
+            case CallResult(call):
+                return self._calls.of(call, function)
+            case ObjectValue(name):
+                return frozenset((InstanceType(name),))
+            case ElementOf(container):
+                return elements_of(self.of(container, function))
+            case PartOf(of, at):
+                return at_index(self.of(of, function), at)
+            case AnyValue() | ClassValue():
+                return ANY_TYPE
+            case _:
+                return self.of(value, function)
+
+    def result(self, function: str) -> ValueTypes:
+        """The types of what a function of the program gives."""
+        return self._stored(function)
+
+    def of_call(self, call: s.Call, function: str) -> ValueTypes:
+        """The types of what a call in a function gives."""
+        return self._calls.of(call, function)
+
+    def _result(self, name: str) -> ValueTypes:
+        body = self._graph.program.function(name)
+        if body.kind is FunctionKind.GENERATOR:
+            given = [n for n in walk(body) if isinstance(n, s.Yield)]
+            found = (self._element(n.value, name) for n in given if n.value is not None)
+            has_inner = any(n.delegates for n in given)
+            return sequence(None, union(found) if not has_inner else ANY_TYPE)
+        if body.kind is not FunctionKind.FUNCTION:
+            return ANY_TYPE
+        values = (n.value for n in walk(body) if isinstance(n, s.Return))
+        return union(self.of(value, name) for value in values if value is not None)
+
+
+def written(key: e.Expression, types: ValueTypes) -> Iterator[tuple[object, ValueTypes]]:
+    """An item of a mapping, if the source writes its key."""
+    if isinstance(key, e.Literal):
+        yield key.value, types
+
+
+def computed(operator: Operator, left: ValueTypes, right: ValueTypes) -> ValueTypes:
+    """The types of what an operator gives for operands of some types."""
+    if left == right == A_NUMBER:
+        return A_NUMBER
+    kinds = frozenset(map(own_type, left))
+    if operator is Operator.ADD and kinds == frozenset(map(own_type, right)) and kinds <= _ADDED:
+        return left | right
+    if operator is Operator.FLOOR_MODULO and left == A_TEXT:
+        return left
+    if operator is Operator.MULTIPLY and right == A_NUMBER and kinds <= _ADDED:
+        return frozenset(_repeated(type_) for type_ in left)
+    return ANY_TYPE
+
+
+def _repeated(type_: ValueType | None) -> ValueType | None:
+    return replace(type_, parts=None) if isinstance(type_, ContainerType) else type_

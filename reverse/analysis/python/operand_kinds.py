@@ -1,0 +1,208 @@
+"""Of which types the operands of a function of Python are, where it is known what was tested.
+
+By what the program stores (`inferred_types.py`), and by what was tested or stored on the way.
+Attributes are told apart by names, and by their class where a function asks its own object.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TypeAlias
+
+from rebsync.reverse.analysis.facts import Facts, Holds, IsBound, IsOf
+from rebsync.reverse.analysis.held_values import is_of_other
+from rebsync.reverse.analysis.origins import ClassOrigin
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.python.inferred_types import computed
+from rebsync.reverse.analysis.python.value_types import (
+    A_NUMBER,
+    A_TEXT,
+    ANY_TYPE,
+    NO_TYPES,
+    OwnType,
+    ValueTypes,
+    at_index,
+    own_type,
+    sequence,
+    union,
+)
+from rebsync.reverse.analysis.stores import Member, key_of
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.operators import COMPARISONS
+from rebsync.reverse.ir.program import FunctionKind
+from rebsync.reverse.ir.walk import walk
+
+ATTRIBUTES: Mapping[OwnType | None, frozenset[str]] = {
+    OwnType.NUMBER: frozenset(dir(int)) | frozenset(dir(float)),
+    OwnType.TEXT: frozenset(dir(str)),
+    OwnType.BYTES: frozenset(dir(bytes)),
+    OwnType.LIST: frozenset(dir(list)),
+    OwnType.TUPLE: frozenset(dir(tuple)),
+    OwnType.SET: frozenset(dir(set)),
+    OwnType.MAPPING: frozenset(dir(dict)) | {"has_key", "iteritems", "iterkeys", "itervalues"},
+    OwnType.QUEUE: frozenset(dir(deque)),
+    OwnType.MODEL_ARRAY: frozenset(dir(object)) | {"at"},
+}
+_IN_TEXTS = frozenset(
+    {OwnType.NUMBER, OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.MAPPING, None}
+)
+_ASKING = frozenset(f"builtins.{n}" for n in ("isinstance", "type", "hasattr", "callable"))
+_FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
+Kinds: TypeAlias = "frozenset[OwnType | None]"
+
+
+class OperandKinds:
+    """The values of one function."""
+
+    def __init__(self, notes: ProblemNotes) -> None:
+        self._notes = notes
+        self._graph = notes.origins.graph
+        self._name = notes.function.name
+        self._types = notes.counts.rules.types
+
+    def of(self, value: e.Expression, facts: Facts) -> Kinds:
+        """The types of Python's own of what a value may be; None is looked for apart."""
+        return frozenset(map(own_type, self.types(value, facts)))
+
+    def types(self, value: e.Expression, facts: Facts) -> ValueTypes:
+        """The types of what a value may be where some facts are known."""
+        known = [fact.types for fact in facts if isinstance(fact, IsOf) and fact.value == value]
+        if known:  # what a test says is not told apart, and is any type
+            declared = self._declared(value) if ANY_TYPE in known else NO_TYPES
+            types = declared or (ANY_TYPE if ANY_TYPE in known else known[0])
+            key = key_of(value, self._name)
+            return types if key is None else self._types.with_puts(key, types)
+        if declared := self._declared(value):
+            return declared
+        match value:
+            case e.Conditional(_, one, other) | e.And(one, other) | e.Or(one, other):
+                return self.types(one, facts) | self.types(other, facts)
+            case e.Binary(operator) if operator in COMPARISONS:
+                return A_NUMBER
+            case e.Binary(operator, left, right):
+                return computed(operator, self.types(left, facts), self.types(right, facts))
+            case e.Index(of, index) if not isinstance(index, e.Slice):
+                at = index.value if isinstance(index, e.Literal) else None
+                return at_index(self.types(of, facts), at)
+            case e.Attribute():
+                return self._attribute(value, facts)
+            case e.Local() | e.Captured() | e.Global():
+                return self._named(value, facts)
+            case _:
+                return self._types.of(value, self._name)
+
+    def given(self, call: s.Call) -> ValueTypes:
+        """The types of what a call of the function gives."""
+        return self._types.of_call(call, self._name)
+
+    def may_be_plain(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a value may be made of numbers, texts, lists and mappings alone."""
+        match value:
+            case e.Build(t.Container(t.ContainerKind.SEQUENCE | t.ContainerKind.TUPLE), parts):
+                within = [p.operand if isinstance(p, e.Spread) else p for p in parts]
+                return all(self.may_be_plain(p, facts) for p in within)
+            case e.BuildMapping(_, entries):
+                pairs = (entry for entry in entries if not isinstance(entry, e.Spread))
+                return all(self.may_be_plain(part, facts) for pair in pairs for part in pair)
+            case e.Conditional(_, one, other):
+                return self.may_be_plain(one, facts) and self.may_be_plain(other, facts)
+        held = self._notes.origins.of(value, self._name)
+        is_object = any(isinstance(o, ClassOrigin) and o.of_object for o in held)
+        return not is_object and self.of(value, facts) <= _IN_TEXTS
+
+    def is_whole(self, value: e.Expression) -> bool:
+        """Whether a value is declared as a whole number."""
+        types = self._declared_types(value)
+        return bool(types) and all(isinstance(each, t.Integer | t.Truth) for each in types)
+
+    def _declared(self, value: e.Expression) -> ValueTypes:
+        """The types that parameters, attributes and their elements are declared with."""
+        return union(map(_of_declared, self._declared_types(value)))
+
+    def _declared_types(self, value: e.Expression) -> list[t.Type]:
+        program = self._graph.program
+        around = program.function(self._name)
+        match value:
+            case e.Local(name):
+                return [p.type for p in around.parameters if p.name == name]
+            case e.Attribute(e.Local(of), name) if of == around.receiver and around.owner:
+                classes = map(program.classes.get, self._graph.family(around.owner))
+                fields = (f for c in classes if c is not None for f in c.fields)
+                return [f.type for f in fields if f.name == name]
+            case e.Index(of, index) if not isinstance(index, e.Slice):
+                return [a.element for a in self._declared_types(of) if isinstance(a, t.Array)]
+            case _:
+                return []
+
+    def _attribute(self, value: e.Attribute, facts: Facts) -> ValueTypes:
+        """The types of an attribute, by its object's class and what is stored under its name."""
+        if self._types.attributes.has_own(value.object, self._name):
+            key, here = Member(value.name), self._notes.function
+            stored = [each for each, _ in self._graph.stores.of(key)]
+            others = {n for n in stored if is_of_other(self._graph, here, value, key, n)}
+            if others or Holds(value) in facts or IsBound(value) in facts:
+                return self._named(value, facts)
+        types = self.types(value.object, facts)
+        return self._types.attributes.of(types, value.object, value.name, self._name)
+
+    def _named(self, value: e.Expression, facts: Facts) -> ValueTypes:
+        """The types of what is stored under a name, where some facts are known of it."""
+        key = key_of(value, self._name)
+        if isinstance(value, e.Local) and value.name in self._tested:
+            return ANY_TYPE
+        is_object = value == e.Local(self._notes.function.receiver or "")
+        if key is None or is_object:
+            return self._types.of(value, self._name)
+        found = self._types.sources(key)
+        if isinstance(key, Member):
+            here = self._notes.function
+            found = [s for s in found if not is_of_other(self._graph, here, value, key, s[0])]
+        if Holds(value) in facts:
+            found = [s for s in found if not _is_nothing(s[1])]
+        if isinstance(key, Member) and IsBound(value) in facts:
+            # What makes objects ran before this function stored something there.
+            kinds = {n: self._graph.program.function(n).kind for n, _ in found}
+            found = [s for s in found if kinds[s[0]] not in _FIRST]
+        given = self._types.parameter(key)
+        if not found:
+            return given or ANY_TYPE
+        return self._types.with_puts(key, union(map(self._types.of_stored, found)) | given)
+
+    @cached_property
+    def _tested(self) -> frozenset[str]:
+        """The variables of whose types the function itself asks something: they may be of any."""
+        return frozenset(
+            argument.value.name
+            for node in walk(self._notes.function)
+            if isinstance(node, s.Call) and isinstance(node.callee, s.LibraryCallee)
+            for argument in node.arguments[:1]
+            if node.callee.name in _ASKING and isinstance(argument.value, e.Local)
+        )
+
+
+def _of_declared(type_: t.Type) -> ValueTypes:
+    """The type of a value that is declared with one; none where that says nothing."""
+    match type_:
+        case t.Integer() | t.Float() | t.Truth():
+            return A_NUMBER
+        case t.Text():
+            return A_TEXT
+        case t.Array(element):
+            return sequence(OwnType.MODEL_ARRAY, _of_declared(element) or ANY_TYPE)
+        case _:
+            return NO_TYPES
+
+
+def _is_nothing(value: object) -> bool:
+    """Whether a stored value counts as false."""
+    match value:
+        case e.Literal(constant):
+            return not constant
+        case e.Build(_, ()) | e.BuildMapping(_, ()):
+            return True
+        case _:
+            return False

@@ -1,0 +1,115 @@
+"""Which operands of Python's own types operators take, and which values can be ordered or hashed.
+
+A value of which no type is known is trusted to fit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import combinations_with_replacement
+
+from rebsync.reverse.analysis.python.value_types import (
+    ContainerType,
+    InstanceType,
+    MessageType,
+    OwnType,
+    ValueType,
+    ValueTypes,
+    own_type,
+)
+from rebsync.reverse.ir.operators import Operator
+
+_NUMBER = OwnType.NUMBER
+SEQUENCES = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.ARRAY})
+SIZED = SEQUENCES | {OwnType.SET, OwnType.MAPPING, OwnType.QUEUE}
+ITERABLE = SIZED | {OwnType.MODEL_ARRAY}
+INDEXED = SEQUENCES | {OwnType.QUEUE, OwnType.MAPPING, OwnType.MODEL_ARRAY}
+UNHASHABLE = frozenset(
+    {OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE, OwnType.MODEL_ARRAY}
+)
+_ADDED = SEQUENCES | {OwnType.QUEUE}
+_ORDERED = (Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL)
+_WITHOUT_ORDER = frozenset({OwnType.MAPPING, OwnType.NONE, OwnType.MESSAGE, OwnType.MODEL_ARRAY})
+_OF_SETS = (Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR, Operator.SUBTRACT)
+
+
+def takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bool:
+    """Whether an operator takes operands of two types, as far as they are known."""
+    if left is None or right is None:
+        return True
+    match operator:
+        case _ if left is right is _NUMBER:
+            return True
+        case Operator.ADD:
+            is_array = OwnType.ARRAY in (left, right)
+            return {left, right} <= _ADDED and (left is right or is_array)
+        case Operator.MULTIPLY:
+            return {left, right} in [{_NUMBER, each} for each in _ADDED]
+        case Operator.FLOOR_MODULO:
+            return left in (OwnType.TEXT, OwnType.BYTES)
+        case _ if operator in _ORDERED:
+            return left is right and left not in _WITHOUT_ORDER
+        case _ if operator in _OF_SETS:
+            is_mapping = left is right is OwnType.MAPPING and operator is Operator.BIT_OR
+            return left is right is OwnType.SET or is_mapping
+        case _:
+            return False
+
+
+def are_ordered(types: ValueTypes, has_order: Callable[[str], bool]) -> bool:
+    """Whether each value of some types can be compared with each; `has_order` asks of a class."""
+    pairs = combinations_with_replacement(sorted(types, key=str), 2)
+    return all(_is_ordered(one, other, has_order) for one, other in pairs)
+
+
+def _is_ordered(
+    one: ValueType | None, other: ValueType | None, has_order: Callable[[str], bool]
+) -> bool:
+    match one, other:
+        case None, _:
+            return other is not OwnType.NONE
+        case _, None:
+            return one is not OwnType.NONE
+        case InstanceType(name), _:
+            return has_order(name)
+        case _, InstanceType(name):
+            return has_order(name)
+        case ContainerType(OwnType.TUPLE, parts=first), ContainerType(OwnType.TUPLE, parts=second):
+            return first is None or second is None or _are_parts(first, second, has_order)
+        case ContainerType(OwnType.LIST, first_ones), ContainerType(OwnType.LIST, others):
+            return are_ordered(first_ones | others, has_order)
+        case _:
+            return takes(Operator.LESS, own_type(one), own_type(other))
+
+
+def _are_parts(
+    one: tuple[ValueTypes, ...], other: tuple[ValueTypes, ...], has_order: Callable[[str], bool]
+) -> bool:
+    """Whether tuples can be compared: their parts in turn, as long as these may be equal.
+
+    A part of unknown type is taken for one that differs each time, as a time or a counter does.
+    """
+    for first, second in zip(one, other, strict=False):
+        both = first | second
+        if not are_ordered(both - {None}, has_order):
+            return False
+        if None in both:
+            return OwnType.NONE not in both
+    return True
+
+
+def is_hashable(types: ValueTypes, has_hash: Callable[[str], bool]) -> bool:
+    """Whether values of some types can be keys, or elements of sets; `has_hash` asks of a class."""
+    return all(_is_hashable(type_, has_hash) for type_ in types)
+
+
+def _is_hashable(type_: ValueType | None, has_hash: Callable[[str], bool]) -> bool:
+    match type_:
+        case ContainerType(OwnType.TUPLE, elements):
+            return is_hashable(elements, has_hash)
+        case InstanceType(name):
+            return has_hash(name)
+        case MessageType():
+            return True  # some have one
+        case _:
+            return own_type(type_) not in UNHASHABLE

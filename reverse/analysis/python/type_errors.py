@@ -1,0 +1,318 @@
+"""What Python asks of values of its own types that these have not: a TypeError, an AttributeError.
+
+A value that may be of several types must have what is asked in each; one of which no type is known
+is trusted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rebsync.reverse.analysis.facts import Facts
+from rebsync.reverse.analysis.origins import ClassOrigin
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.python.attribute_errors import AttributeErrors
+from rebsync.reverse.analysis.python.element_errors import ElementErrors
+from rebsync.reverse.analysis.python.format_strings import OF_NUMBERS, numbers_in, refuses
+from rebsync.reverse.analysis.python.log_arguments import LogArguments
+from rebsync.reverse.analysis.python.message_errors import MessageErrors
+from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
+from rebsync.reverse.analysis.python.operator_types import (
+    INDEXED,
+    ITERABLE,
+    SEQUENCES,
+    SIZED,
+    takes,
+)
+from rebsync.reverse.analysis.python.value_types import (
+    InstanceType,
+    LibraryType,
+    OwnType,
+    ValueTypes,
+    own_type,
+)
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.operators import ImplicitCall, Operator
+from rebsync.reverse.libraries.attributes import TIMES
+from rebsync.reverse.libraries.routines import Language
+
+_WRONG = "is of another type"
+_LACKS = "has no such attribute"
+NUMBER, TEXT = OwnType.NUMBER, OwnType.TEXT
+# Operators that times take with times only.
+_OF_TIMES = (
+    *(Operator.ADD, Operator.SUBTRACT, Operator.LESS, Operator.LESS_EQUAL),
+    *(Operator.GREATER, Operator.GREATER_EQUAL),
+)
+_EQUALITY = (Operator.EQUAL, Operator.UNEQUAL)
+_OF_NUMBERS = frozenset(
+    f"builtins.{n}" for n in ("abs", "round", "float", "int", "divmod", "pow", "range", "chr")
+)
+_OF_TEXTS = frozenset({"builtins.float", "builtins.int"})  # which take texts and bytes as well
+_OF_WHOLE = "bcdoxX"  # how styles of whole numbers end
+_GOING_THROUGH = frozenset({"extend", "extendleft"})
+_OF_ELEMENTS = frozenset(
+    f"builtins.{n}"
+    for n in (
+        *("len", "sum", "any", "all", "sorted", "list", "tuple", "set", "enumerate"),
+        *("iter", "zip"),
+    )
+)
+
+
+class TypeErrors:
+    """The values of one function."""
+
+    def __init__(self, notes: ProblemNotes) -> None:
+        self._notes = notes
+        self.kinds = OperandKinds(notes)
+        self._attributes = AttributeErrors(notes, self.kinds)
+        self._elements = ElementErrors(notes, self.kinds)
+        self._messages = MessageErrors(notes, self.kinds)
+        self._logs = LogArguments(notes, self.kinds)
+        self._objects = notes.counts.rules.objects
+        self._is_python = notes.table.language is Language.PYTHON
+
+    def of(self, value: e.Expression, facts: Facts) -> ValueTypes | None:
+        """The types that a value may be of; None in other languages."""
+        return self.kinds.types(value, facts) if self._is_python else None
+
+    def given(self, call: s.Call) -> ValueTypes | None:
+        """The types of what a call gives; None in other languages."""
+        return self.kinds.given(call) if self._is_python else None
+
+    def check(self, value: e.Expression, facts: Facts) -> None:
+        """Notes what evaluating an expression asks of values that have it not."""
+        if not self._is_python:
+            return
+        match value:
+            case e.Attribute(of, name) if not isinstance(of, e.ClassReference):
+                self._attributes.asks(value, of, name, facts)
+            case e.Binary(operator, left, right):
+                self._computes(value, operator, left, right, facts)
+            case e.Unary(Operator.NEGATE | Operator.PLUS | Operator.INVERT as operator, of):
+                self._answers(value, of, operator)
+                self._needs(value, of, {NUMBER}, facts)
+            case e.Index(of, index):
+                self._at(value, of, index, facts)
+            case e.Build() | e.BuildMapping():
+                self._elements.built(value, facts)
+            case e.Format(pieces):
+                for piece in pieces:
+                    if piece.style is not None:
+                        self._styled(value, piece.value, piece.style, facts)
+            case e.Global(module, name):
+                self._attributes.named(value, module, name)
+            case e.LibraryReference(name):
+                self._attributes.of_library(value, name)
+            case _:
+                pass
+
+    def call(self, node: s.Call, facts: Facts) -> None:
+        """Notes what a call asks of what is called, and of what it gets."""
+        if not self._is_python:
+            return
+        plain = [a.value for a in node.arguments if a.name is None and not a.stars]
+        self._elements.call(node, plain, facts)
+        self._logs.check(node, facts)
+        if isinstance(node.callee, s.LibraryCallee):
+            self._attributes.of_library(node, node.callee.name)
+            self._messages.made(node, node.callee.name, facts)
+        match node.callee:
+            case s.ValueCallee(value):
+                self._needs(node, value, set(), facts)
+            case s.MethodCallee(e.Literal(str() as text), "format"):
+                self._fills(node, text, plain, facts)
+            case s.MethodCallee(receiver, name, _, None):
+                self._attributes.asks(node, receiver, name, facts)
+                self._attributes.takes_nothing(node, receiver, name, facts)
+                if name in _GOING_THROUGH and None not in self.kinds.of(receiver, facts):
+                    for value in plain[:1]:
+                        self.iterates(node, value, facts)
+                if not self._notes.origins.methods_of_any(name):
+                    self._needs(node, e.Attribute(receiver, name), set(), facts)
+            case s.LibraryCallee("builtins.range") if any(map(_is_fraction, plain)):
+                self._notes.fails(node, _WRONG)
+            case s.LibraryCallee(name) if name in _OF_NUMBERS:
+                taken = {NUMBER, TEXT, OwnType.BYTES} if name in _OF_TEXTS else {NUMBER}
+                for value in plain:
+                    self._needs(node, value, taken, facts)
+            case s.LibraryCallee("builtins.format") if len(plain) > 1:
+                self._styled(node, plain[0], plain[1], facts)
+            case s.LibraryCallee("builtins.len"):
+                for value in plain[:1]:
+                    self._needs(node, value, SIZED, facts)
+                    self._answers(node, value, ImplicitCall.LENGTH)
+            case s.LibraryCallee("builtins.reversed"):
+                for value in plain:
+                    self._needs(node, value, SIZED, facts)
+            case s.LibraryCallee(name) if name in _OF_ELEMENTS:
+                for value in plain if name == "builtins.zip" else plain[:1]:
+                    self.iterates(node, value, facts)
+            case _:
+                pass
+
+    def _fills(self, node: s.Call, text: str, plain: list[e.Expression], facts: Facts) -> None:
+        """Values that `format` puts into a text as numbers."""
+        given: dict[int | str | None, e.Expression] = dict(enumerate(plain))
+        given |= {a.name: a.value for a in node.arguments if a.name is not None}
+        for piece in numbers_in(text):
+            if piece in given:
+                self._needs(node, given[piece], {NUMBER}, facts)
+
+    def iterates(self, node: s.Statement, value: e.Expression, facts: Facts) -> None:
+        """Notes that something is gone through that has no elements."""
+        if self._is_python:
+            self._needs(node, value, ITERABLE, facts)
+            self._answers(node, value, ImplicitCall.ITERATE)
+
+    def _answers(
+        self,
+        node: s.Statement | e.Expression,
+        value: e.Expression,
+        call: Operator | ImplicitCall,
+    ) -> None:
+        """A value's class must answer an operator, if it is one of the program's."""
+        if self._objects.lacks(value, self._notes.function.name, call):
+            self._notes.fails(node, _WRONG)
+
+    def sets(self, target: e.Lvalue, value: e.Expression | None, facts: Facts) -> None:
+        """Notes that an attribute is stored in an object that has no place for it."""
+        if not (self._is_python and isinstance(target, e.Attribute)):
+            return
+        origins, rules = self._notes.origins, self._notes.counts.rules
+        self._messages.stored(target, value, facts)
+        held = origins.of(target.object, self._notes.function.name)
+        if target.object == e.Local(self._notes.function.receiver or ""):
+            held = frozenset({ClassOrigin(self._notes.function.owner or "")})
+        for origin in held:
+            match origin:
+                case ClassOrigin(of, True) if rules.fixed.refuses(of, target.name):
+                    self._notes.fails(target, _LACKS)
+                case ClassOrigin(of, False) if target.name in origins.enumerations.of(of):
+                    if self._notes.function.name != of:  # the body of the class itself
+                        self._notes.fails(target, _LACKS)
+                case _:
+                    pass
+
+    def stores(self, target: e.Index, facts: Facts) -> None:
+        """Notes that an element is stored in what takes none."""
+        if not self._is_python:
+            return
+        changing = {OwnType.LIST, OwnType.MAPPING, OwnType.QUEUE, OwnType.ARRAY}
+        changing |= {OwnType.MODEL_ARRAY}
+        self._needs(target, target.object, changing, facts)
+        if self.kinds.of(target.object, facts) == {OwnType.MAPPING}:
+            self._elements.is_key(target, target.index, facts)
+
+    def _needs(
+        self,
+        node: s.Statement | e.Expression,
+        value: e.Expression,
+        taken: Iterable[OwnType],
+        facts: Facts,
+    ) -> None:
+        types = self.kinds.types(value, facts)
+        is_bare = any(isinstance(t, InstanceType) and self._objects.is_bare(t.name) for t in types)
+        if is_bare or frozenset(map(own_type, types)) - {*taken, None}:
+            self._notes.fails(node, _WRONG)
+
+    # --- operators -------------------------------------------------------------------------------
+
+    def _computes(
+        self,
+        value: e.Binary,
+        operator: Operator,
+        left: e.Expression,
+        right: e.Expression,
+        facts: Facts,
+    ) -> None:
+        kinds = self.kinds.of(left, facts), self.kinds.of(right, facts)
+        if operator in (Operator.IN, Operator.NOT_IN):
+            wrong = bool(kinds[1] & {NUMBER, OwnType.MESSAGE}) or (
+                kinds[1] == {TEXT} and bool(kinds[0] - {TEXT, None})
+            )
+        elif operator in (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SAME):
+            wrong = False
+        else:
+            wrong = any(not takes(operator, a, b) for a in kinds[0] for b in kinds[1])
+            is_times = operator is Operator.MULTIPLY and _is_fraction(right)
+            wrong |= is_times and bool(kinds[0] - {NUMBER, None})
+        types = self.kinds.types(left, facts), self.kinds.types(right, facts)
+        if operator in _OF_TIMES and (
+            _is_time_and_number(*types) or _is_time_and_number(*types[::-1])
+        ):
+            wrong = True
+        if operator is Operator.FLOOR_MODULO and isinstance(left, e.Literal):
+            wrong |= isinstance(left.value, str) and self._puts(left.value, right, facts)
+        if wrong:
+            self._notes.fails(value, _WRONG)
+        if operator in (Operator.IN, Operator.NOT_IN):
+            self._answers(value, right, operator)
+        elif operator not in (*_EQUALITY, Operator.SAME, Operator.NOT_SAME):
+            self._answers(value, left, operator)
+            self._answers(value, right, operator)
+
+    def _puts(self, text: str, value: e.Expression, facts: Facts) -> bool:
+        """Whether `%` may not put values into a text: too many, too few, or of another type."""
+        kinds = self.kinds.of(value, facts)
+        if isinstance(value, e.Build) and kinds == {OwnType.TUPLE}:
+            if any(isinstance(each, e.Spread) for each in value.elements):
+                return True
+            return refuses(text, [self.kinds.of(v, facts) for v in value.elements])  # type: ignore[arg-type]
+        return kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
+
+    # --- elements and texts ----------------------------------------------------------------------
+
+    def _at(self, value: e.Index, of: e.Expression, index: e.Expression, facts: Facts) -> None:
+        self._needs(value, of, INDEXED, facts)
+        kinds = self.kinds.of(of, facts)
+        if isinstance(index, e.Slice):
+            self._needs(value, of, INDEXED - {OwnType.MODEL_ARRAY}, facts)
+            return
+        if kinds and kinds <= SEQUENCES | {OwnType.QUEUE, OwnType.MODEL_ARRAY}:
+            self._needs(value, index, {NUMBER}, facts)
+            if _is_fraction(index):
+                self._notes.fails(value, _WRONG)
+        elif kinds == {OwnType.MAPPING}:
+            self._elements.is_key(value, index, facts)
+
+    def _styled(
+        self,
+        node: s.Statement | e.Expression,
+        value: e.Expression,
+        style: e.Expression,
+        facts: Facts,
+    ) -> None:
+        """A style that a value of its type has not; other types have styles of their own."""
+        if not (isinstance(style, e.Literal) and isinstance(style.value, str) and style.value):
+            return
+        kinds, letter = self.kinds.of(value, facts), style.value[-1]
+        if kinds & {NUMBER, TEXT} and letter.isalpha() and letter not in OF_NUMBERS | {"s"}:
+            self._notes.fails(node, _WRONG)
+        elif letter == "s":
+            self._needs(node, value, {TEXT}, facts)
+        elif letter in OF_NUMBERS:
+            self._needs(node, value, {NUMBER}, facts)
+            if letter in _OF_WHOLE and _is_fraction(value):
+                self._notes.fails(node, _WRONG)
+        else:
+            self._needs(node, value, {NUMBER, TEXT}, facts)
+
+
+def _is_time_and_number(one: ValueTypes, other: ValueTypes) -> bool:
+    """Whether one value may be a time or duration of a client library, and one a number."""
+    is_time = any(isinstance(t, LibraryType) and t.name in TIMES for t in one)
+    return is_time and OwnType.NUMBER in other
+
+
+def _is_fraction(value: e.Expression) -> bool:
+    """Whether a number is a float by how it is computed, other than of whole numbers only."""
+    match value:
+        case e.Literal(float()):
+            return True
+        case e.Binary(operator):
+            return operator is Operator.TRUE_DIVIDE
+        case _:
+            return False

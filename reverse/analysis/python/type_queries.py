@@ -1,0 +1,25 @@
+"""What the rooms of the type inference ask of each other."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from rebsync.reverse.analysis.python.value_types import ValueTypes
+from rebsync.reverse.analysis.stores import Key, Source
+from rebsync.reverse.ir import expressions as e
+
+
+class TypeQueries(Protocol):
+    """The types of the values of one program."""
+
+    def of(self, value: e.Expression, function: str) -> ValueTypes:
+        """The types of what an expression of a function may be."""
+
+    def of_name(self, key: Key) -> ValueTypes:
+        """The types of what is stored under a name."""
+
+    def of_stored(self, stored: Source) -> ValueTypes:
+        """The types of what is stored somewhere."""
+
+    def result(self, function: str) -> ValueTypes:
+        """The types of what a function of the program gives."""

@@ -1,0 +1,1 @@
+"""Types of C++ and what they make of numbers: ranges, widths, conversions, literals."""

@@ -1,0 +1,1 @@
+"""Bodies of functions that people wrote, as statements of the model."""

@@ -1,0 +1,393 @@
+"""Expressions of Python as expressions of the model.
+
+Whole numbers of Python have no bounds: each place where the model must have the same number is
+noted as a need, which following all bodies shows to hold or not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync import precedence
+from rebsync.intervals import INT32, Interval, unsigned
+from rebsync.literals import exact_literal_of
+from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import bare, binary, chosen, is_calm, negated, tight
+from rebsync.reverse.models.texts import text_literal
+from rebsync.reverse.python.bodies import (
+    body_calls,
+    body_functions,
+    body_presence,
+    body_tables,
+    body_texts,
+)
+from rebsync.reverse.python.bodies.body_effects import is_harmless
+from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
+from rebsync.reverse.python.bodies.body_floats import as_number, doubled, is_zero
+from rebsync.reverse.python.bodies.body_scope import (
+    REAL,
+    STRING,
+    TRUTH,
+    WHOLE,
+    Message,
+    Pending,
+    Value,
+    Var,
+    unknown,
+)
+from rebsync.reverse.syntax.py_tree import (
+    field,
+    is_asked,
+    named,
+    number_of,
+    text_in,
+    text_of,
+)
+
+_POSITIVE = Interval(1, INT32.high)
+_COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!=", "<>"})
+_DIVISOR = "a divisor that may be 0 or negative"
+_RING = frozenset({"+", "-", "*"})
+_HUGE = 1e300
+_BITS = frozenset({"&", "|", "^"})
+
+
+@dataclass(eq=False, slots=True)
+class PyExpressions(BodyExpressionReader):
+    """Reads the expressions of one run of a function."""
+
+    def read(self, node: Node) -> Value:
+        """An expression; `Unknown` is raised where nobody knows its value."""
+        match node.type:
+            case "integer" | "float":
+                return self._number(node)
+            case "true" | "false":
+                return Value(m.BoolLiteral(node.type == "true", self._span(node)), TRUTH)
+            case "parenthesized_expression" if len(named(node)) == 1:
+                inner = self.read(named(node)[0])
+                plain = isinstance(inner.expression, (m.Name, m.Paren, m.Call))
+                shown = inner.expression if plain else m.Paren(inner.expression)
+                return Value(shown, inner.kind, inner.single, inner.mixed)
+            case "identifier" | "attribute":
+                return self._place(node)
+            case "named_expression" if node.id in self.reading.stored:
+                return self._place(field(node, "name"))
+            case "unary_operator" | "not_operator":
+                return self._unary(node)
+            case "string" | "concatenated_string" if (text := text_in(node)) is not None:
+                return Value(text_literal(text, self._span(node)), STRING)
+            case "binary_operator" if body_texts.is_operation(node):
+                return self.operation(
+                    text_of(field(node, "operator")),
+                    self.read(field(node, "left")),
+                    self.read(field(node, "right")),
+                    node,
+                )
+            case "comparison_operator" | "boolean_operator":
+                return self._logic(node)
+            case "conditional_expression" if len(named(node)) == 3:
+                return self._conditional(node)
+            case "subscript":
+                return body_tables.element(self, node)
+            case "call":
+                found = body_tables.get_call(self, node) or body_calls.called(self, node)
+                self._is_exact(node)
+                return found
+            case _:
+                raise unknown(self.frame, node, f'"{short(node)}"')
+
+    def _is_exact(self, node: Node) -> None:
+        """Notes that the model has a value or operation: it is shown to raise nothing."""
+        self.reading.exact.add((self.frame.py.source.path, self._span(node)))
+
+    def condition(self, node: Node) -> m.Expression:
+        """A condition; one that nobody knows may be true or false, and is listed."""
+        there = body_presence.is_there(self, node)
+        if there is not None:
+            return there
+        try:
+            return self.truth(self.read(node), node)
+        except Unknown as open_:
+            if not is_harmless(self.reading, node, self.frame):
+                raise Unread(open_.span, open_.why, open_.hint) from open_
+            self.note(node, open_.why)
+            return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), self._span(node))
+
+    def note(self, node: Node, why: str) -> None:
+        """Lists a place of which the model allows more than the code."""
+        source = self.frame.py.source
+        self.reading.findings.approximated(source, self._span(node), why, "", self.within)
+
+    def truth(self, value: Value, node: Node) -> m.Expression:
+        """What Python takes for true."""
+        if value.kind == TRUTH:
+            return bare(value.expression)
+        if value.kind == STRING:
+            return body_texts.is_filled(self, value, node)
+        zero = exact_literal_of(0 if value.kind == WHOLE else 0.0)
+        if value.kind == WHOLE:
+            self.need(value, node)
+        return binary("!=", value.expression, zero, self._span(node))
+
+    # --- names ----------------------------------------------------------------------------------
+
+    def _place(self, node: Node) -> Value:
+        meaning, path = self.meaning(node)
+        match meaning:
+            case Value():
+                return meaning
+            case Message() if path:
+                return self.reading.read_field(meaning, path, node, self.frame)
+            case Var():
+                return self._variable(meaning, node)
+            case _:
+                if "_parameter(" in text_of(node):
+                    return body_calls.parameter(self, node)
+                found = body_functions.value_of_property(self, node)
+                if found is None:
+                    raise unknown(self.frame, node, f'"{short(node)}"')
+                return found
+
+    def _variable(self, variable: Var, node: Node) -> Value:
+        kind = self.reading.learnt.kind(variable.key)
+        if kind is None:
+            self.reading.learnt.pending.add(variable.key)
+            raise Pending(self._span(node), f'nothing that is read gives "{short(node)}" a value')
+        owner = self.frame.owner_of(variable.key) or self.frame
+        if not variable.is_state and text_of(node) not in owner.assigned:
+            if kind == STRING:
+                raise unknown(self.frame, node, f'"{short(node)}"')
+            raise Unread(self._span(node), f'"{short(node)}" may have no value yet')
+        self._is_exact(node)
+        mixed = self.reading.learnt.is_mixed(variable.key)
+        return Value(m.Name(variable.name, self._span(node)), kind, mixed=mixed)
+
+    # --- operators ------------------------------------------------------------------------------
+
+    def _number(self, node: Node) -> Value:
+        number = number_of(node)
+        if isinstance(number, int) and number > INT32.high:
+            raise unknown(self.frame, node, "a number beyond its int")
+        if number is None or abs(number) > _HUGE:
+            raise Unread(self._span(node), "this number is none of the model")
+        return Value(exact_literal_of(number), REAL if isinstance(number, float) else WHOLE)
+
+    def _unary(self, node: Node) -> Value:
+        inner = field(node, "argument")
+        if node.type == "not_operator":
+            return Value(negated(self.condition(inner)), TRUTH)
+        value, operator = self.read(inner), text_of(field(node, "operator"))
+        if value.kind == STRING:
+            raise unknown(self.frame, node, f'"{short(node)}"')
+        value = as_number(value)
+        if operator == "~" and value.kind != WHOLE:
+            raise Unread(self._span(node), f'"{operator}" of such a value is not read')
+        if operator == "+":
+            return value
+        operand = tight(value.expression, precedence.PREFIX)
+        found = m.Unary(operator, operand, self._span(node))
+        return Value(found, value.kind, value.single, value.mixed)
+
+    def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
+        """An operation on two numbers."""
+        found = self._operation(operator, left, right, node)
+        self._is_exact(node)
+        return found
+
+    def _operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
+        if STRING in (left.kind, right.kind):
+            return body_texts.joined(self, operator, left, right, node)
+        if left.kind == right.kind == TRUTH and operator in _BITS:
+            return self._bits_of_truth(operator, left, right, node)
+        left, right = as_number(left), as_number(right)
+        if left.kind == right.kind == WHOLE:
+            return self._whole(operator, left, right, node)
+        if operator in ("*", "+", "-", "/"):
+            if operator == "/":
+                self._is_not_zero(right, node)
+                self._is_real(left, right, node)
+            sides = self.real(left, node), self.real(right, node)
+            return Value(doubled(operator, *sides, self._span(node)), REAL)
+        raise Unread(self._span(node), f'"{operator}" of floats has no like in the model')
+
+    def _bits_of_truth(self, operator: str, left: Value, right: Value, node: Node) -> Value:
+        """`|`, `&` and `^` of two truth values, both of which are looked at."""
+        if not is_calm(right.expression):
+            raise Unread(self._span(node), f'"{operator}" of such values is not read')
+        sign = {"|": "||", "&": "&&", "^": "!="}[operator]
+        return Value(binary(sign, left.expression, right.expression, self._span(node)), TRUTH)
+
+    def _whole(self, operator: str, left: Value, right: Value, node: Node) -> Value:
+        if operator in _RING:
+            return Value(
+                binary(operator, left.expression, right.expression, self._span(node)), WHOLE
+            )
+        if operator == "/" and self.reading.unit.version != 2:
+            self._is_real(left, right, node)
+            self._is_not_zero(right, node)
+            sides = self.real(left, node), self.real(right, node, "right")
+            return Value(doubled("/", *sides, self._span(node)), REAL)
+        if operator in ("/", "//", "%"):
+            return self._divided("%" if operator == "%" else "/", left, right, node)
+        if operator in _BITS or operator == ">>":
+            self.need(left, node, "left")
+            self.need(right, node, "right", Interval(0, 31) if operator == ">>" else INT32)
+            found = binary(operator, left.expression, right.expression, self._span(node))
+            return Value(found, WHOLE)
+        match right.expression:
+            case m.IntLiteral(places) if operator == "<<" and places < 31:
+                by = m.IntLiteral(1 << places)
+                return Value(binary("*", left.expression, by, self._span(node)), WHOLE)
+        raise Unread(self._span(node), f'"{operator}" is not read')
+
+    def _divided(self, operator: str, left: Value, right: Value, node: Node) -> Value:
+        """Python rounds down, the model towards 0: the same where nothing is negative."""
+        by = bare(right.expression)
+        self.need(right, node, "by", _POSITIVE, strict=_DIVISOR)
+        span = self._span(node)
+        if not self._is_refused(node, "dividend"):
+            self._noted(left.expression, node, "dividend", unsigned(31))
+            return Value(binary(operator, left.expression, right.expression, span), WHOLE)
+        if not isinstance(by, m.IntLiteral) or not 0 < by.value < 1 << 30:
+            raise Unread(span, "it rounds down where the model's rounds towards 0")
+        self.need(left, node, "left")
+        rest = binary("%", binary("+", binary("%", left.expression, by), by), by, span)
+        if operator == "%":
+            return Value(rest, WHOLE)
+        if not is_calm(left.expression):
+            raise Unread(span, "it rounds down where the model's rounds towards 0")
+        above = Value(binary("-", left.expression, rest), WHOLE)
+        return Value(binary("/", self.need(above, node, "above"), by, span), WHOLE)
+
+    def _is_not_zero(self, value: Value, node: Node) -> None:
+        match bare(value.expression):
+            case m.IntLiteral(number) if number:
+                return
+            case m.FloatLiteral() | m.Unary("-", m.FloatLiteral() | m.IntLiteral()):
+                if not any(
+                    isinstance(n, (m.FloatLiteral, m.IntLiteral)) and is_zero(n)
+                    for n in m.walk(value.expression)
+                ):
+                    return
+        if value.kind == WHOLE:
+            self.need(value, node, "by", _POSITIVE, strict=_DIVISOR)
+            return
+        raise Unread(self._span(node), "it may divide by 0, which ends the callback in Python")
+
+    def _is_real(self, left: Value, right: Value, node: Node) -> None:
+        if self.reading.unit.version != 3 and not (_is_float(left) or _is_float(right)):
+            raise Unread(
+                self._span(node),
+                "Python 2 and 3 divide whole numbers differently, and the file may be of either",
+                "say which in its first line: #!/usr/bin/env python3",
+            )
+
+    # --- conditions -----------------------------------------------------------------------------
+
+    def _logic(self, node: Node) -> Value:
+        if node.type == "comparison_operator":
+            return Value(self._compared(node), TRUTH)
+        sign = "&&" if text_of(field(node, "operator")) == "and" else "||"
+        left, right = field(node, "left"), field(node, "right")
+        if is_asked(node):
+            sides = self.condition(left), self.condition(right)
+            return Value(binary(sign, *sides, self._span(node)), TRUTH)
+        one, other = self.read(left), self.read(right)
+        if one.kind == other.kind == TRUTH:
+            sides = bare(one.expression), bare(other.expression)
+            return Value(binary(sign, *sides, self._span(node)), TRUTH)
+        if not is_calm(one.expression):
+            raise Unread(self._span(node), '"and" and "or" of such values')
+        ways = (other, one) if sign == "&&" else (one, other)
+        return self.joined(self.truth(one, left), *ways, node)
+
+    def _compared(self, node: Node) -> m.Expression:
+        operands = named(node)
+        signs = [text_of(c) for c in node.children_by_field_name("operators")]
+        if (there := body_presence.compared_with_none(self, operands, signs)) is not None:
+            return there.expression
+        if signs in (["in"], ["not in"]):
+            listed = body_tables.elements(self, operands[1])
+            if listed is not None:
+                return self._one_of(operands[0], listed, node, signs == ["in"])
+        if (same := body_presence.identical(self, operands, signs, node)) is not None:
+            return same
+        if (same := body_texts.identical(self, operands, signs, node)) is not None:
+            return same
+        if len(signs) != len(operands) - 1 or not set(signs) <= _COMPARES:
+            raise unknown(self.frame, node, f'"{short(node)}"')
+        values = [self.read(o) for o in operands]
+        found: m.Expression | None = None
+        if len(values) > 2 and not all(is_calm(v.expression) for v in values[1:-1]):
+            raise Unread(self._span(node), "what stands in the middle would run twice")
+        for number, sign in enumerate(signs):
+            one = self.compared(sign, values[number], values[number + 1], node, number)
+            found = one if found is None else binary("&&", found, one, self._span(node))
+        assert found is not None
+        return found
+
+    def compared(
+        self, sign: str, left: Value, right: Value, node: Node, number: int
+    ) -> m.Expression:
+        """The comparison with a number in `node`."""
+        if STRING in (left.kind, right.kind):
+            return body_texts.compared(self, sign, left, right, node)
+        pair = self._pair(left, right, node, number)
+        return binary("!=" if sign == "<>" else sign, *pair, self._span(node))
+
+    def _one_of(self, value: Node, of: Sequence[Value], node: Node, holds: bool) -> m.Expression:
+        """`x in (1, 2)`."""
+        read = self.read(value)
+        if not is_calm(read.expression) or not of:
+            raise unknown(self.frame, node, f'"{short(node)}"')
+        found: m.Expression | None = None
+        for number, other in enumerate(of):
+            one = self.compared("==", read, other, node, number)
+            found = one if found is None else binary("||", found, one, self._span(node))
+        assert found is not None
+        return found if holds else negated(found)
+
+    def _pair(
+        self, left: Value, right: Value, node: Node, number: int
+    ) -> tuple[m.Expression, m.Expression]:
+        if not left.kind == right.kind == TRUTH:
+            left, right = as_number(left), as_number(right)
+        for side, value in (("left", left), ("right", right)):
+            if value.kind == WHOLE:
+                self.need(value, node, f"{side} {number}")
+        if left.kind == right.kind:
+            return left.expression, right.expression
+        return self.real(left, node), self.real(right, node)
+
+    def _conditional(self, node: Node) -> Value:
+        then, condition, otherwise = named(node)
+        asked = self.condition(condition)
+        return self.joined(asked, self.read(then), self.read(otherwise), node)
+
+    def joined(self, asked: m.Expression, one: Value, other: Value, node: Node) -> Value:
+        """One of two values, as a condition says."""
+        if STRING in (one.kind, other.kind) and one.kind != other.kind:
+            raise unknown(self.frame, node, f'"{short(node)}"')
+        if TRUTH in (one.kind, other.kind) and one.kind != other.kind:
+            raise Unread(self._span(node), "its values are of two kinds")
+        if one.kind == other.kind == WHOLE or one.kind in (TRUTH, STRING):
+            mixed = one.kind == STRING and (one.mixed or other.mixed)
+            found = chosen(asked, one.expression, other.expression)
+            return Value(found, one.kind, mixed=mixed)
+        sides = self.real(one, node, "one"), self.real(other, node, "other")
+        mixed = one.mixed or other.mixed or WHOLE in (one.kind, other.kind)
+        return Value(chosen(asked, *sides), REAL, mixed=mixed)
+
+
+def _is_float(value: Value) -> bool:
+    return value.kind == REAL and not value.mixed
+
+
+def short(node: Node) -> str:
+    text = " ".join(text_of(node).split())
+    return text if len(text) <= 40 else f"{text[:37]}..."

@@ -1,0 +1,50 @@
+"""Floats: Python's have 64 bits, the literals of the model 32. Truth values that are numbers."""
+
+from __future__ import annotations
+
+from rebsync import model as m
+from rebsync.reverse.models.building import bare, binary, cast, chosen
+from rebsync.reverse.python.bodies.body_scope import TRUTH, WHOLE, Value
+from rebsync.source import Span
+from rebsync.static.types import DOUBLE
+
+
+def doubled(operator: str, left: m.Expression, right: m.Expression, span: Span) -> m.Expression:
+    """An operation of the model with 64 bits: its literals have 32."""
+    if _is_literal(left) and _is_literal(right):
+        left = cast(DOUBLE, left)
+    return binary(operator, left, right, span)
+
+
+def _is_literal(expression: m.Expression) -> bool:
+    match bare(expression):
+        case m.FloatLiteral():
+            return True
+        case m.Unary(_, operand):
+            return _is_literal(operand)
+        case m.Conditional(_, then, otherwise):
+            return _is_literal(then) and _is_literal(otherwise)
+        case m.Choice(options):
+            return all(map(_is_literal, options))
+        case _:
+            return False
+
+
+def is_zero(literal: m.FloatLiteral | m.IntLiteral) -> bool:
+    """Whether a literal is 0."""
+    return (
+        not literal.value
+        if isinstance(literal, m.IntLiteral)
+        else not float(literal.text.rstrip("fFdD"))
+    )
+
+
+def as_number(value: Value) -> Value:
+    """A truth value as Python computes with it, 1 or 0; other values as they are."""
+    if value.kind != TRUTH:
+        return value
+    match bare(value.expression):
+        case m.BoolLiteral(truth):
+            return Value(m.IntLiteral(int(truth)), WHOLE)
+        case expression:
+            return Value(chosen(expression, m.IntLiteral(1), m.IntLiteral(0)), WHOLE)

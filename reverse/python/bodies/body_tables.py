@@ -1,0 +1,157 @@
+"""Tables of constants: dictionaries, lists and tuples that are made once and only looked into."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tree_sitter import Node
+
+from rebsync.reverse.models.building import chosen, is_calm
+from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
+from rebsync.reverse.python.bodies.body_reading import Reading
+from rebsync.reverse.python.bodies.body_scope import STRING, TRUTH, WHOLE, Value, unknown
+from rebsync.reverse.python.values.py_worth import Items, Table
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import arguments_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
+
+_LISTS = frozenset({"tuple", "list", "set"})
+# What may store an element, or take it out, if that is a part of it.
+_CHANGES = frozenset(
+    {"delete_statement", "augmented_assignment", "expression_list", "as_pattern_target"}
+    | {"pattern_list", "list_pattern", "tuple_pattern"}
+)
+_LOOKS = frozenset({"get", "keys", "values", "items"})
+_MOST = 32
+_KEYS = frozenset({STRING, WHOLE})
+
+
+def elements(reader: BodyExpressionReader, node: Node) -> Sequence[Value] | None:
+    """The elements of a list, or keys of a table, of which code asks whether something is in it."""
+    if node.type in _LISTS:
+        return [reader.read(n) for n in named(node)]
+    if (pairs := _pairs(reader, node)) is not None:
+        return [key for key, _ in pairs]
+    match reader.reading.values.ways(node, reader.frame.scope):
+        case (Items(each),) if _is_constant(reader.reading, node):
+            values = [reader.reading.constant(ways) for ways in each]
+            return None if None in values else [v for v in values if v is not None]
+        case _:
+            return None
+
+
+def element(reader: BodyExpressionReader, node: Node) -> Value:
+    """`TABLE[key]`."""
+    keys = node.children_by_field_name("subscript")
+    pairs = _pairs(reader, field(node, "value"))
+    if len(keys) != 1 or not pairs:
+        raise unknown(reader.frame, node, f'"{text_of(node)}"')
+    found = _selected(reader, node, keys[0], pairs[:-1], pairs[-1][1])
+    if _has_all(reader, pairs, keys[0]):
+        reader.reading.exact.add((reader.frame.py.source.path, reader.frame.span(node)))
+    return found
+
+
+def _has_all(reader: BodyExpressionReader, pairs: Sequence[tuple[Value, Value]], key: Node) -> bool:
+    """Whether a table has all that a key may be."""
+    ways = reader.reading.values.ways(key, reader.frame.scope)
+    values = [reader.reading.constant((way,)) for way in ways]
+    known = [each.expression for each, _ in pairs]
+    return bool(values) and all(v is not None and v.expression in known for v in values)
+
+
+def get_call(reader: BodyExpressionReader, node: Node) -> Value | None:
+    """`TABLE.get(key, otherwise)`; None for other calls."""
+    function, (plain, keywords) = field(node, "function"), arguments_of(node)
+    if function.type != "attribute" or text_of(field(function, "attribute")) != "get":
+        return None
+    if len(plain) != 2 or keywords:
+        return None
+    pairs = _pairs(reader, field(function, "object"))
+    return _selected(reader, node, plain[0], pairs, reader.read(plain[1])) if pairs else None
+
+
+def _selected(
+    reader: BodyExpressionReader,
+    node: Node,
+    key: Node,
+    pairs: Sequence[tuple[Value, Value]],
+    otherwise: Value,
+) -> Value:
+    asked = reader.read(key)
+    kinds = {value.kind for _, value in pairs} | {otherwise.kind}
+    if asked.kind not in _KEYS or not is_calm(asked.expression) or len(kinds) != 1:
+        raise unknown(reader.frame, node, f'"{text_of(node)}"')
+    found = otherwise.expression
+    for number, (known, value) in reversed(list(enumerate(pairs))):
+        is_it = reader.compared("==", asked, known, node, number)
+        found = chosen(is_it, value.expression, found)
+    return Value(found, kinds.pop())
+
+
+def _pairs(reader: BodyExpressionReader, node: Node) -> list[tuple[Value, Value]] | None:
+    """The keys and values of a table, all constants, no key twice; None for other expressions."""
+    match reader.reading.values.ways(node, reader.frame.scope):
+        case (Table(pairs),) if 0 < len(pairs) <= _MOST:
+            pass
+        case _:
+            return None
+    if not _is_constant(reader.reading, node):
+        return None
+    found: list[tuple[Value, Value]] = []
+    for keys, values in pairs:
+        key, value = reader.reading.constant(keys), reader.reading.constant(values)
+        if key is None or value is None or key.kind not in _KEYS or value.kind == TRUTH:
+            return None
+        found.append((key, value))
+    keys_ = [key.expression for key, _ in found]
+    kinds = {key.kind for key, _ in found}
+    is_plain = len(kinds) == 1 and all(k not in keys_[:n] for n, k in enumerate(keys_))
+    return found if is_plain else None
+
+
+def _is_constant(reading: Reading, node: Node) -> bool:
+    """Whether a table is a literal, or has a name that is bound once and only looked into."""
+    if node.type in ("dictionary", *_LISTS):
+        return True
+    if node.type not in ("identifier", "attribute"):
+        return False
+    name, made = text_of(node).rpartition(".")[2], 0
+    for module in reading.code.modules.values():
+        for each in nodes_in(module.node):
+            if each.type == "identifier" and text_of(each) == name:
+                use = _use(each)
+                if use is None:
+                    return False
+                made += use
+    return made == 1
+
+
+def _use(name: Node) -> int | None:
+    """How often a place in the code binds a name; None where it may do more than to look."""
+    at = name
+    above = at.parent
+    if above is not None and above.type == "attribute" and field(above, "attribute") == name:
+        at, above = above, above.parent
+    match above.type if above is not None else "":
+        case "assignment" if above is not None and above.child_by_field_name("left") == at:
+            return 1
+        case "subscript" if above is not None and field(above, "value") == at:
+            return None if _is_changed(above) else 0
+        case "attribute" if above is not None and field(above, "object") == at:
+            return 0 if text_of(field(above, "attribute")) in _LOOKS else None
+        case "comparison_operator":
+            return 0
+        case "for_in_clause" if above is not None and field(above, "right") == at:
+            return 0  # its elements are constants
+        case _:
+            return None
+
+
+def _is_changed(element_: Node) -> bool:
+    above = element_.parent
+    if above is None or above.type in _CHANGES:
+        return True
+    return above.type in ("assignment", "for_statement") and (
+        above.child_by_field_name("right") != element_
+    )

@@ -1,0 +1,1 @@
+"""Generated classes that people edited: roles, statements, and what only people are told."""

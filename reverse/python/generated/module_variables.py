@@ -1,0 +1,128 @@
+"""Variables of a Python module that only logs have to do with: counters, loggers, tables."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.python.generated.log_words import COMPUTING
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_bindings import Binding
+from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
+
+_LITERALS = frozenset({"integer", "float", "string", "none", "true", "false"})
+_TABLE = _LITERALS | {
+    *("dictionary", "pair", "string_start", "string_content", "string_end", "unary_operator"),
+    "comment",
+}
+
+
+def imported_as(module: Scope, name: str) -> str:
+    """What a name of a module is of, as `threading.Lock`; empty if it is not imported alone."""
+    bindings = module.names.get(name, [])
+    if len(bindings) != 1 or bindings[0].how != "import":
+        return ""
+    node = bindings[0].node
+    if node.type == "import_from_statement":
+        return f"{text_of(field(node, 'module_name'))}.{name}"
+    return name
+
+
+def call_and_arguments(node: Node) -> tuple[str, list[Node]]:
+    """What is called and the arguments, those with names among them."""
+    if node.type != "call":
+        return "", []
+    return text_of(field(node, "function")), named(field(node, "arguments"))
+
+
+def counters_of(code: PyCode, module: Scope) -> Iterator[str]:
+    """The variables of a module that are made of a literal at its top, and that no other names."""
+    for name, bindings in module.names.items():
+        values = [b for b in bindings if b.node.parent and b.node.parent.parent == module.node]
+        others = [b for b in bindings if b not in values]
+        is_made = len(values) == 1 and values[0].how == "value" and not values[0].path
+        is_made = is_made and bool(others) and all(_counts(b, name) for b in bindings)
+        if is_made and not _is_named_elsewhere(code, module, name):
+            yield name
+
+
+def _counts(binding: Binding, name: str) -> bool:
+    """Whether a variable gets a number, or has one added that is written out."""
+    value = binding.value
+    if binding.how == "augmented":
+        return value.type == "integer" and text_of(binding.node).partition("=")[0][-1:] in "+-*"
+    if value.type == "binary_operator" and text_of(field(value, "operator")) in "+-*":
+        sides = field(value, "left"), field(value, "right")
+        return all(n.type == "integer" or text_of(n) == name for n in sides)
+    return binding.how == "value" and not binding.path and value.type in ("integer", "float")
+
+
+def hidden_names(code: PyCode, module: Scope) -> frozenset[str]:
+    """The names that functions and classes of a module bind as their own."""
+    path = module.py.source.path
+    inner = (s for (of, _), s in code.scopes.items() if of == path and s is not module)
+    return frozenset(name for scope in inner for name in scope.names)
+
+
+def _is_named_elsewhere(code: PyCode, module: Scope, name: str) -> bool:
+    """Whether another module may look at a variable of a module, or change it."""
+    word = re.compile(rf"\b{re.escape(name)}\b")
+    others = (m for m in code.modules.values() if m is not module)
+    return any(word.search(m.py.source.text) for m in others)
+
+
+def is_clock(module: Scope, name: str) -> bool:
+    """Whether a name of a module is imported, and is a function that tells the time."""
+    return imported_as(module, name) in libraries.clocks()
+
+
+def computing_of(module: Scope) -> frozenset[str]:
+    """What a module calls those functions of Python's library that only give a value."""
+    found = {name: imported_as(module, name) for name in module.names}
+    return frozenset(
+        f"{name}{full[len(whole) :]}"
+        for name, whole in found.items()
+        for full in COMPUTING
+        if whole and (full == whole or full.startswith(f"{whole}."))
+    )
+
+
+def loggers_of(module: Scope) -> frozenset[str]:
+    """The variables of a module that only ever are a logger of Python's library."""
+    found = set[str]()
+    for name, bindings in module.names.items():
+        called, arguments = (
+            call_and_arguments(bindings[0].value) if len(bindings) == 1 else ("", [])
+        )
+        head, _, rest = called.partition(".")
+        whole = ".".join(filter(None, (imported_as(module, head), rest)))
+        is_named = all(a.type in ("identifier", "string") for a in arguments)
+        if whole == "logging.getLogger" and bindings[0].how == "value" and is_named:
+            found.add(name)
+    return frozenset(found)
+
+
+def tables_of(code: PyCode, module: Scope) -> frozenset[str]:
+    """The variables of a module that are a dictionary of literals, which nothing changes."""
+    found = set[str]()
+    for name, bindings in module.names.items():
+        value = bindings[0].value
+        is_made = len(bindings) == 1 and bindings[0].how == "value" and value.type == "dictionary"
+        if is_made and all(n.type in _TABLE for n in nodes_in(value)):
+            uses = (n for n in nodes_in(module.node) if n.type == "identifier")
+            names = [n for n in uses if text_of(n) == name and not is_label(n)]
+            if all(map(_is_looked_up, names)) and not _is_named_elsewhere(code, module, name):
+                found.add(name)
+    return frozenset(found)
+
+
+def _is_looked_up(node: Node) -> bool:
+    """Whether the name of a table stands where it is made, or asked for an element."""
+    above = node.parent
+    if above is None or above.type == "assignment":
+        return above is not None and above.child_by_field_name("left") == node
+    return above.type == "attribute" and text_of(field(above, "attribute")) == "get"

@@ -1,0 +1,153 @@
+"""What functions of Python do that say what a sensor saw: their effects besides a value.
+
+Whatever they give is among the model's choices.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Collection, Iterator
+
+from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.sensors import sensor_of
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.program import Program
+from rebsync.reverse.ir.python.lowering import python_program
+from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.outcomes import LibraryOutcomes
+from rebsync.reverse.libraries.routines import Language
+from rebsync.reverse.python.values.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_module import module_of
+from rebsync.source import Source, Span
+
+_ASKED = "this runs when it is asked what a sensor saw"
+_UNKNOWN = "only a function of a module says what a sensor saw"
+# What a function is made of that only gives a value of what it gets.
+_PLAIN = (ast.Return, ast.Attribute, ast.Name, ast.Constant, ast.expr_context)
+
+
+def list_sensor_effects(code: PyCode, generated: Collection[str], findings: Findings) -> None:
+    """Lists what modules do where generated ones, by their paths, ask what a sensor saw."""
+    texts = {path: scope.py.source for path, scope in code.modules.items()}
+    asked = [
+        (path, given)
+        for path, source in texts.items()
+        if source.path in generated and ".choose(" in source.text
+        for given in _given(source)
+    ]
+    if not asked or all(_is_plain(texts, given) for path, given in asked):
+        return
+    sensors = _SensorModules(code, frozenset(generated))
+    for path, given in asked:
+        for source, span, why in sensors.acting(path, given):
+            start = source.text.rfind("\n", 0, span.start) + 1
+            line = source.text[start:].partition("\n")[0]
+            findings.unreadable(source, Unread(Span(start, start + len(line)), why), "")
+
+
+def _given(source: Source) -> list[ast.expr]:
+    """What choices of the model are handed besides: what a sensor makes of its message."""
+    found = []
+    for node in ast.walk(module_of(source.text) or ast.Module([], [])):
+        match node:
+            case ast.Call(func=ast.Attribute(attr="choose"), args=[_, given]):
+                found.append(given)
+            case _:
+                pass
+    return found
+
+
+def _looked(given: ast.expr) -> ast.expr | None:
+    """What a sensor is handed, to say what it saw; None where no sensor is asked."""
+    match given:
+        case ast.Call(
+            func=ast.Attribute(ast.Attribute(ast.Name("self"), member), "seen"), args=[looked]
+        ) if sensor_of(member) is not None:
+            return looked
+        case _:
+            return None
+
+
+def _is_plain(texts: dict[str, Source], given: ast.expr) -> bool:
+    """Whether all functions of a name only give a field of what they get, as generated ones do."""
+    looked = _looked(given)
+    if not isinstance(looked, ast.Name):
+        return False
+    trees = (module_of(t.text) for t in texts.values() if f"def {looked.id}(" in t.text)
+    nodes = (n for tree in trees if tree is not None for n in ast.walk(tree))
+    functions = [n for n in nodes if isinstance(n, ast.FunctionDef) and n.name == looked.id]
+    bodies = [n for f in functions for body in f.body for n in ast.walk(body)]
+    return bool(functions) and all(isinstance(n, _PLAIN) for n in bodies)
+
+
+class _SensorModules:
+    """The program that a package is; `generated` are the modules of classes and run-time."""
+
+    def __init__(self, code: PyCode, generated: frozenset[str]) -> None:
+        self.program = python_program(code)
+        self.code = code
+        self.generated = generated
+        own = [name for name in self.program.functions if not self._is_model(name)]
+        classes = [c for c in self.program.classes.values() if not self._is_model(c.name)]
+        program = Program(own, classes, self.program.function, self.program.modules.items())
+        folders = {part for path in code.modules for part in path.split("/")[:-1]}
+        modules = {path.rpartition("/")[2].removesuffix(".py") for path in code.modules}
+        table = LibraryOutcomes(Language.PYTHON, frozenset(folders | modules) - {"", "src"})
+        self.analysis = OutcomeAnalysis(program, table, self._is_model)
+
+    def _is_model(self, name: str) -> bool:
+        """Whether a module or function is of the generated classes or run-time part."""
+        path, _, function = name.partition(":")
+        if path not in self.code.modules:
+            return False
+        source = self.code.modules[path].py.source
+        if not function or is_runtime_file(source):
+            return source.path in self.generated
+        return source.path in self.generated and ("." in function or function[:1].isupper())
+
+    def acting(self, path: str, given: ast.expr) -> Iterator[tuple[Source, Span, str]]:
+        """The places that may do more than to say what was seen."""
+        source = self.code.modules[path].py.source
+        place = _place(source, given)
+        looked = _looked(given)
+        if looked is None:
+            yield source, place, "no sensor is asked here"
+            return
+        names = self._functions(path, source, looked)
+        if not names:
+            yield source, place, _UNKNOWN
+        found = {problem for name in names for problem in self.analysis.of(name)}
+        for problem in sorted(found, key=lambda p: (p.function, p.place.start, p.why)):
+            of = self.code.modules[problem.function.partition(":")[0]].py.source
+            yield of, problem.place, f"{_ASKED}: {problem.why}"
+
+    def _functions(self, path: str, source: Source, looked: ast.expr) -> list[str]:
+        """The functions that say what was seen."""
+        if isinstance(looked, ast.Lambda):
+            start = _place(source, looked).start
+            inner = (n for n in self.program.functions if n.startswith(f"{path}:"))
+            lambdas = (n for n in inner if "<lambda" in n)
+            return [n for n in lambdas if self.program.function(n).place.start == start]
+        if not isinstance(looked, ast.Name):
+            return []
+        name = looked.id
+        values: list[e.Expression] = [e.Global(path, name)]
+        for node in walk(self.program.function(path)):
+            match node:
+                case s.Import(e.Global(_, bound), module, item, True) if bound == name and item:
+                    values.append(e.Global(module, item))
+                case _:
+                    pass
+        found = {n for value in values for n in self.analysis.functions(value)}
+        return sorted(found)
+
+
+def _place(source: Source, node: ast.expr) -> Span:
+    """Where a node stands, in characters."""
+    line = source.start_of(node.lineno)
+    text = source.text[line:].encode()
+    start = line + len(text[: node.col_offset].decode())
+    return Span(start, start + 1)

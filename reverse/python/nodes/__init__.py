@@ -1,0 +1,1 @@
+"""Nodes that people wrote, as reactive classes: set-up, entries, what starts them, what escapes."""
