@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator
 from contextlib import suppress
 from functools import partial
 from warnings import catch_warnings, simplefilter
@@ -56,7 +57,7 @@ def string(ctx: Lowering, node: Node) -> e.Expression:
             joined = _joined(joined, value, node)
         type_ = Text(isinstance(joined, bytes))
         return e.Literal(joined, type_, text_of(node), ctx.place(node))
-    parts = [part for p in texts for part in _parts(p)]
+    parts = [shown for p in texts for part in _parts(p) for shown in _with_text(part)]
     operands = ctx.operands([partial(_piece, ctx, part) for part in parts])
     found = tuple(p for p in operands if isinstance(p, e.FormatPiece))
     dynamic = any(not isinstance(p.value, e.Literal) for p in found)
@@ -83,6 +84,16 @@ def _parts(node: Node) -> list[str | Node]:
     return string_parts(node) if _is_formatted(node) else [str(_plain(node))]
 
 
+def _with_text(part: str | Node) -> Iterator[str | Node]:
+    """A part of a formatted text, behind its own text where it is shown with that: `{x=}`."""
+    children = [] if isinstance(part, str) else part.children
+    sign = next((n for n, child in enumerate(children) if child.type == "="), None)
+    if sign is not None and not isinstance(part, str):
+        length = children[sign + 1].start_byte - part.start_byte
+        yield (part.text or b"")[1:length].decode()
+    yield part
+
+
 def _plain(node: Node) -> str | bytes:
     """What a text without values in it says."""
     text = text_of(node)
@@ -102,8 +113,6 @@ def _piece(ctx: Lowering, part: str | Node) -> e.FormatPiece:
 
     if isinstance(part, str):
         return e.FormatPiece(e.Literal(part, TEXT))
-    if any(c.type == "=" for c in part.children):
-        raise NoLowering("a value that is shown with its text", part)
     shown = part.child_by_field_name("expression")
     if shown is None:
         raise NoLowering("a formatted value that is not Python", part)
@@ -112,6 +121,8 @@ def _piece(ctx: Lowering, part: str | Node) -> e.FormatPiece:
     parts = [shown, *_computed(style)]
     value, *inner = ctx.values(parts)
     text = text_of(conversion) if conversion is not None else ""
+    if not text and style is None and any(c.type == "=" for c in part.children):
+        text = "!r"
     return e.FormatPiece(value, text, _style(ctx, style, inner))
 
 
