@@ -14,8 +14,11 @@ SETUP = "setup.py"
 LAUNCHES = (".launch.py", "_launch.py", "-launch.py")
 _OF_ROS_2 = re.compile(r"[._-]launch\.(?:py|xml|yaml|yml)\Z")
 _LAUNCH = (b"launch_ros", b"LaunchDescription")  # the second alone where others are included
-_SCRIPT = re.compile(rb"#![^\n]*\bpython")
-_HEAD = 80  # bytes, in which the first line of a script says who runs it
+_SCRIPT = re.compile(
+    rb"#![^\n]*\bpython"
+    rb"|(?!#!)(?:[ \t]*(?:#[^\n]*)?\r?\n)*(?:import[ \t]+\w|from[ \t]+[\w.]+[ \t]+import\b)"
+)
+_HEAD = 2000  # bytes, in which a script says who runs it, or imports something
 _IMPORT = re.compile(rb"[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+|import[ \t]+)([^#\n]*)")
 _NAME = re.compile(rb"\w+")
 
@@ -31,7 +34,7 @@ def is_launch(path: str) -> bool:
 
 
 def is_script(head: bytes) -> bool:
-    """Whether the first bytes of a file say that Python runs it."""
+    """Whether the first bytes of a file say that Python runs it, or are Python: catkin runs both."""
     return _SCRIPT.match(head[:_HEAD]) is not None
 
 

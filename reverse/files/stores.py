@@ -10,7 +10,7 @@ from typing import Protocol
 from rebsync.files import read_bytes
 from rebsync.folder import open_regular
 
-_HEAD = 80  # bytes in which the first line of a script says who runs it
+_HEAD = 2000  # bytes: what a file without a suffix is begins with
 
 
 class Entry(Protocol):
