@@ -34,7 +34,7 @@ def is_launch(path: str) -> bool:
 
 
 def is_script(head: bytes) -> bool:
-    """Whether the first bytes of a file say that Python runs it, or are Python: catkin runs both."""
+    """Whether a file begins as one that Python runs, or as Python: catkin runs both."""
     return _SCRIPT.match(head[:_HEAD]) is not None
 
 

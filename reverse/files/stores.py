@@ -10,7 +10,7 @@ from typing import Protocol
 from rebsync.files import read_bytes
 from rebsync.folder import open_regular
 
-_HEAD = 2000  # bytes: what a file without a suffix is begins with
+_HEAD = 2000  # bytes, by which a file without a suffix is known for a script
 
 
 class Entry(Protocol):
