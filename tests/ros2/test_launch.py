@@ -57,6 +57,8 @@ return LaunchDescription([
         *("robot1", "/hall/", "a", "robot_node"),
     )
     assert {p.name: p.value for p in node.parameters} == {
+        "env/e": 3,
+        "mailbox/slack": 0.25,
         "mailbox/rebecs": ("robot1", "robot2"),
         "knownrebecs/c": "c",
         "x": -1,
