@@ -19,8 +19,14 @@ Receivers: TypeAlias = "dict[str, tuple[str | None, str]]"
 
 
 def add_receiver(receivers: Receivers, name: str, member: str, message: str, key: str) -> None:
-    """Notes a publisher to a known rebec; `key` is the last part of its topic."""
-    if name.isidentifier() and (class_name := message_class(message, key)) is not None:
+    """Notes a publisher to a known rebec; `key` is the last part of its topic.
+
+    Where people have changed the topic, the name of the publisher still tells the server.
+    """
+    own = member.strip("_").removeprefix(f"{name}_").removesuffix("_pub")
+    classes = (message_class(message, server) for server in (key, own))
+    class_name = next((of for of in classes if of is not None), None)
+    if name.isidentifier() and class_name is not None:
         receivers.setdefault(name, (class_name, member))
 
 

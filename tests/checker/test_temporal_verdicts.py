@@ -9,6 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from rebsync.checker import conclusion
 from rebsync.checker import verify as verification
 from rebsync.checker.exploration import Limits, Progress, Unavailable
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
@@ -263,7 +264,7 @@ def test_what_ends_the_deciding_leaves_the_rest_undetermined(
 
 
 def test_the_state_space_must_fit_into_the_memory(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(verification, "_EDGE", 2**40)
+    monkeypatch.setattr(conclusion, "_EDGE", 2**40)
     limits = Limits(memory=2**40)
     result = verify(read(TURNS, "LTL { on: G(F(c.x == 0)); }"), Options(limits=limits))
     assert (result.verdict, result.reason) == (

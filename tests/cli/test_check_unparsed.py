@@ -17,11 +17,10 @@ ADVERTISE = 'advertise<RobotGo>("other/go")'
 @pytest.mark.parametrize(
     ("old", "new", "line"),
     [
-        (DELAY, "  mailbox_.delay(1)", 44),
-        ("  x_ = x0;", "  x_ = x0", 30),
-        ("sendSelfLook(after(e_));", "sendSelfLook(after(e_))", 37),
-        (DELAY, f"  if (n > 1) {{\n{DELAY}", 80),
-        (f"{ADVERTISE};", ADVERTISE, 21),
+        (DELAY, "  mailbox_.delay(1)", 43),
+        ("  x_ = x0;", "  x_ = x0", 29),
+        ("sendSelfLook(after(e_));", "sendSelfLook(after(e_))", 36),
+        (DELAY, f"  if (n > 1) {{\n{DELAY}", 79),
     ],
 )
 def test_only_the_mistake_is_told(check: Check, old: str, new: str, line: int) -> None:
@@ -33,6 +32,15 @@ def test_only_the_mistake_is_told(check: Check, old: str, new: str, line: int) -
     assert any(each.startswith(f"{SOURCE}:{line}:") and "RS941" in each for each in others)
     told = [each for each in others if each.endswith("[code]") or "RS956" in each]
     assert told == []
+
+
+def test_a_mistake_where_a_publisher_is_made_is_told(check: Check) -> None:
+    """What it leads to may be told beside it: that nobody publishes there."""
+    replace(SOURCE, f"{ADVERTISE};", ADVERTISE)
+    status, shown = check()
+    assert status == 4
+    assert f"{SOURCE}:17:" in shown
+    assert "[code]" not in shown
 
 
 def test_what_differs_elsewhere_is_told(check: Check) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import TypeAlias
+from weakref import proxy
 
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.python.argument_types import ArgumentTypes
@@ -76,8 +77,9 @@ class InferredTypes:
         self._graph = origins.graph
         self._arguments = arguments
         self._containers = ContainerStores(origins.graph)
-        self.attributes = AttributeTypes(origins, self)
-        self._calls = GivenTypes(origins, self, self.attributes)
+        own = proxy(self)  # they are parts of this: no circle keeps the trees of a program
+        self.attributes = AttributeTypes(origins, own)
+        self._calls = GivenTypes(origins, own, self.attributes)
         self._known: dict[Node, ValueTypes] = {}
         # While types are looked for: what was found of them, and which this round has visited.
         self._found: dict[Node, ValueTypes] = {}
