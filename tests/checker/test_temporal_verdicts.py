@@ -10,7 +10,6 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from rebsync.checker import conclusion
-from rebsync.checker import verify as verification
 from rebsync.checker.exploration import Limits, Progress, Unavailable
 from rebsync.checker.formulas import And, Atom, Formula, Not, Or, Temporal, Timed
 from rebsync.checker.problem import EngineChoice, Fairness, Options, Problem
