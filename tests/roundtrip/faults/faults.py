@@ -191,8 +191,9 @@ def _unended(file: str) -> str:
     return file.rstrip("\n")
 
 
-def _half(file: str) -> str:
-    return file[: len(file) // 2]
+def _half(text: str) -> str:
+    """The first half, up to the middle of a call: it does not parse."""
+    return text[: text.index("(", len(text) // 2) + 1]
 
 
 _BASE = "patrol/.rebsync/base.rebeca"
