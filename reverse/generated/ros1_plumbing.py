@@ -324,7 +324,10 @@ def _odd_in_state(
 
 def _is_state(statement: Node) -> bool:
     """Whether a statement declares the message that tells the state."""
-    return statement.type == "declaration" and text_of(part(statement, "type")).endswith("State")
+    if statement.type != "declaration":
+        return False
+    type_ = text_of(part(statement, "type"))
+    return type_.rstrip("0123456789").endswith("State")  # one of several of a name has a number
 
 
 def _tells(statement: Node, messages: Collection[str]) -> bool:
