@@ -83,7 +83,9 @@ def _figures(exploration: Exploration) -> tuple[object, ...]:
     return found.states, found.transitions, found.depth, found.events, found.covered, found.reason
 
 
-@pytest.mark.parametrize("row", ROWS[:: 8 if _IN_CI else 1], ids=lambda row: f"{row.model}-{row.view}")
+@pytest.mark.parametrize(
+    "row", ROWS[:: 8 if _IN_CI else 1], ids=lambda row: f"{row.model}-{row.view}"
+)
 def test_all_models(row: Expected) -> None:
     """With states in full and with fingerprints, by two workers and by four."""
     system, number = read(row.model), ROWS.index(row)
@@ -212,7 +214,9 @@ def _told(result: Result) -> tuple[object, ...]:
     return result.verdict, result.properties, runs, result.coverage, *figures
 
 
-@pytest.mark.parametrize("row", ROWS[:: 24 if _IN_CI else 5], ids=lambda row: f"{row.model}-{row.view}")
+@pytest.mark.parametrize(
+    "row", ROWS[:: 24 if _IN_CI else 5], ids=lambda row: f"{row.model}-{row.view}"
+)
 def test_verify_tells_what_it_tells_of_one_machine(row: Expected) -> None:
     """All but whether time can stand still, for which the verdict stays open."""
     problem = _problem(row)
