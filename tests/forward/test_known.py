@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
-import tomllib
 
 from rebsync import model as m
 from rebsync.config import TARGETS, Config
@@ -17,6 +17,11 @@ from rebsync.grammars.parser import parse_model
 from rebsync.source import Source
 from rebsync.static import analyse
 from tests.reverse.laws import assert_says
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 CASES = tomllib.loads((Path(__file__).parent / "known.toml").read_text(encoding="utf-8"))
 
