@@ -39,7 +39,7 @@ from rebsync.reverse.bodies.types.cpp_widths import place_of
 from rebsync.reverse.models.building import bare, cast, is_calm, is_effect
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppParameter
-from rebsync.reverse.syntax.cpp_depth import DEEPEST
+from rebsync.reverse.syntax.cpp_depth import DEEPEST, depth_of
 from rebsync.reverse.syntax.cpp_tree import named, part, returns_in, text_of
 from rebsync.static.constants import constant as constant_of
 from rebsync.static.types import converts, is_boolean, is_integer, is_numeric
@@ -58,7 +58,7 @@ def inlined(
     key = body.start_byte, inside.cpp.source.path
     if key in reader.shared.running or len(reader.shared.running) >= _DEEPEST:
         raise reader.unread(node, "a function that calls itself has no end here")
-    depth = _depth(node)
+    depth = depth_of(node)
     if reader.shared.depth + depth > DEEPEST:
         raise reader.unread(node, "with the body of this function it nests too deep")
     if len(arguments) > len(parameters):
@@ -115,14 +115,6 @@ def dropped(reader: CppStatementReader, node: Node, given: Meaning | None) -> It
             yield m.ExpressionStatement(bare(given), (), reader.cpp.span(node))
         elif not is_calm(given):
             raise reader.unread(node, "what this changes stands within an expression")
-
-
-def _depth(node: Node) -> int:
-    """How deep a call stands in its function."""
-    depth, above = 0, node.parent
-    while above is not None and above.type != "function_definition":
-        depth, above = depth + 1, above.parent
-    return depth
 
 
 def _single(body: Node) -> Node | None:

@@ -349,9 +349,7 @@ def plain_fields(cpp: Cpp, node: Node, declared: Declared) -> Iterator[CppField]
 def bases_of(node: Node) -> Iterator[str]:
     for clause in node.named_children:
         if clause.type == "base_class_clause":
-            for base in clause.named_children:
-                if _is_root(base):
-                    continue
+            for base in (b for b in clause.named_children if not _is_root(b)):
                 if base.type in ("type_identifier", "qualified_identifier", "template_type"):
                     yield unscoped(base)
 

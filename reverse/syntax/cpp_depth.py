@@ -118,3 +118,11 @@ def without(data: bytes, parts: list[tuple[int, int]]) -> bytes:
         pieces += [data[at:start], _NO_LINE_END.sub(b" ", data[start:end])]
         at = end
     return b"".join([*pieces, data[at:]])
+
+
+def depth_of(node: Node) -> int:
+    """How deep a call stands in its function."""
+    depth, above = 0, node.parent
+    while above is not None and above.type != "function_definition":
+        depth, above = depth + 1, above.parent
+    return depth

@@ -357,17 +357,14 @@ class ModelBodies:
             imported=imported,
             posts=posts,
             fillings=fillings,
-            silent=silent_in(
-                self.code, self.form, self.line(owner), [*map(self.roles, self.line(owner))]
-            ),
+            silent=silent_in(self.code, self.form, line, [*map(self.roles, line)]),
             code=self.code,
         )
 
 
 def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.Type | None:
     """The type of what a function without a type gives, if its text tells; None: it does not."""
-    values = [named(r)[0] for r in function.returns if named(r)]
-    values = [v for v in values if v.type != "none"]
+    values = [v for r in function.returns for v in named(r)[:1] if v.type != "none"]
     kinds = {literal_kind(value, variables) for value in values}
     return m.Type("void") if not values else kinds.pop() if len(kinds) == 1 else None
 

@@ -24,6 +24,7 @@ from rebsync.reverse.generated.receivers import known_rebecs
 from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.generated import model_first_values as first_values
 from rebsync.reverse.python.generated.model_bodies import ModelBodies
+from rebsync.reverse.python.generated.model_marks import is_abstract, is_constructor, is_marked
 from rebsync.reverse.python.generated.model_overloads import families
 from rebsync.reverse.python.generated.model_plumbing import Plumbing, odd_at_top, set_in
 from rebsync.reverse.python.generated.model_posts import learn_servers
@@ -80,14 +81,14 @@ class ModelClasses:
         self._owners = [c for c in classes_in(self.code) if not is_runtime_file(c.py.source)]
         self._lines: dict[int, list[Scope]] = {}
         if not any("Mailbox(" in s.py.source.text for s in self.code.modules.values()):
-            self._owners = [o for o in self._owners if _is_marked(o)]
+            self._owners = [o for o in self._owners if is_marked(o)]
         for owner in self._owners:
             self.roles[id(owner)] = roles_of(self.code, owner)
         reached = {id(c) for o in self._owners if self._has_mailbox(o) for c in self.line(o)}
         self._owners = [
             o
             for o in self._owners
-            if id(o) in reached or _is_marked(o) or (reached and self._is_only_declared(o))
+            if id(o) in reached or is_marked(o) or (reached and self._is_only_declared(o))
         ]
         for owner in self._owners:
             roles, line = self._of(owner), self.line(owner)
@@ -199,7 +200,7 @@ class ModelClasses:
         names = {text_of(b) for b in named(bases)} if bases is not None else set()
         functions = self._of(owner).functions.values()
         is_plain = names <= {"ABC"} and not owner.attributes and (functions or names)
-        return bool(is_plain) and all(map(_is_abstract, functions))
+        return bool(is_plain) and all(map(is_abstract, functions))
 
     def _has_mailbox(self, owner: Scope) -> bool:
         return any(self._of(c).has_mailbox for c in self.line(owner))
@@ -279,8 +280,8 @@ class ModelClasses:
     def _is_helping(self, owner: Scope) -> bool:
         """Whether a class has nothing but functions with bodies, for its heirs."""
         functions = self._of(owner).functions
-        is_plain = not (owner.attributes or _is_marked(owner) or self._has_mailbox(owner))
-        return bool(functions) and is_plain and not any(map(_is_abstract, functions.values()))
+        is_plain = not (owner.attributes or is_marked(owner) or self._has_mailbox(owner))
+        return bool(functions) and is_plain and not any(map(is_abstract, functions.values()))
 
     def _shown(self, owner: Scope) -> Iterator[m.Annotation]:
         markers = markers_above(owner.py, owner.node)
@@ -306,9 +307,9 @@ class ModelClasses:
 
     def _is_of_model(self, owner: Scope, function: Scope) -> bool:
         name = function.name
-        if _is_abstract(function) and self._is_of_interface(owner, name):
+        if is_abstract(function) and self._is_of_interface(owner, name):
             return False
-        return not (self._of(owner).is_plumbing(name) or _is_constructor(name))
+        return not (self._of(owner).is_plumbing(name) or is_constructor(name))
 
     def _is_of_interface(self, owner: Scope, name: str) -> bool:
         """Whether an interface above declares a function."""
@@ -332,7 +333,7 @@ class ModelClasses:
             name,
             self._bodies.parameters(owner, function, within),
             self._bodies.body(owner, function, within),
-            _is_abstract(function) and self._has_mailbox(owner),
+            is_abstract(function) and self._has_mailbox(owner),
             tuple(self._server_annotations(owner, function, name)),
             function.py.span(function.node),
         )
@@ -365,7 +366,7 @@ class ModelClasses:
             name,
             self._bodies.parameters(owner, function, within),
             self._bodies.body(owner, function, within),
-            _is_abstract(function),
+            is_abstract(function),
             annotations_above(function.py, function.node),
             function.py.span(function.node),
         )
@@ -373,7 +374,7 @@ class ModelClasses:
     def _constructors(self, owner: Scope) -> Iterator[m.Constructor]:
         name = class_name(owner.name)
         roles = self._of(owner)
-        found = [f for f in roles.functions.values() if _is_constructor(f.name)]
+        found = [f for f in roles.functions.values() if is_constructor(f.name)]
         first = self._first(owner, name)
         for function in found:
             body = self._bodies.body(owner, function, name)
@@ -397,16 +398,3 @@ class ModelClasses:
         reader = self._bodies.reader(owner, roles.initial[0][2], within).expressions
         found = first_values.stores(roles.initial, roles.state, reader, self.findings, within)
         return tuple(found)
-
-
-def _is_marked(owner: Scope) -> bool:
-    kinds = ("interface ", "reactiveclass ")
-    return any(x.startswith(kinds) for x in markers_above(owner.py, owner.node))
-
-
-def _is_constructor(name: str) -> bool:
-    return name == "construct" or name.startswith("construct__")
-
-
-def _is_abstract(function: Scope) -> bool:
-    return "abstractmethod" in function.decorators

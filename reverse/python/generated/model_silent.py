@@ -232,20 +232,12 @@ def silent_in(
     looks = replace(looks, containers=containers_in(owner.module, members, stores))
     timers = replace(timers, looks=looks)  # what ticks runs while containers may change
     asked = Answering.of(code, owner.module, handed, members, looks, exceptions)
-    told = frozenset(
-        name
-        for name, v in members.items()
-        if v.type in VALUES
-        or is_own_parameter(v)
-        or looks.tells_time(v)
-        or name in looks.containers
-    )
-    locks = frozenset(n for n, v in members.items() if is_lock(owner.module, v))
+    told = frozenset(n for n, v in members.items() if _is_told(n, v, looks))
     found = Silent(
         told,
         frozenset(n for n, v in publishers.items() if tells_by(code, owner.module, v, types)),
         frozenset(n for n, v in members.items() if timers.is_idle(v) or asked.is_idle(v)),
-        locks,
+        frozenset(n for n, v in members.items() if is_lock(owner.module, v)),
         {f.node.id: told_locals(f, makers, looks) for f in functions.values()},
         timers,
         {n: s for n, v in publishers.items() if (s := shown_by(code, owner.module, v, variables))},
@@ -263,6 +255,12 @@ def silent_in(
         return found
     ticking = found.ticking.union(n for n, v in members.items() if timers.is_idle(v))
     return _consistent(replace(found, timers=timers, ticking=ticking), modules, beside)
+
+
+def _is_told(name: str, value: Node, looks: Looks) -> bool:
+    """Whether a member holds nothing but what people are told."""
+    is_kept = value.type in VALUES or is_own_parameter(value) or name in looks.containers
+    return is_kept or looks.tells_time(value)
 
 
 def _consistent(found: Silent, modules: Sequence[Scope], beside: Collection[str]) -> Silent:
