@@ -29,7 +29,7 @@ from rebsync.reverse.files.packages import (
     listings,
     suffix_of,
 )
-from rebsync.reverse.files.python_files import SETUP, SUFFIX, is_launch, is_script
+from rebsync.reverse.files.python_files import SETUP, SUFFIX, has_shebang, is_launch
 from rebsync.reverse.libraries import cpp, python
 from rebsync.source import Source
 
@@ -113,7 +113,7 @@ def _wrappers() -> tuple[re.Pattern[bytes], ...]:
 
 
 def _is_program(name: str, text: bytes) -> bool:
-    is_run = is_script(text) or bool(_IS_PROGRAM.search(text))
+    is_run = has_shebang(text) or bool(_IS_PROGRAM.search(text))
     return is_run or name == SETUP or is_launch(name)
 
 

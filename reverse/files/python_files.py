@@ -14,9 +14,9 @@ SETUP = "setup.py"
 LAUNCHES = (".launch.py", "_launch.py", "-launch.py")
 _OF_ROS_2 = re.compile(r"[._-]launch\.(?:py|xml|yaml|yml)\Z")
 _LAUNCH = (b"launch_ros", b"LaunchDescription")  # the second alone where others are included
-_SCRIPT = re.compile(
-    rb"#![^\n]*\bpython"
-    rb"|(?!#!)(?:[ \t]*(?:#[^\n]*)?\r?\n)*(?:import[ \t]+\w|from[ \t]+[\w.]+[ \t]+import\b)"
+_SHEBANG = re.compile(rb"#![^\n]*\bpython")
+_IMPORTS_FIRST = re.compile(
+    rb"(?!#!)(?:[ \t]*(?:#[^\n]*)?\r?\n)*(?:import[ \t]+\w|from[ \t]+[\w.]+[ \t]+import\b)"
 )
 _HEAD = 2000  # bytes, in which a script says who runs it, or imports something
 _IMPORT = re.compile(rb"[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+|import[ \t]+)([^#\n]*)")
@@ -33,9 +33,14 @@ def is_launch(path: str) -> bool:
     return path.endswith(".launch") or is_launch_of_ros_2(path)
 
 
+def has_shebang(head: bytes) -> bool:
+    """Whether the first line of a file says that Python runs it."""
+    return _SHEBANG.match(head) is not None
+
+
 def is_script(head: bytes) -> bool:
-    """Whether a file begins as one that Python runs, or as Python: catkin runs both."""
-    return _SCRIPT.match(head[:_HEAD]) is not None
+    """Whether a file without a suffix is Python, by how it begins: catkin runs those as well."""
+    return has_shebang(head) or _IMPORTS_FIRST.match(head[:_HEAD]) is not None
 
 
 def may_be_script(name: str) -> bool:

@@ -191,6 +191,10 @@ def _unended(file: str) -> str:
     return file.rstrip("\n")
 
 
+def _cut(file: str) -> str:
+    return file[: len(file) // 2]
+
+
 def _half(text: str) -> str:
     """The first half, up to the middle of a call: it does not parse."""
     return text[: text.index("(", len(text) // 2) + 1]
@@ -205,7 +209,7 @@ _SYNTAX = text(MODEL_FILE, lambda t: t.replace("main {", "main"))
 ALIKE = (
     Fault("no fault", _nothing, 0),
     Fault("manifest damaged", text(MANIFEST, lambda t: t.replace('"model"', '"mod')), 2, "RS962"),
-    Fault("manifest half written", text(MANIFEST, _half), 2, "RS962"),
+    Fault("manifest half written", text(MANIFEST, _cut), 2, "RS962"),
     Fault("manifest empty", text(MANIFEST, lambda t: ""), 2, "RS962"),
     Fault("manifest without a part", text(MANIFEST, lambda t: "{}"), 2, "RS962"),
     Fault("manifest of a newer rebsync", text(MANIFEST, _newer), 2, "RS963"),
@@ -219,7 +223,7 @@ ALIKE = (
         "RS960",
     ),
     Fault("base model deleted", gone(_BASE), 1, "RS964", _OURS, text(MODEL_FILE, _decided)),
-    Fault("base model damaged", text(_BASE, _half), 1, "RS964", _OURS, text(MODEL_FILE, _decided)),
+    Fault("base model damaged", text(_BASE, _cut), 1, "RS964", _OURS, text(MODEL_FILE, _decided)),
     Fault("base texts deleted", gone("patrol/.rebsync/base"), 0, mend=_nothing),
     Fault("model deleted", gone(MODEL_FILE), 2, "RS965"),
     Fault(
