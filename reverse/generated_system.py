@@ -18,6 +18,8 @@ from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.types.cpp_types import class_name, type_of
 from rebsync.reverse.bodies.written import annotation
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.generated.cpp_classes import Classes
+from rebsync.reverse.generated.cpp_names import stored_in, variable_name
 from rebsync.reverse.generated.env_values import (
     as_type,
     constant,
@@ -29,8 +31,6 @@ from rebsync.reverse.generated.env_values import (
 )
 from rebsync.reverse.generated.own_parameters import OwnParameter, Stored, given_to, list_refused
 from rebsync.reverse.generated.parameters import objects_in
-from rebsync.reverse.generated.ros1_classes import Classes
-from rebsync.reverse.generated.ros1_names import stored_in, variable_name
 from rebsync.reverse.generated.ros2_words import made_in
 from rebsync.reverse.launch.launch_files_ros2 import speaks_ros_2
 from rebsync.reverse.launch.launched import Launch, LaunchedNode

@@ -21,12 +21,12 @@ from rebsync.reverse.files.packages import BESIDE, CODE
 from rebsync.reverse.files.python_files import SETUP, is_launch, is_python
 from rebsync.reverse.findings import Finding, Findings, Grade
 from rebsync.reverse.generated.before_main import at_the_end, beside_main
+from rebsync.reverse.generated.cpp_classes import Classes
+from rebsync.reverse.generated.cpp_kept import Memory, read_with
 from rebsync.reverse.generated.messages import OwnMessages, own_messages
 from rebsync.reverse.generated.noexcept_functions import ending_the_node
 from rebsync.reverse.generated.one_definition import defined_again
 from rebsync.reverse.generated.parameters import odd_arguments
-from rebsync.reverse.generated.ros1_classes import Classes
-from rebsync.reverse.generated.ros1_kept import Memory, read_with
 from rebsync.reverse.generated_system import GeneratedSystem, unit_of_time
 from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch

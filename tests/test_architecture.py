@@ -14,8 +14,8 @@ from rebsync.printing import print_model
 from rebsync.reverse.build.field_order import in_order
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.findings import Findings
+from rebsync.reverse.generated.cpp_classes import Classes
 from rebsync.reverse.generated.messages import own_messages
-from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.recovery import extract
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction

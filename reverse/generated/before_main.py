@@ -15,9 +15,9 @@ from tree_sitter import Node
 
 from rebsync.reverse.bodies.effects.known_functions import acts, is_known, starts_nothing
 from rebsync.reverse.findings import Finding, Grade
-from rebsync.reverse.generated.ros1_hand import is_passive
-from rebsync.reverse.generated.ros1_idle import working
-from rebsync.reverse.generated.ros1_meanings import is_runtime_header
+from rebsync.reverse.generated.cpp_hand import is_passive
+from rebsync.reverse.generated.cpp_idle import working
+from rebsync.reverse.generated.cpp_meanings import is_runtime_header
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import CONTAINERS, Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of

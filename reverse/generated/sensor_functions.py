@@ -14,8 +14,8 @@ from tree_sitter import Node
 from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
 from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.generated.ros1_meanings import is_runtime_header
-from rebsync.reverse.generated.ros1_names import has_mailbox
+from rebsync.reverse.generated.cpp_meanings import is_runtime_header
+from rebsync.reverse.generated.cpp_names import has_mailbox
 from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.generated.user_blocks import user_blocks
 from rebsync.reverse.ir.cpp.functions import lambda_names

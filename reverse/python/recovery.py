@@ -30,15 +30,15 @@ from rebsync.reverse.graph import (
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.nodes.node_joined import Part
 from rebsync.reverse.nodes.node_system import unit_of_time
+from rebsync.reverse.python.generated.classes import ModelClasses
+from rebsync.reverse.python.generated.env import integer_constants
 from rebsync.reverse.python.generated.import_effects import (
     list_definition_effects,
     list_import_effects,
     list_setup_effects,
 )
-from rebsync.reverse.python.generated.model_classes import ModelClasses
-from rebsync.reverse.python.generated.model_env import integer_constants
-from rebsync.reverse.python.generated.model_parameters import constant, parameter_read
-from rebsync.reverse.python.generated.model_types import class_name
+from rebsync.reverse.python.generated.parameters import constant, parameter_read
+from rebsync.reverse.python.generated.py_types import class_name
 from rebsync.reverse.python.generated.sensor_effects import list_sensor_effects
 from rebsync.reverse.python.nodes.body_started import Started, entries_of, is_module, scripts_of
 from rebsync.reverse.python.nodes.body_system import PyNodes, PySystem

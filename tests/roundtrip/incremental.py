@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 
 from rebsync import model as m
 from rebsync.reverse.findings import Finding
-from rebsync.reverse.generated.ros1_kept import ClassRead
+from rebsync.reverse.generated.cpp_kept import ClassRead
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.roundtrip.package.cache.classes import ClassCache
 from rebsync.source import NOWHERE, Source, SourceSpan, Span

@@ -11,8 +11,8 @@ import pytest
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings
+from rebsync.reverse.generated.cpp_classes import Classes
 from rebsync.reverse.generated.messages import own_messages
-from rebsync.reverse.generated.ros1_classes import Classes
 from rebsync.reverse.recovery import extract
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse

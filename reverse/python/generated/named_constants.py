@@ -16,7 +16,7 @@ from rebsync import model as m
 from rebsync.literals import literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.python.generated.enumerations import ENUM, INTEGERS, is_auto, names_before
-from rebsync.reverse.python.generated.model_kinds import float_literal
+from rebsync.reverse.python.generated.kinds import float_literal
 from rebsync.reverse.python.values.py_evaluator import lineage
 from rebsync.reverse.python.values.py_values import PyValues
 from rebsync.reverse.python.values.py_worth import Class, External, Items, Module, Value

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.generated.model_types import type_of
+from rebsync.reverse.python.generated.py_types import type_of
 from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 

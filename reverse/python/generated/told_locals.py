@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.generated.model_logs import Looks
+from rebsync.reverse.python.generated.logs import Looks
 from rebsync.reverse.python.generated.module_variables import call_and_arguments
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in

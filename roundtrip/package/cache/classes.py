@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Mapping
 
 from rebsync.records import dataclass
-from rebsync.reverse.generated.ros1_kept import ClassRead
+from rebsync.reverse.generated.cpp_kept import ClassRead
 from rebsync.roundtrip.package.cache.serialisation import NotSerialisable, serialised
 from rebsync.roundtrip.package.cache.store import decoded, key_of, load, save
 from rebsync.source import Source

@@ -21,7 +21,7 @@ _NAMES = {
     ),
     "rebsync.reverse.files.packages": "Listing",
     "rebsync.reverse.findings": "Finding Grade Ordered",
-    "rebsync.reverse.generated.ros1_kept": "ClassRead",
+    "rebsync.reverse.generated.cpp_kept": "ClassRead",
     "rebsync.roundtrip.verdict.result": "AcceptedFinding CheckResult",
     "rebsync.roundtrip.package.cache.classes": "CachedClass",
     "rebsync.roundtrip.diff.difference": (

@@ -13,7 +13,7 @@ from rebsync import model as m
 from rebsync.config import Config
 from rebsync.printing import print_model
 from rebsync.reverse.findings import Finding, Grade
-from rebsync.reverse.python.generated.model_widths import hint_of
+from rebsync.reverse.python.generated.widths import hint_of
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.source import Source
 from tests.forward.compiling import CASES, case_files, generated, written

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.reverse.python.generated import model_loops
+from rebsync.reverse.python.generated import loops
 from tests.reverse.soundness.generated import tallied
 
 
@@ -20,5 +20,5 @@ def test_models_do_what_edited_code_does(tmp_path: Path) -> None:
 def test_arrays_that_a_loop_stores_are_found_out(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(model_loops, "_assert_kept", lambda *_: None)
+    monkeypatch.setattr(loops, "_assert_kept", lambda *_: None)
     assert tallied(tmp_path, [27]).unsound

@@ -1,0 +1,184 @@
+"""Publishers of messages that no node of a package can hear, in generated C++.
+
+By its type: nobody subscribes to any message of it. By its topic: nothing else has the name. A
+message of the library may be looked at by whoever is outside, as one of diagnostics is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from tree_sitter import Node
+
+from rebsync.reverse.generated.cpp_dead import divides
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, string_of
+from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.syntax.cpp_tree import inside, last_name, part, squeezed, text_of
+
+OFFERS = frozenset({"advertise", "create_publisher"})
+_PLACES = frozenset(
+    {
+        *("assignment_expression", "argument_list", "binary_expression", "init_declarator"),
+        *("conditional_expression", "case_statement"),
+    }
+)
+_NAMES = ("type_identifier", "namespace_identifier", "identifier")
+# What tells of the node and its clock, or turns a number into another one, or into a text.
+_GIVES = re.compile(
+    r"(?:this->)?(?:get_clock\(\)->)?now\(\)|ros::(?:Wall)?Time::now\(\)"
+    r"|static_cast<\w+>\(.*\)|std::to_string\([\w.>-]+\)|(?:this->)?get_name\(\)",
+    re.DOTALL,
+)
+# Subscribers to messages of any type.
+_ANY = re.compile(r"ShapeShifter|generic_subscription|GenericSubscription|AnyMsg")
+_TOPIC = re.compile(r"[a-z](?:_?[a-z0-9])*", re.IGNORECASE | re.ASCII)
+_GLOBAL = re.compile(r"/?(?:[a-z](?:_?[a-z0-9])*/)*", re.IGNORECASE | re.ASCII)
+# What a topic is offered with: how deep its queue is, and whether the last message is kept.
+_PLAIN = frozenset({"number_literal", "identifier", "true", "false"})
+_QOS = re.compile(r"(?:rclcpp::)?(?:SystemDefaults|SensorData)?QoS\(\w*\)(?:\.\w+\(\w*\))*")
+_RUNTIME = frozenset({"state", "cmd_vel", "odom", "clock", "tf", "rosout", "diagnostics"})
+
+
+def shown_only(code: Code) -> frozenset[tuple[str, str]]:
+    """The types with the topics of messages that the code sends to nobody in it."""
+    texts = [cpp.source.text for cpp in code.files]
+    offers = list(_offers(code))
+    if not offers or any(map(_ANY.search, texts)):
+        return frozenset()
+    names = {type_.rpartition("::")[2] for type_, _, _ in offers}
+    heard = {
+        text_of(node)
+        for cpp in code.files
+        for node in inside(cpp.root, *_NAMES)
+        if (node.text or b"").decode() in names and not _is_sent(node)
+    }
+    heard |= code.aliases.keys()
+    literals = [n for cpp in code.files for n in inside(cpp.root, "string_literal")]
+    return frozenset(
+        (type_, name)
+        for type_, name, _ in offers
+        if type_.rpartition("::")[2] not in heard and name not in _RUNTIME
+        if _is_free(name, {n.id for t, _, n in offers if t == type_}, literals)
+    )
+
+
+def is_free(code: Code, topic: Node) -> bool:
+    """Whether a topic is a literal with a name that nothing else in the code has."""
+    name = (string_of(topic) or "").rpartition("/")[2]
+    literals = [n for cpp in code.files for n in inside(cpp.root, "string_literal")]
+    return bool(name) and name not in _RUNTIME and _is_free(name, {topic.id}, literals)
+
+
+def topic_of(call: CppCall) -> str:
+    """The name, alone, of the topic that a call offers; empty if it has more of one."""
+    place, name = _split(call)
+    return name if place is not None and place in ("", "~/") else ""
+
+
+def is_plain(call: CppCall) -> bool:
+    """Whether a call only offers a topic: nothing is called back, and the name can be one."""
+    rest = call.arguments[1:]
+    if len(rest) > (2 if call.name == "advertise" else 1):
+        return False
+    if not all(a.type in _PLAIN or _QOS.fullmatch(squeezed(a)) for a in rest):
+        return False
+    return string_of(call.arguments[0]) is None or _split(call)[0] is not None
+
+
+def _split(call: CppCall) -> tuple[str | None, str]:
+    """Where a topic is, and its own name; None for what ROS takes for no name."""
+    text = string_of(call.arguments[0]) or "" if call.arguments else ""
+    private = "~/" if call.name == "create_publisher" and text.startswith("~/") else ""
+    _, _, name = text.removeprefix(private).rpartition("/")
+    place = text[: len(text) - len(name)]
+    is_place = _GLOBAL.fullmatch(place.removeprefix(private)) is not None
+    return (place if is_place and _TOPIC.fullmatch(name) else None), name
+
+
+def type_of(call: CppCall) -> str:
+    """The type that a call is for."""
+    return squeezed(call.types[0]) if len(call.types) == 1 else ""
+
+
+def sends(function: Node, member: str, type_: str, sizes: Mapping[str, int]) -> bool:
+    """Whether a function publishes by a member nothing but its own messages of a type.
+
+    These must be filled with values that cannot fail to be; `sizes` are those of arrays.
+    """
+    made = {
+        text_of(part(d, "declarator"))
+        for d in inside(function, "declaration")
+        if squeezed(part(d, "type")) == type_ and part(d, "declarator").type == "identifier"
+    }
+    given = [c.arguments for c in calls_in(function) if c.on == member and c.name == "publish"]
+    used = [n for n in inside(function, "identifier", "field_identifier") if text_of(n) == member]
+    is_known = all(len(a) == 1 and text_of(a[0]) in made for a in given)
+    stores = inside(function, "assignment_expression") if given else []
+    filled = (n for n in stores if text_of(part(n, "left")).partition(".")[0] in made)
+    is_sure = not any(_may_fail(n, sizes) for n in filled)
+    return is_known and is_sure and len(used) == len(given) + len(_stores(function, member))
+
+
+def _may_fail(store: Node, sizes: Mapping[str, int]) -> bool:
+    """Whether to find the value of a store may throw, divide by nothing, or look at no object."""
+    given = [n for n in inside(store, "call_expression") if _GIVES.fullmatch(squeezed(n))]
+    within = {n.id for n in given}
+    clocks = [n for n in given if squeezed(n).endswith("now()")]
+    within |= {i.id for n in clocks for i in inside(n, "field_expression", "call_expression")}
+    reached = [n for n in inside(store, "field_expression") if "->" in text_of(n)]
+    is_foreign = any(text_of(part(n, "argument")) != "this" and n.id not in within for n in reached)
+    looks = inside(store, "pointer_expression")
+    looks += [n for n in inside(store, "subscript_expression") if not _is_there(n, sizes)]
+    calls = [n for n in inside(store, "call_expression") if n.id not in within]
+    return divides(store, ()) or is_foreign or bool(looks) or bool(calls)
+
+
+def _is_there(element: Node, sizes: Mapping[str, int]) -> bool:
+    """Whether an array of the class has an element by this number."""
+    size = sizes.get(text_of(part(element, "argument")).removeprefix("this->"), 0)
+    index = text_of(element).rpartition("[")[2].removesuffix("]").strip()
+    return index.isdecimal() and int(index) < size
+
+
+def _stores(function: Node, member: str) -> list[Node]:
+    """The statements that make a publisher."""
+    found = inside(function, "assignment_expression")
+    is_made = (text_of(part(n, "left")).removeprefix("this->") == member for n in found)
+    return [n for n, made in zip(found, is_made, strict=True) if made]
+
+
+def _offers(code: Code) -> Iterator[tuple[str, str, Node]]:
+    """The calls that offer topics with plain names."""
+    for cpp in code.files:
+        for node in inside(cpp.root, "call_expression"):
+            call = call_of(node)
+            if call is None or call.name not in OFFERS:
+                continue
+            type_, topic = type_of(call), topic_of(call)
+            if type_ and topic:
+                yield type_, topic, call.arguments[0]
+
+
+def _is_sent(name: Node) -> bool:
+    """Whether a type is named for a message that is made, a publisher, or one of its constants."""
+    node = name
+    while node.parent is not None and node.parent.type == "qualified_identifier":
+        node = node.parent
+    above = node.parent
+    if above is None or node.type == "identifier":
+        return False
+    if last_name(node) != text_of(name):
+        return above.type in _PLACES and node.type == "qualified_identifier"
+    if above.type == "declaration":
+        return above.child_by_field_name("type") == node
+    around = above.parent if above.type == "type_descriptor" else None
+    of = around.parent if around is not None else None
+    is_argument = around is not None and around.type == "template_argument_list"
+    return of is not None and is_argument and text_of(part(of, "name")) in OFFERS | {"Publisher"}
+
+
+def _is_free(name: str, own: set[int], literals: list[Node]) -> bool:
+    """Whether a name stands nowhere else, as a whole or as the last of a longer one."""
+    others = (text_of(n).strip('"').rpartition("/")[2] for n in literals if n.id not in own)
+    return name not in others

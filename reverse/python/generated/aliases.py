@@ -1,0 +1,162 @@
+"""Locals of Python that stand for an array of the object: `other = self._a if c else self._b`.
+
+Such a local is the array and no copy. It is read as the array itself, so it must be bound once,
+only its elements may be looked at or stored, and nothing may put another array in the place of that
+one. What follows a local that is either of two is read twice: in both branches of an `if`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.python.values.runtime_files import is_runtime_file
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
+
+_SET_UP = frozenset({"__init__", "_wire"})
+_STORES = frozenset({"assignment", "augmented_assignment", "named_expression"})
+_UNSAFE = SCOPES | {"augmented_assignment", "named_expression", "delete_statement"}
+_TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "attribute"})
+
+
+def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m.Statement] | None:
+    """The statements behind one that makes a local stand for an array; None if it does not."""
+    name, arrays, condition = _declared(node)
+    if not arrays or name in reader.expressions.locals or not _is_alias(node, name):
+        return None
+    if not all(_is_kept(reader, array) for array in arrays):
+        return None
+    if condition is None:
+        return _read(reader, name, arrays[0], rest)
+    chosen = reader.expressions.condition(condition)
+    span = reader.expressions.py.span(node)
+    ways = [m.Block(tuple(_once_more(reader, name, a, rest)), (), span) for a in arrays]
+    return [m.If(chosen, ways[0], ways[1], (), span)]
+
+
+def _declared(node: Node) -> tuple[str, list[Node], Node | None]:
+    """The local, the attributes that it may stand for, and what decides; no attributes if none."""
+    inner = named(node)[0] if node.type == "expression_statement" and named(node) else node
+    left, value = inner.child_by_field_name("left"), inner.child_by_field_name("right")
+    if inner.type != "assignment" or left is None or value is None or left.type != "identifier":
+        return "", [], None
+    while value.type == "parenthesized_expression":
+        value = named(value)[0]
+    condition: Node | None = None
+    arrays = [value]
+    if value.type == "conditional_expression":
+        then, condition, otherwise = named(value)
+        arrays = [then, otherwise]
+    is_own = all(a.type == "attribute" and text_of(field(a, "object")) == "self" for a in arrays)
+    return text_of(left), arrays if is_own else [], condition
+
+
+def _read(
+    reader: ModelStatementReader, name: str, array: Node, rest: list[Node]
+) -> list[m.Statement]:
+    stands = reader.expressions.read(array)
+    with reader.expressions.standing_for([name], [stands]):
+        return list(reader.block(rest, array).statements)
+
+
+def _is_kept(reader: ModelStatementReader, array: Node) -> bool:
+    """Whether an attribute is an array of one dimension that no other takes the place of."""
+    attribute, names = text_of(field(array, "attribute")), reader.expressions.names
+    type_ = names.types.get(names.variables.get(attribute, ""))
+    return type_ is not None and len(type_.dimensions) == 1 and not _is_put(names.code, attribute)
+
+
+def _is_put(code: PyCode, attribute: str) -> bool:
+    """Whether anything but the set-up of an object stores in an attribute as a whole."""
+    own = (s for s in code.modules.values() if not is_runtime_file(s.py.source))
+    for node in (n for module in own for n in nodes_in(module.node)):
+        if node.type == "string_content" and text_of(node) == attribute:
+            return True  # as setattr names it
+        is_it = node.type == "attribute" and text_of(field(node, "attribute")) == attribute
+        if is_it and _is_target(node) and _function_name(node) not in _SET_UP:
+            return True
+    return False
+
+
+def _is_target(node: Node) -> bool:
+    """Whether something is stored, or may be: all but to read it, or an element of it."""
+    above = node.parent
+    if above is None or above.type in (
+        "pattern_list",
+        "tuple_pattern",
+        "list_pattern",
+        "as_pattern",
+    ):
+        return True
+    left = above.child_by_field_name("left") or above.child_by_field_name("name")
+    return above.type in (*_STORES, "for_statement", "for_in_clause", "delete_statement") and (
+        left is None or left == node
+    )
+
+
+def _is_alias(node: Node, name: str) -> bool:
+    """Whether a local is bound once, and else only its elements are looked at or stored."""
+    function = node.parent
+    while function is not None and function.type not in SCOPES:
+        function = function.parent
+    if function is None:
+        return False
+    uses = [n for n in nodes_in(function) if n.type == "identifier" and text_of(n) == name]
+    others = [n for n in uses if n != field(named(node)[0], "left")]
+    return len(uses) == len(others) + 1 and all(_is_element(n, function) for n in others)
+
+
+def _is_element(use: Node, function: Node) -> bool:
+    """Whether a use is `x[e]`, in a place that does not go by what it is called."""
+    place = use.parent
+    if place is None or place.type != "subscript" or field(place, "value") != use:
+        return False
+    above = place.parent
+    while above is not None and above != function:
+        if above.type in _UNSAFE or above.type in _TARGETS - {"attribute"}:
+            return False
+        if above.type == "assignment" and not _is_simple(above):
+            return False
+        above = above.parent
+    return above is not None
+
+
+def _is_simple(assignment: Node) -> bool:
+    """Whether one value is stored in one place."""
+    above, left = assignment.parent, field(assignment, "left")
+    value = assignment.child_by_field_name("right")
+    is_one = left.type in ("identifier", "attribute", "subscript")
+    is_alone = above is not None and above.type == "expression_statement"
+    return is_one and is_alone and value is not None and value.type != "assignment"
+
+
+def _function_name(node: Node) -> str:
+    above = node.parent
+    while above is not None and above.type != "function_definition":
+        above = above.parent
+    return text_of(field(above, "name")) if above is not None else ""
+
+
+# --- reading twice ------------------------------------------------------------------------------
+
+
+def _once_more(
+    reader: ModelStatementReader, name: str, array: Node, rest: list[Node]
+) -> list[m.Statement]:
+    """What follows, read so that it can be read again: what it declares is not known afterwards."""
+    own = reader.expressions
+    tables: list[dict[str, Any]] = [own.locals, own.kept, own.closures]
+    tables += [reader.hoisted, reader.inner]
+    before = [dict(table) for table in tables]
+    implied = set(reader.implied)
+    found = _read(reader, name, array, rest)
+    for table, known in zip(tables, before, strict=True):
+        table.clear()
+        table.update(known)
+    reader.implied = implied
+    return found

@@ -1,0 +1,214 @@
+"""What is around functions and statements of generated Python, and only logs: decorators, contexts.
+
+These do the same with it as without.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync.records import dataclass
+from rebsync.reverse.python.generated.logs import Looks, looks_in, only_logs
+from rebsync.reverse.python.generated.module_variables import (
+    hidden_names,
+    imported_as,
+    is_clock,
+    loggers_of,
+)
+from rebsync.reverse.python.generated.plain_functions import function_named
+from rebsync.reverse.python.generated.py_types import expression_in, stored_into
+from rebsync.reverse.python.generated.told_exceptions import ToldExceptions
+from rebsync.reverse.python.generated.told_locals import told_locals
+from rebsync.reverse.python.values.py_callbacks import body_of
+from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
+from rebsync.reverse.syntax.py_tree import field, named, parse, text_of
+from rebsync.source import Source
+
+_PLAIN = frozenset({"string", "integer", "float", "true", "false", "none"})
+_WRAPS = ("wraps", "functools.wraps")
+
+
+def is_transparent(code: PyCode, module: Scope, decorator: str, exceptions: ToldExceptions) -> bool:
+    """Whether a decorator only logs, and calls the function with all that it is given.
+
+    It may be made by a function of literals: `@timed("way")`.
+    """
+    name, _, given = decorator.partition("(")
+    made = function_named(code, module, name) if name.isidentifier() else None
+    if made is None or made.decorators:
+        return False
+    if not given:
+        return _only_tells(code, module, made, exceptions)
+    call = named(parse(Source("", decorator)).root)[0]
+    arguments = named(field(named(call)[0], "arguments"))
+    inner = _given_back(code, made)
+    values = [n.child_by_field_name("value") or n for n in arguments]
+    return (
+        inner is not None
+        and len(arguments) == len(made.parameters)
+        and all(v.type in _PLAIN for v in values)
+        and not inner.decorators
+        and _only_tells(code, module, inner, exceptions)
+    )
+
+
+def context_of(
+    code: PyCode, module: Scope, statement: Node, exceptions: ToldExceptions
+) -> Node | None:
+    """What is done within `with timed("question"):`, if the context only tells people of it."""
+    head = next((c for c in named(statement) if c.type == "with_clause"), statement)
+    items = [i for i in named(head) if i.type == "with_item"]
+    call = field(items[0], "value") if len(items) == 1 else statement
+    name = text_of(field(call, "function")) if call.type == "call" else ""
+    made = contexts_in(code, module).get(name) if name.isidentifier() else None
+    given = named(field(call, "arguments")) if made is not None else []
+    if made is None or len(given) > len(made.parameters):
+        return None
+    needed = [p for p in made.parameters if p.default is None]
+    values = [n.child_by_field_name("value") or n for n in given]
+    is_given = len(needed) <= len(given) and all(p.star == 0 for p in made.parameters)
+    is_known = is_given and all(v.type in _PLAIN for v in values)
+    is_telling = is_known and _tells_around(code, module, made, exceptions)
+    return field(statement, "body") if is_telling else None
+
+
+def contexts_in(code: PyCode, module: Scope) -> dict[str, Scope]:
+    """The context managers that are functions of a module, or of one that it imports them from."""
+    found = {}
+    for name, bindings in module.names.items():
+        source, binding = module, bindings[0]
+        if (
+            len(bindings) == 1
+            and binding.how == "import"
+            and binding.node.type != "import_statement"
+        ):
+            source = module_named(code, module_of(binding.node), module) or module
+            binding = source.names.get(name, [binding])[0]
+        if len(bindings) == 1 and binding.how == "scope":
+            scope = code.scope_of(binding.node, source.py)
+            if is_context(source, scope):
+                found[name] = scope
+    return found
+
+
+def is_context(module: Scope, function: Scope) -> bool:
+    """Whether a function only makes contexts: `@contextmanager`."""
+    whole = [_whole(module, each) for each in function.decorators]
+    return whole == ["contextlib.contextmanager"]
+
+
+def _tells_around(code: PyCode, module: Scope, made: Scope, exceptions: ToldExceptions) -> bool:
+    """Whether a context manager does nothing but to tell people, before and behind its block."""
+    looks = _looks(code, module, made.module)
+    told = told_locals(made, frozenset(), looks)
+    around = _Around(made, "yield", looks, told, exceptions)
+    return around.yields(body_of(made))
+
+
+def _only_tells(code: PyCode, module: Scope, made: Scope, exceptions: ToldExceptions) -> bool:
+    """Whether what a decorator puts in place of a function does that function, and tells of it."""
+    function = _given_back(code, made) if len(made.parameters) == 1 else None
+    if function is None:
+        return False
+    name = made.parameters[0].name
+    stars = [p.star for p in function.parameters]
+    passed = [f"{'*' * p.star}{p.name}" for p in function.parameters]
+    known = {f"{n}({name})" for n in _WRAPS if _whole(made.module, n) == "functools.wraps"}
+    is_same = known.issuperset(function.decorators)
+    call = f"{name}({', '.join(passed)})"
+    if not is_same or stars not in ([1, 2], [1], [0, 1, 2], [0, 1], [0]):
+        return False
+    looks = _looks(code, module, made.module)
+    told = told_locals(function, frozenset(), looks)
+    return _Around(function, call, looks, told, exceptions).gives(body_of(function))
+
+
+def _whole(module: Scope, name: str) -> str:
+    """What a name with dots is by the imports of a module."""
+    head, _, rest = name.partition(".")
+    return ".".join(filter(None, (imported_as(module, head), rest)))
+
+
+def is_cast(module: Scope, called: str) -> bool:
+    """Whether a function only tells who checks types what a value is: `cast(int, x)`."""
+    return _whole(module, called) == "typing.cast"
+
+
+def _given_back(code: PyCode, made: Scope) -> Scope | None:
+    """The function that a function defines and gives back, if it does nothing else."""
+    inner = [s for s in body_of(made) if s.type in ("function_definition", "decorated_definition")]
+    rest = [text_of(s) for s in body_of(made) if s not in inner]
+    if len(inner) != 1:
+        return None
+    of = inner[0].child_by_field_name("definition") or inner[0]
+    function = code.scope_of(of, made.py)
+    is_plain = not any(c.type == "async" for c in of.children)
+    return function if rest == [f"return {function.name}"] and is_plain else None
+
+
+def _looks(code: PyCode, user: Scope, module: Scope) -> Looks:
+    """What names stand for in the module of a decorator, which a class of another module uses."""
+    hidden = hidden_names(code, module)
+    return replace(
+        looks_in(code, [*{id(m): m for m in (module, user)}.values()], frozenset()),
+        loggers=loggers_of(module) - hidden,
+        clocks=frozenset(n for n in module.names if is_clock(module, n)) - hidden,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Around:
+    """The function that a decorator gives, and the call of the one that it is of."""
+
+    function: Scope
+    call: str
+    looks: Looks
+    told: frozenset[str]
+    exceptions: ToldExceptions
+
+    def gives(self, body: list[Node]) -> bool:
+        """Whether statements do the call once, give what it gives, and else only tell people."""
+        left = [s for s in body if not self._tells(s)]
+        match [text_of(s) for s in left]:
+            case [one] if left[0].type == "try_statement":
+                return bool(one) and self._tries(left[0])
+            case [one]:
+                return one == f"return {self.call}"
+            case [one, last]:
+                result = stored_into(expression_in(left[0]))
+                bound = self.function.names.get(result, ())
+                is_kept = one == f"{result} = {self.call}" and last == f"return {result}"
+                return is_kept and len(bound) == 1
+            case _:
+                return False
+
+    def yields(self, body: list[Node]) -> bool:
+        """Whether statements wait once for what is within, and else only tell people."""
+        left = [s for s in body if not self._tells(s)]
+        if len(left) != 1:
+            return False
+        if left[0].type == "try_statement":
+            return self._tries(left[0])
+        return text_of(left[0]) == self.call == "yield"
+
+    def _tries(self, statement: Node) -> bool:
+        """`try: return f(x)` with a `finally` that only tells people."""
+        parts = [c for c in named(statement) if c.type.endswith("_clause")]
+        ends = [c for c in parts if c.type == "finally_clause"]
+        inside = [s for end in ends for block in named(end) for s in named(block)]
+        body = [s for s in named(field(statement, "body")) if s.type != "comment"]
+        does = self.yields if self.call == "yield" else self.gives
+        return len(ends) == len(parts) == 1 and all(map(self._tells, inside)) and does(body)
+
+    def _tells(self, node: Node) -> bool:
+        if node.type in ("comment", "pass_statement"):
+            return True
+        if self.exceptions.raises(node):
+            return False
+        if only_logs(node, self.looks):
+            return True
+        inner = expression_in(node)
+        value = inner.child_by_field_name("right") if inner is not None else None
+        return value is not None and stored_into(inner) in self.told and self.looks.is_pure(value)

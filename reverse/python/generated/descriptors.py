@@ -1,0 +1,37 @@
+"""The descriptors of servers in modules of generated Python."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.generated.annotations import priority
+from rebsync.reverse.python.generated.parameters import constant
+from rebsync.reverse.python.generated.py_types import call_parts, string_value
+from rebsync.reverse.syntax.py_index import Scope
+
+_PRIORITIES = {"priority": "priority", "global_priority": "globalPriority"}
+
+
+def servers_of(module: Scope) -> dict[str, tuple[str, tuple[m.Annotation, ...]]]:
+    """The descriptors of a module: `_X = Server("x", priority(1))`."""
+    found = {}
+    for name, bindings in module.names.items():
+        for binding in bindings:
+            parts = call_parts(binding.value) if binding.how == "value" else None
+            if parts is None or parts[0] != "Server" or not parts[1]:
+                continue
+            server = string_value(parts[1][0])
+            if server is not None:
+                found[name] = server, tuple(_priority(parts[1][1:]))
+    return found
+
+
+def _priority(arguments: list[Node]) -> Iterator[m.Annotation]:
+    for node in arguments:
+        kind, given = call_parts(node) or ("", [])
+        number = constant(given[0]) if len(given) == 1 else None
+        if kind in _PRIORITIES and type(number) is int:
+            yield priority(_PRIORITIES[kind], number)

@@ -1,0 +1,81 @@
+"""The interface between the parts of the reader of generated expressions, and their state."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import field as with_default
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.records import dataclass
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.generated.cuts import Cuts
+from rebsync.reverse.python.generated.kinds import kind_of
+from rebsync.reverse.python.generated.names import Closure, ModelNames
+from rebsync.reverse.syntax.py_tree import Py
+
+
+@dataclass(eq=False, slots=True)
+class ModelExpressionReader(ABC):
+    """Reads the expressions of one body; `locals` are its variables by their names in Python.
+
+    `types` are those of the locals, by their names in the model; `bound` names that stand for an
+    expression while a comprehension is read; `closures` what functions of the body give, which do
+    nothing; `kept_sends` what sends, by the names of locals that stand for it, and `kept_tables`
+    what is looked up; `moments` the times of sends, by those that hold them; `own` is what the
+    object is called; `cuts` are the integers that are cut to the width that they have in the model.
+    """
+
+    py: Py
+    names: ModelNames
+    locals: dict[str, str] = with_default(default_factory=dict)
+    kept: dict[str, Node] = with_default(default_factory=dict)
+    types: dict[str, m.Type] = with_default(default_factory=dict)
+    bound: dict[str, m.Expression] = with_default(default_factory=dict)
+    closures: dict[str, Closure] = with_default(default_factory=dict)
+    kept_sends: dict[str, str] = with_default(default_factory=dict)
+    kept_tables: dict[str, Node] = with_default(default_factory=dict)
+    moments: dict[str, dict[str, m.Name]] = with_default(default_factory=dict)
+    own: str = "self"
+    cuts: Cuts = with_default(default_factory=Cuts)
+
+    def unread(self, node: Node, why: str) -> Unread:
+        return Unread(self.py.span(node), why)
+
+    def kind(self, read: m.Expression) -> m.Type | None:
+        """The widest type of the kind of an expression's value, if it can be told."""
+        return kind_of(
+            read, lambda n: self.types.get(n, self.names.types.get(n)), self.names.results
+        )
+
+    @contextmanager
+    def standing_for(self, names: Sequence[str], values: Sequence[m.Expression]) -> Iterator[None]:
+        """Lets names stand for expressions meanwhile."""
+        outer = dict(self.bound)
+        self.bound.update(zip(names, values, strict=True))
+        try:
+            yield
+        finally:
+            self.bound.clear()
+            self.bound.update(outer)
+
+    @abstractmethod
+    def read(self, node: Node) -> m.Expression:
+        """An expression. Unread: the model has none for it."""
+
+    @abstractmethod
+    def condition(self, node: Node) -> m.Expression:
+        """What must hold."""
+
+    @abstractmethod
+    def index(self, node: Node) -> m.Expression:
+        """An index: as it is, kept in a name, or checked by `at` of an array that is."""
+
+    @abstractmethod
+    def stored(
+        self, target: m.Expression, place: Node, value: Node, whole: Node, statement: bool = False
+    ) -> m.Expression:
+        """An assignment: `x = int32.add(x, 1)` is what the model writes `x++`, or `++x`."""

@@ -1,0 +1,341 @@
+"""Expressions of generated Python, as the model has them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.names import original
+from rebsync.records import dataclass
+from rebsync.reverse.models.building import binary, located
+from rebsync.reverse.python.generated import closures, formats, idioms, places, tuples
+from rebsync.reverse.python.generated import py_builtins as builtins
+from rebsync.reverse.python.generated.decorators import is_cast
+from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
+from rebsync.reverse.python.generated.helpers import arguments_for
+from rebsync.reverse.python.generated.kinds import float_literal
+from rebsync.reverse.python.generated.py_types import (
+    call_parts,
+    in_double_quotes,
+    is_new_type,
+    only_breaks_lines,
+    string_value,
+)
+from rebsync.reverse.python.generated.sends import of_mailbox, sent
+from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of, whole_number_of
+from rebsync.terminal import with_escapes
+
+_CASTS = {
+    "to_byte": "byte",
+    "to_short": "short",
+    "to_int": "int",
+    "to_float": "float",
+    "to_double": "double",
+    "to_boolean": "boolean",
+}
+_OPERATIONS = {
+    "divide": "/",
+    "quotient": "/",
+    "remainder": "%",
+    "modulus": "%",
+    "shift_left": "<<",
+    "shift_right": ">>",
+}
+_WORDS = {"and": "&&", "or": "||"}
+_LEVELS = {"or": 2, "and": 3, "|": 6, "^": 7, "&": 8, "<<": 9, ">>": 9, "+": 10, "-": 10}
+_LEVELS |= dict.fromkeys(("*", "/", "%", "//"), 11)
+_NOT, _COMPARISON, _PRODUCT, _UNARY = 4, 5, 11, 12
+
+
+@dataclass(eq=False, slots=True)
+class Expressions(ModelExpressionReader):
+    """Reads the expressions of one body."""
+
+    def read(self, node: Node) -> m.Expression:
+        """An expression. Unread: the model has none for it."""
+        span = self.py.span(node)
+        match node.type:
+            case "integer" if (whole := whole_number_of(node)) is not None:
+                return m.IntLiteral(whole, span)
+            case "float" if number_of(node) is not None:
+                return float_literal(text_of(node), span)
+            case "true" | "false":
+                return m.BoolLiteral(node.type == "true", span)
+            case "string" if not _is_argument(node):
+                raise self.unread(node, "no variable of the model holds a text")
+            case "string":
+                return m.StringLiteral(with_escapes(in_double_quotes(text_of(node))), span)
+            case "identifier":
+                return self._name(node)
+            case "attribute":
+                return self._attribute(node)
+            case "subscript":
+                return self._element(node)
+            case "parenthesized_expression" if only_breaks_lines(node):
+                return self.read(named(node)[0])
+            case "parenthesized_expression":
+                return self._in_parentheses(node)
+            case "call":
+                return self._call(node)
+            case _:
+                return self._operation(node)
+
+    def condition(self, node: Node) -> m.Expression:
+        """What must hold."""
+        return idioms.truth(self, self.read(node))
+
+    def _operation(self, node: Node) -> m.Expression:
+        span = self.py.span(node)
+        match node.type:
+            case "not_operator":
+                asked = self._operand(field(node, "argument"), _NOT)
+                kind = self.kind(asked)
+                if kind is not None and kind.name == "int":
+                    return binary("==", asked, m.IntLiteral(0), span)
+                return m.Unary("!", asked, span)
+            case "unary_operator":
+                operator = text_of(field(node, "operator"))
+                return m.Unary(operator, self._operand(field(node, "argument"), _UNARY), span)
+            case "boolean_operator" | "binary_operator":
+                operator = text_of(field(node, "operator"))
+                level = _LEVELS.get(operator)
+                if level is None:
+                    raise self.unread(node, f'the model has no operator "{operator}"')
+                left = self._operand(field(node, "left"), level)
+                right = self._operand(field(node, "right"), level + 1)
+                if operator in _WORDS:
+                    left, right = idioms.sides(self, node, left, right)
+                read = m.Binary(_WORDS.get(operator, operator), left, right, span)
+                return (
+                    idioms.divided(self, node, read)
+                    if level == _PRODUCT and operator != "*"
+                    else read
+                )
+            case "comparison_operator":
+                return self._comparison(node)
+            case "conditional_expression":
+                then, condition, otherwise = named(node)
+                parts = self.condition(condition), self.read(then), self.read(otherwise)
+                return m.Conditional(*parts, span)
+            case "named_expression":
+                target = self._name(field(node, "name"))
+                return self.stored(target, field(node, "name"), field(node, "value"), node)
+            case _:
+                raise self.unread(node, "the model has no such expression")
+
+    def _comparison(self, node: Node) -> m.Expression:
+        operands = named(node)
+        operators = [text_of(c) for c in node.children_by_field_name("operators")]
+        if operands[-1].type in ("true", "false"):  # which there is one of each
+            operators = [_SAME.get(operator, operator) for operator in operators]
+        if len(operands) != 2 or operators[0] not in ("<", "<=", ">", ">=", "==", "!="):
+            return idioms.comparison(self, node)
+        if (found := tuples.compared(self, node, operators[0])) is not None:
+            return found
+        level = _COMPARISON + 1
+        left, right = (self._operand(o, level) for o in operands)
+        idioms.assert_alike(self, node, operators[0], (left, right))
+        return m.Binary(operators[0], left, right, self.py.span(node))
+
+    def _operand(self, node: Node, least: int) -> m.Expression:
+        """An operand; parentheses that only Python needs around it are none of the model's."""
+        if node.type == "parenthesized_expression":
+            core = node
+            while core.type == "parenthesized_expression" and named(core):
+                core = named(core)[0]
+            level = {"not_operator": _NOT, "comparison_operator": _COMPARISON}.get(core.type)
+            if level is not None and level < least:
+                return self.read(named(node)[0])
+            return self._in_parentheses(node)
+        return self.read(node)
+
+    def _in_parentheses(self, node: Node) -> m.Expression:
+        inner = named(node)[0]
+        if inner.type == "named_expression":
+            return self.read(inner)
+        return m.Paren(self.read(inner), self.py.span(node))
+
+    # --- names ----------------------------------------------------------------------------------
+
+    def _name(self, node: Node) -> m.Expression:
+        text, span = text_of(node), self.py.span(node)
+        if text == "NULL":
+            return m.NullLiteral(span)
+        if text in self.bound:
+            return self.bound[text]
+        if text in self.kept:
+            return self.read(self.kept[text])
+        if text not in self.locals:
+            if (constant := self.names.constants.get(text)) is None:
+                raise self.unread(node, f'the model has no variable "{text}"')
+            return located(constant, span)
+        return m.Name(self.locals[text], span)
+
+    def _attribute(self, node: Node) -> m.Expression:
+        span, name = self.py.span(node), text_of(field(node, "attribute"))
+        variable = self.names.variables.get(name)
+        if (stands := self.bound.get(text_of(node))) is not None:
+            return stands
+        if (constant := self.names.constants.get(text_of(node))) is not None:
+            return located(constant, span)
+        is_own = text_of(field(node, "object")) == self.own
+        if is_own and name in self.names.properties:
+            return m.Call(None, self.names.functions[name], span=span)
+        if not is_own or variable is None:
+            raise self.unread(node, f'the model has no variable "{text_of(node)}"')
+        if variable in self.locals.values():
+            return m.Member(m.Self(span), variable, span)
+        return m.Name(variable, span)
+
+    def _element(self, node: Node) -> m.Expression:
+        if (constant := self.names.constants.get(text_of(node))) is not None:
+            return located(constant, self.py.span(node))
+        target = self.read(field(node, "value"))
+        return m.Index(target, self.index(field(node, "subscript")), self.py.span(node))
+
+    def index(self, node: Node) -> m.Expression:
+        """An index: as it is, kept in a name, or checked by `at` of an array that is."""
+        if node.type == "identifier" and text_of(node) in self.kept:
+            return self.index(self.kept[text_of(node)])
+        called, arguments = call_parts(node) or ("", [])
+        if called.endswith(".at") and called.removesuffix(".at") in self.kept:
+            return self.read(arguments[0])
+        return self.read(node)
+
+    # --- assignments ----------------------------------------------------------------------------
+
+    def stored(
+        self, target: m.Expression, place: Node, value: Node, whole: Node, statement: bool = False
+    ) -> m.Expression:
+        """An assignment: `x = int32.add(x, 1)` is what the model writes `x++`, or `++x`."""
+        span = self.py.span(whole)
+        called, arguments = call_parts(value) or ("", [])
+        updated: m.Expression | None = formats.updated(self, target, called, arguments)
+        if updated is not None:
+            if statement and isinstance(updated, m.Unary):
+                updated = m.Postfix(updated.operator, target)
+            changed = replace(updated, span=span)
+            return self.cuts.converted(called.partition(".")[0], changed, update=True)
+        read = self.read(value)
+        idioms.check_copied(self, value, read)
+        if called in formats.NARROW and not formats.is_kept(self, target, called):
+            read = located(formats.cast(called, read), self.py.span(value))
+        return m.Assign("=", target, read, span)
+
+    # --- calls ----------------------------------------------------------------------------------
+
+    def _of_values(self, called: str) -> str:
+        """What is called; a function of the run-time part by its name where `v` is its module."""
+        module, _, name = called.rpartition(".")
+        package = self.py.source.path.rpartition("/")[0].rpartition("/")[2]
+        is_values = self.names.imported.get(module) == f"{package}.values as {module}"
+        return name if is_values and module not in self.locals else called
+
+    def _call(self, node: Node) -> m.Expression:
+        called, arguments = call_parts(node) or ("", [])
+        called = self._of_values(self.kept_sends.get(called, called))
+        if called in self.closures:
+            return closures.value_of_call(self, node, called, arguments)
+        if called in formats.FORMATS and len(arguments) == 1:
+            return self._converted(called, arguments[0])
+        if called in _CASTS and len(arguments) == 1:
+            return m.Cast(m.Type(_CASTS[called]), self.read(arguments[0]), self.py.span(node))
+        if called in _OPERATIONS and len(arguments) == 2:
+            left, right = map(self.read, arguments)
+            made = binary(_OPERATIONS[called], left, right, self.py.span(node))
+            return self.cuts.operated(called, made)
+        if (operated := formats.operation(self, node, called, arguments)) is not None:
+            return operated
+        if called.startswith((f"{self.own}.", "super().")):
+            plain = called.removeprefix(f"{self.own}.")
+            called = called if plain == called else f"self.{plain}"
+            if called not in self.names.helpers:
+                return self._own_call(node, called, arguments)
+        return self._function(node, called, arguments)
+
+    def _converted(self, called: str, node: Node) -> m.Expression:
+        """A conversion that the model implies; of a literal it tells its type."""
+        if node.type == "float" and called in ("float32", "float64"):
+            suffix = "d" if called == "float64" else ""
+            return m.FloatLiteral(f"{text_of(node)}{suffix}", self.py.span(node))
+        read = self.read(node)
+        call = node.parent.parent if node.parent is not None else None
+        if called in formats.NARROW and call is not None and idioms.is_within(call):
+            cast = formats.cast(called, read)  # the model narrows only what it stores
+            return located(cast, self.py.span(call))
+        return self.cuts.converted(called, read)
+
+    def _function(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
+        span = self.py.span(node)
+        match called, len(arguments):
+            case "power", 2:
+                return m.Call(None, "pow", tuple(map(self.read, arguments)), span=span)
+            case "square_root", 1:
+                return m.Call(None, "sqrt", (self.read(arguments[0]),), span=span)
+            case "copied", 1:
+                return self.read(arguments[0])
+            case "to_rebec", 2:
+                type_ = m.Type(original(string_value(arguments[0]) or ""))
+                return m.Cast(type_, self.read(arguments[1]), span)
+            case "put", 3:
+                name = string_value(arguments[1]) or ""
+                variable = self.names.variables.get(name)
+                if variable is None:
+                    raise self.unread(node, f'the model has no variable "{name}"')
+                hidden = variable in self.locals.values()
+                target = m.Member(m.Self(span), variable) if hidden else m.Name(variable, span)
+                return self.stored(target, arguments[1], arguments[2], node)
+            case "put_item", 3:
+                return places.put_item(self, node, arguments)
+            case "before", 2:
+                return places.before(self, node, arguments)
+            case _:
+                return self._elsewhere(node, called, arguments)
+
+    def _elsewhere(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
+        """What a function of the code, of Python itself, or of its library gives."""
+        helper = self.names.helpers.get(called)
+        if helper is not None:
+            given = arguments_for(helper, self, node, arguments)
+            call = m.Call(None, helper.name, given, span=self.py.span(node))
+            return self.cuts.passing(call, called)
+        if (stands := self.bound.get(text_of(node))) is not None:
+            return stands
+        if len(arguments) == 2 and is_cast(self.names.constants.module, called):
+            return self.read(arguments[1])
+        if len(arguments) == 1 and is_new_type(self.names.constants.module, called):
+            return self.read(arguments[0])
+        drawn = builtins.drawn(self, node, called, arguments)
+        found = drawn or builtins.of_python(self, node, called, arguments)
+        if found is None:
+            raise self.unread(node, f'the model has no function "{called}"')
+        return located(found, self.py.span(node))
+
+    def _own_call(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
+        if called.startswith("self._mailbox."):
+            name = called.removeprefix("self._mailbox.")
+            return of_mailbox(self, node, name, arguments)
+        holder, _, name = called.rpartition(".")
+        span = self.py.span(node)
+        sends = self.names.sends.get(name)
+        if sends is not None and holder == "self":
+            return self.cuts.passing(sent(self, node, sends, arguments), name)
+        function = self.names.functions.get(name)
+        if function is None:
+            raise self.unread(node, f'the model has no function "{called}"')
+        if holder == "self" and name in self.names.servers:
+            raise self.unread(node, "this serves a message at once; the model only sends them")
+        target = m.Super(span) if holder == "super()" else None
+        arguments = idioms.in_order(self, node, arguments, self.names.parameters.get(name, ()))
+        given = tuple(map(self.read, arguments))
+        return self.cuts.passing(m.Call(target, function, given, span=span), name)
+
+
+_SAME = {"is": "==", "is not": "!="}
+
+
+def _is_argument(node: Node) -> bool:
+    """Whether an expression is an argument of a call by its place, as what an assertion says."""
+    return node.parent is not None and node.parent.type == "argument_list"

@@ -1,0 +1,392 @@
+"""What people write in Python where generated code says the same otherwise, as the model has it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own
+from rebsync.reverse.models.building import binary, is_calm, located
+from rebsync.reverse.python.generated.cuts import other_division
+from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
+from rebsync.reverse.python.generated.kinds import is_floating
+from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.py_tree import calls_in, field, is_asked, named, text_of
+
+_COMPARED = frozenset({"<", "<=", ">", ">=", "==", "!="})
+_PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})
+_AROUND = frozenset(
+    {
+        *("boolean_operator", "not_operator", "comparison_operator", "binary_operator"),
+        *("unary_operator", "conditional_expression"),
+    }
+)
+_GROWING = frozenset({"+", "-", "*", "<<", ">>", "&", "|", "^"})
+# Functions for which only the truth of what they are given matters.
+_ASKING = frozenset({"bool", "boolean", "to_boolean", "assertion", "any", "all"})
+_WHOLE = {"//": "divide", "/": "divide", "%": "remainder"}
+# Functions of Python and of the run-time part that store nothing.
+_QUIET = frozenset(
+    {
+        *("int8", "int16", "int32", "boolean", "divide", "remainder", "abs", "min", "max", "bool"),
+        *("int", "range", "len", "sum", "any", "all", "When", "print", "str", "switch", "block"),
+        *("float32", "float64", "quotient", "modulus", "shift_left", "shift_right", "power"),
+        *("square_root", "to_byte", "to_short", "to_int", "to_float", "to_double", "to_boolean"),
+        *("to_rebec", "Array", "array", "copied", "rounds", "put", "put_item", "before"),
+    }
+)
+
+
+def comparison(reader: ModelExpressionReader, node: Node) -> m.Expression:
+    """`a <= b < c`, `a in (1, 2)` and `a not in (1, 2)`. Unread: the model has no such thing."""
+    operands = named(node)
+    operators = [" ".join(text_of(c).split()) for c in node.children_by_field_name("operators")]
+    if operators in (["in"], ["not in"]) and (ends := _ends_of_range(reader, operands)):
+        low, high = ends
+        is_in, one = operators == ["in"], operands[0]
+        pairs = [(one, ">=" if is_in else "<", low), (one, "<" if is_in else ">=", high)]
+        word, repeated = "&&" if is_in else "||", [one]
+        if reader.kind(reader.read(one)) != m.Type("int"):
+            raise reader.unread(node, "only whole numbers are in a range")
+    elif operators in (["in"], ["not in"]) and operands[1].type in ("tuple", "list", "set"):
+        is_in, one = operators == ["in"], operands[0]
+        others = named(operands[1])
+        pairs = [(one, "==" if is_in else "!=", other) for other in others]
+        word = "||" if is_in else "&&"
+        repeated = [one] * (len(others) > 1)
+    elif len(operands) > 2 and set(operators) <= _COMPARED:
+        pairs = list(zip(operands, operators, operands[1:], strict=False))
+        word, repeated = "&&", operands[1:-1]
+    else:
+        raise reader.unread(node, "the model has no such comparison")
+    if not pairs or not all(map(is_plain, repeated)):
+        raise reader.unread(node, "what this compares more than once is to be in a variable first")
+    found = None
+    for left, operator, right in pairs:
+        read = reader.read(left), reader.read(right)
+        if not all(is_calm(r) for n, r in zip((left, right), read, strict=True) if n in repeated):
+            raise reader.unread(node, "a property may do something each time that it is asked")
+        assert_alike(reader, node, operator, read)
+        each = binary(operator, *read, reader.py.span(node))
+        found = each if found is None else m.Binary(word, found, each, reader.py.span(node))
+    assert found is not None
+    return found if len(pairs) == 1 else grouped(node, found)
+
+
+def _ends_of_range(reader: ModelExpressionReader, operands: list[Node]) -> list[Node] | None:
+    """The first number of a range and that behind its last; None for what is no such range."""
+    called = text_of(field(operands[1], "function")) if operands[1].type == "call" else ""
+    given = named(field(operands[1], "arguments")) if called == "range" else []
+    is_rebound = reader.names.constants.binds("range") or "range" in reader.locals
+    is_plain_range = len(given) == 2 and all(g.type == "integer" for g in given)
+    return given if is_plain_range and not is_rebound else None
+
+
+def assert_alike(
+    reader: ModelExpressionReader,
+    node: Node,
+    operator: str,
+    sides: tuple[m.Expression, m.Expression],
+) -> None:
+    """Unread: what is compared are a number and a truth value, or which of two of these is less."""
+    kinds = [reader.kind(side) for side in sides]
+    truths = kinds.count(m.Type("boolean"))
+    if (truths == 1 and None not in kinds) or (truths == 2 and operator not in ("==", "!=")):
+        raise reader.unread(node, "the model compares no truth value with a number")
+
+
+def grouped(node: Node, found: m.Expression) -> m.Expression:
+    """What Python says in one piece and the model in several, within an operation."""
+    is_one = not isinstance(found, m.Binary | m.Conditional)
+    return found if is_one or not is_within(node) else m.Paren(found)
+
+
+def is_within(node: Node) -> bool:
+    """Whether something stands in an operation, be it in parentheses."""
+    above = climb(node, lambda n: n.type != "parenthesized_expression")
+    return above is not None and above.type in _AROUND
+
+
+def is_plain(node: Node) -> bool:
+    """Whether an expression does nothing, however often it is evaluated."""
+    if node.type == "subscript":
+        return all(map(is_plain, named(node)))
+    if node.type in ("parenthesized_expression", "unary_operator", "binary_operator"):
+        return all(map(is_plain, named(node)))
+    return node.type in _PLAIN
+
+
+def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Binary:
+    """`a / b` of numbers with a point, and `a // b` and `a % b` of integers that must turn out to
+    be ones of which the model has the same. Unread: all else, which the model divides otherwise.
+    """
+    operator = text_of(field(node, "operator"))
+    kinds = reader.kind(read.left), reader.kind(read.right)
+    if operator == "/" and any(map(is_floating, kinds)):
+        return read
+    if operator != "/" and kinds == (m.Type("int"), m.Type("int")):
+        whole = m.Binary(operator[0], read.left, read.right, read.span)
+        return reader.cuts.divided(whole)
+    raise reader.unread(node, other_division(operator))
+
+
+def truth(reader: ModelExpressionReader, read: m.Expression) -> m.Expression:
+    """What an integer says as a condition."""
+    kind = reader.kind(read)
+    if kind is None or kind.name != "int":
+        return read
+    return binary("!=", read, m.IntLiteral(0))
+
+
+def sides(
+    reader: ModelExpressionReader, node: Node, left: m.Expression, right: m.Expression
+) -> tuple[m.Expression, m.Expression]:
+    """The sides of `and` and `or` as conditions. Unread: Python gives an integer, not its truth."""
+    asked = truth(reader, left), truth(reader, right)
+    if asked != (left, right) and not is_asked(node, _ASKING):
+        raise reader.unread(node, "this is one of the two numbers in Python, in the model a truth")
+    return asked
+
+
+def kind_at(reader: ModelExpressionReader, node: Node) -> m.Type | None:
+    """The kind of what is still to be read, as the types of locals are told."""
+    divided = dict(reader.cuts.floored)
+    found = reader.kind(reader.read(node))
+    reader.cuts.floored.clear()
+    reader.cuts.floored.update(divided)
+    return found
+
+
+def type_of(reader: ModelExpressionReader, place: m.Expression) -> m.Type | None:
+    """The type of the variable that a place is, or is an element of."""
+    name = array_of(place) or ""
+    key = own(name) if is_own(place) else name
+    return reader.types.get(key, reader.names.types.get(key))
+
+
+def check_copied(reader: ModelExpressionReader, node: Node, read: m.Expression) -> None:
+    """Raises `Unread` for an array that Python would only give another name."""
+    if node.type == "parenthesized_expression" and len(named(node)) == 1:
+        check_copied(reader, named(node)[0], read.inner if isinstance(read, m.Paren) else read)
+    elif isinstance(read, m.Conditional) and node.type == "conditional_expression":
+        then, _, otherwise = named(node)
+        check_copied(reader, then, read.then)
+        check_copied(reader, otherwise, read.otherwise)
+    elif node.type != "call" and _is_array(reader, read):
+        why = "this is the same array in Python, and a copy in the model: say copied(...)"
+        raise reader.unread(node, why)
+
+
+def _is_array(reader: ModelExpressionReader, read: m.Expression) -> bool:
+    """Whether an expression names an array, or one in an array."""
+    type_, depth = type_of(reader, read), 0
+    while isinstance(read, m.Index):
+        read, depth = read.target, depth + 1
+    if not isinstance(read, m.Name | m.Member):
+        return False
+    return type_ is not None and len(type_.dimensions) > depth
+
+
+# --- sends --------------------------------------------------------------------------------------
+
+
+def in_order(
+    reader: ModelExpressionReader, node: Node, arguments: list[Node], parameters: tuple[str, ...]
+) -> list[Node]:
+    """Arguments of which some are given by name, in the order of the parameters.
+
+    Unread: one is missing or there twice, or their order might matter.
+    """
+    given = [a for a in arguments if a.type == "keyword_argument"]
+    if not given:
+        return arguments
+    named_ = {text_of(field(a, "name")): field(a, "value") for a in given}
+    first = arguments[: len(arguments) - len(given)]
+    rest = [p for p in parameters[len(first) :] if p in named_]
+    if len(rest) != len(given) or tuple(rest) != parameters[len(first) :][: len(rest)]:
+        raise reader.unread(node, "this has other arguments than those that are asked for")
+    values = [named_[name] for name in rest]
+    plain = [v for name, v in named_.items() if name != "when"]
+    if list(named_) != rest and not all(map(is_plain, plain)):
+        raise reader.unread(node, "give these in the order of the parameters")
+    return [*first, *values]
+
+
+def times(reader: ModelExpressionReader, node: Node) -> dict[str, m.Expression]:
+    """When a send arrives and expires. Unread: it is told otherwise than by `When`."""
+    if node.type == "identifier" and text_of(node) == "AT_ONCE":
+        return {}
+    if node.type == "identifier" and text_of(node) in reader.moments:
+        return {**reader.moments[text_of(node)]}
+    called = text_of(field(node, "function")) if node.type == "call" else ""
+    given = named(field(node, "arguments")) if called == "When" else []
+    is_spread = any(g.type in ("list_splat", "dictionary_splat") for g in given)
+    if called != "When" or is_spread or len(given) > 2:
+        raise reader.unread(node, "this is no time of a send")
+    said: dict[str, Node] = {}
+    for name, each in zip(("after", "deadline"), given, strict=False):
+        is_named = each.type == "keyword_argument"
+        value = field(each, "value") if is_named else each
+        said[text_of(field(each, "name")) if is_named else name] = value
+    if "deadline" in said and text_of(said["deadline"]) == "None":
+        del said["deadline"]
+    return {name: reader.read(value) for name, value in said.items()}
+
+
+# --- statements ---------------------------------------------------------------------------------
+
+
+def augmented(reader: ModelExpressionReader, node: Node) -> m.Expression:
+    """`x += e`. Unread: the model has no such operator, or Python means another one."""
+    operator = text_of(field(node, "operator")).removesuffix("=")
+    target = reader.read(field(node, "left"))
+    value = reader.read(field(node, "right"))
+    kinds = reader.kind(target), reader.kind(value)
+    if operator in _WHOLE and not (operator == "/" and is_floating(kinds[0])):
+        right = f"x = {_WHOLE[operator]}(x, e)"
+        raise reader.unread(node, f'"{operator}=" of Python is not the model\'s, which is {right}')
+    if operator not in _GROWING and operator != "/":
+        raise reader.unread(node, f'the model has no operator "{operator}="')
+    if None in kinds or (is_floating(kinds[1]) and not is_floating(kinds[0])):
+        raise reader.unread(node, "what this stores is of another type than the variable")
+    return m.Assign(f"{operator}=", target, value, reader.py.span(node))
+
+
+def base_of(node: Node) -> str:
+    """The variable that something is stored in, or in an element of which."""
+    while node.type == "subscript":
+        node = named(node)[0]
+    return text_of(node)
+
+
+def names_in(node: Node) -> set[str]:
+    """The names and attributes that a part of the code has."""
+    if node.type in ("identifier", "attribute"):
+        return {text_of(node)}
+    return {name for each in named(node) for name in names_in(each)}
+
+
+def cases(
+    reader: ModelExpressionReader, node: Node
+) -> Iterator[tuple[list[m.Expression], tuple[str, Node | None], Node]]:
+    """The values of each case of a `match` (none: all others), its guard, and the block of it.
+
+    With the guard comes the name that the case gives the value, if it does.
+    """
+    subjects = [c for c in named(node) if c.type not in ("block", "case_clause")]
+    if len(subjects) != 1 or not is_plain(subjects[0]):
+        raise reader.unread(node, "what this compares more than once is to be in a variable first")
+    for clause in named(field(node, "body")):
+        patterns = [c for c in named(clause) if c.type == "case_pattern"]
+        guard, block = clause.child_by_field_name("guard"), field(clause, "consequence")
+        if len(patterns) != 1:
+            raise reader.unread(clause, "the model has no such case")
+        test = named(guard)[0] if guard is not None else None
+        name = text_of(patterns[0])
+        if test is None or not name.isidentifier() or name in ("_", "True", "False", "None"):
+            yield list(_values(reader, patterns[0])), ("", test), block
+        elif _lasts(reader, subjects[0], name, block):
+            yield [], (name, test), block
+        else:
+            raise reader.unread(clause, "this name is not that of what is compared all the time")
+
+
+def _lasts(reader: ModelExpressionReader, subject: Node, name: str, block: Node) -> bool:
+    """Whether a name has the value of a local throughout a block, and is no other's."""
+    stored = stored_in(block)
+    is_free = name not in reader.locals and name not in reader.names.constants
+    if is_free and name not in names_in(block):  # only the guard asks it
+        return True
+    return is_free and subject.type == "identifier" and not stored & {name, text_of(subject)}
+
+
+def _values(reader: ModelExpressionReader, pattern: Node) -> Iterator[m.Expression]:
+    inner = named(pattern)
+    if not inner and text_of(pattern) == "_":
+        return
+    of = inner[0] if len(inner) == 1 and inner[0].type == "union_pattern" else pattern
+    is_below = False
+    for each in of.children:
+        text = text_of(each)
+        if text == "-":  # it stands beside the number
+            is_below = True
+            continue
+        if "." in text and (constant := reader.names.constants.get(text)) is not None:
+            yield located(constant, reader.py.span(of))
+        elif each.type == "integer":
+            read = reader.read(each)
+            yield m.Unary("-", read, reader.py.span(of)) if is_below else read
+        elif text != "|":
+            raise reader.unread(pattern, "the model has no such case")
+        is_below = False
+
+
+def rounds(
+    reader: ModelExpressionReader, node: Node
+) -> tuple[m.Expression, m.Expression, m.Expression]:
+    """Start, end and step of `range(...)`. Unread: they may change in the loop."""
+    arguments = named(field(field(node, "right"), "arguments"))
+    body = field(node, "body")
+    if not 1 <= len(arguments) <= 3 or not all(_is_steady(reader, a, body) for a in arguments):
+        raise reader.unread(
+            node, "how often this is done may change: say it with numbers or locals"
+        )
+    read = [reader.read(a) for a in arguments]
+    start = read[0] if len(read) > 1 else m.IntLiteral(0)
+    step = read[2] if len(read) > 2 else m.IntLiteral(1)
+    return start, read[1] if len(read) > 1 else read[0], step
+
+
+def is_literal(reader: ModelExpressionReader, node: Node) -> bool:
+    """Whether an expression is the same at any time."""
+    if node.type == "unary_operator":
+        return is_literal(reader, field(node, "argument"))
+    return node.type in ("integer", "float", "true", "false") or (
+        text_of(node) in reader.names.constants and text_of(node) not in reader.locals
+    )
+
+
+def _is_steady(reader: ModelExpressionReader, node: Node, body: Node) -> bool:
+    """Whether a bound of a loop stays the same: a number, or a local that the loop leaves alone."""
+    if node.type in ("unary_operator", "binary_operator", "parenthesized_expression"):
+        return all(_is_steady(reader, n, body) for n in named(node))
+    if node.type == "identifier":
+        return text_of(node) not in stored_in(body)
+    if node.type == "attribute" and text_of(field(node, "object")) == reader.own:
+        return text_of(node) not in stored_in(body) and not _calls_own(reader, body)
+    return node.type == "integer" or text_of(node) in reader.names.constants
+
+
+def _calls_own(reader: ModelExpressionReader, node: Node) -> bool:
+    """Whether a block calls functions of the object that are no sends, and may store something."""
+    parts = (text_of(field(call, "function")).rpartition(".") for call in calls_in(node))
+    return any(
+        name not in (reader.names.sends if holder in (reader.own, "super()") else _QUIET)
+        for holder, _, name in parts
+        if not holder or holder in (reader.own, "super()")
+    )
+
+
+def stored_in(node: Node) -> set[str]:
+    """The variables that a block stores something in."""
+    found: set[str] = set()
+    for each in node.named_children:
+        if each.type == "call" and text_of(field(each, "function")) == "put":
+            found |= _put(named(field(each, "arguments")))
+        if each.type in ("assignment", "augmented_assignment", "for_statement", "named_expression"):
+            left = each.child_by_field_name("left") or each.child_by_field_name("name")
+            is_many = left is not None and left.type in ("pattern_list", "tuple_pattern")
+            lefts = named(left) if left is not None and is_many else [left]
+            found |= {base_of(n) for n in lefts if n is not None}
+        found |= stored_in(each)
+    return found
+
+
+def _put(arguments: list[Node]) -> set[str]:
+    """What `put(self, "_x", ...)` stores in."""
+    if len(arguments) < 2:
+        return set()
+    of, name = map(text_of, arguments[:2])
+    return {f"{of}.{name[1:-1]}"}

@@ -1,0 +1,211 @@
+"""Functions within bodies of Python: what they do stands where they are called (inlining).
+
+Such a function is bound once, and known to the end of its block. Its parameters are
+locals, or stand for the arguments where it only gives a value.
+"""
+
+from __future__ import annotations
+
+from itertools import count
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.models.building import is_calm
+from rebsync.reverse.python.generated import idioms
+from rebsync.reverse.python.generated import py_builtins as builtins
+from rebsync.reverse.python.generated.closures import arguments_of
+from rebsync.reverse.python.generated.names import Closure
+from rebsync.reverse.python.generated.py_types import call_parts, type_of
+from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import SCOPES, calls_in, field, named, text_of
+from rebsync.static.types import INT
+
+_LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
+_LOOPS = frozenset({"for_statement", "while_statement"})
+
+
+def declare(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
+    """A function in a body, which stands for what it does where it is called."""
+    name, body = text_of(field(node, "name")), field(node, "body")
+    parameters = _parameters(node)
+    calls = {text_of(field(c, "function")) for c in calls_in(body)}
+    if parameters is None or name in calls or not _is_bound_once(node, name):
+        why = "only a function that is bound once, and has no defaults, stands for what it does"
+        raise reader.expressions.unread(node, why)
+    if (value := _only_value(body)) is not None:
+        reader.expressions.closures[name] = Closure(parameters, value)
+        return []
+    if leaves(body) or idioms.stored_in(body):
+        why = "only a function that gives nothing, and stores nothing, stands for what it does"
+        raise reader.expressions.unread(node, why)
+    reader.inner[name] = Closure(parameters, body)
+    return []
+
+
+def named_lambda(reader: ModelStatementReader, left: Node, value: Node) -> bool:
+    """Whether `f = lambda x: e` was taken for a function that gives that."""
+    if value.type != "lambda" or left.type != "identifier":
+        return False
+    name, parameters = text_of(left), _parameters(value)
+    body = field(value, "body")
+    if parameters is None or not builtins.is_calm(body) or not _is_bound_once(value, name):
+        return False
+    reader.expressions.closures[name] = Closure(parameters, body)
+    return True
+
+
+def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> bool:
+    """Whether `send = self.send_self_m` was taken for another name of what sends."""
+    holder, _, name = text_of(value).rpartition(".")
+    is_send = holder == "self" == reader.expressions.own and name in reader.expressions.names.sends
+    if left.type != "identifier" or not is_send or not _is_bound_once(value, text_of(left)):
+        return False
+    reader.expressions.kept_sends[text_of(left)] = text_of(value)
+    return True
+
+
+def kept_table(reader: ModelStatementReader, left: Node, value: Node) -> bool:
+    """Whether `table = {1: a, 2: b}` was taken for what the next statement looks up, and only it.
+
+    Nothing of what the table holds changes until then.
+    """
+    if value.type != "dictionary" or left.type != "identifier":
+        return False
+    name, asked = text_of(left), _value_behind(value)
+    called, _ = call_parts(asked) or ("", [])
+    if called != f"{name}.get" or len(_mentions(value, name)) != 2:
+        return False
+    reader.expressions.kept_tables[name] = value
+    return True
+
+
+def _value_behind(value: Node) -> Node | None:
+    """What the statement behind that of a value stores or returns."""
+    statement = climb(value, lambda node: node.type == "expression_statement")
+    following = statement.next_named_sibling if statement is not None else None
+    while following is not None and following.type == "comment":
+        following = following.next_named_sibling
+    inner = named(following)[:1] if following is not None else []
+    if following is None or not inner:
+        return None
+    if inner[0].type == "assignment":
+        return inner[0].child_by_field_name("right")
+    return inner[0] if following.type == "return_statement" else None
+
+
+def kept_moment(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
+    """The times of `soon = When(after=a)`: known where it is made, and counted from each send."""
+    called, _ = call_parts(value) or ("", [])
+    is_kept = called == "When" and left.type == "identifier"
+    if not is_kept or not _is_bound_once(value, text_of(left), passed=True):
+        return None
+    expressions, span = reader.expressions, reader.expressions.py.span(value)
+    times, made = idioms.times(expressions, value), list[m.Statement]()
+    taken = {*expressions.locals.values(), *expressions.names.variables.values()}
+    for kind, time in times.items():
+        name = f"{text_of(left)}_{kind}"
+        if not is_calm(time) or expressions.kind(time) != INT or name in taken:
+            raise expressions.unread(value, "this time is no whole number of the model")
+        expressions.types[name] = INT
+        expressions.locals[name] = name
+        reader.implied.add(name)
+        declarator = m.Declarator(name, time, span)
+        made.append(m.Local(m.Declaration(INT, (declarator,), span=span), span=span))
+    kept = {kind: m.Name(f"{text_of(left)}_{kind}") for kind in times}
+    expressions.moments[text_of(left)] = kept
+    return made
+
+
+def _parameters(function: Node) -> tuple[tuple[str, m.Type | None], ...] | None:
+    """The parameters with the types that they are said to have; None if some have more to them."""
+    listed = function.child_by_field_name("parameters")
+    found = []
+    for each in named(listed) if listed is not None else ():
+        if each.type == "typed_parameter" and named(each)[0].type == "identifier":
+            found.append((text_of(named(each)[0]), type_of(field(each, "type"))))
+        elif each.type == "identifier":
+            found.append((text_of(each), None))
+        else:
+            return None
+    return tuple(found)
+
+
+def _is_bound_once(node: Node, name: str, passed: bool = False) -> bool:
+    """Whether nothing else in the method around gives a name another meaning.
+
+    What has it called, or `passed` on, does not.
+    """
+    found = 0
+    for each in _mentions(node, name):
+        above = each.parent
+        called = above is not None and above.type == "call" and field(above, "function") == each
+        is_passed = above is not None and above.type == "argument_list"
+        found += not (is_passed if passed else called)
+    return found == 1
+
+
+def _mentions(node: Node, name: str) -> list[Node]:
+    """Where the method around says a name."""
+    around = climb(node, lambda above: above.type == "function_definition")
+    every = nodes_in(around) if around is not None else ()
+    return [each for each in every if each.type == "identifier" and text_of(each) == name]
+
+
+def inline_call(
+    reader: ModelStatementReader, node: Node, called: str, arguments: list[Node]
+) -> list[m.Statement]:
+    """What a function of the body does, where it is called: its parameters are locals."""
+    closure, own = reader.inner[called], reader.expressions
+    passed = arguments_of(own, node, closure, arguments)
+    locals_ = [_local(reader, p, a) for p, a in zip(closure.parameters, passed, strict=True)]
+    outer = dict(own.locals)
+    for (name, _), local in zip(closure.parameters, locals_, strict=True):
+        own.locals[name] = local.declaration.declarators[0].name
+    body = reader.block(named(closure.body), closure.body)
+    own.locals.clear()
+    own.locals.update(outer)
+    if not locals_:
+        return list(body.statements)
+    return [m.Block((*locals_, *body.statements), (), own.py.span(node))]
+
+
+def _local(
+    reader: ModelStatementReader, parameter: tuple[str, m.Type | None], argument: Node
+) -> m.Local:
+    """The local that a parameter is."""
+    name, said = parameter
+    own = reader.expressions
+    read = own.read(argument)
+    type_ = said if said is not None else own.kind(read)
+    if type_ is None or type_.dimensions:
+        raise own.unread(argument, f'say the type of "{name}"')
+    taken = {*own.locals.values(), *own.names.types, *own.types}
+    free = next(n for i in count(1) if (n := name if i == 1 else f"{name}_{i}") not in taken)
+    plain = reader.local(free)
+    own.types[plain] = type_
+    span = own.py.span(argument)
+    declaration = m.Declaration(type_, (m.Declarator(plain, read, span),), span=span)
+    return m.Local(declaration, span=span)
+
+
+def _only_value(body: Node) -> Node | None:
+    """What a function gives that does nothing else; None for another function."""
+    match [s for s in named(body) if s.type != "comment"]:
+        case [only] if only.type == "return_statement":
+            values = named(only)
+            return values[0] if len(values) == 1 and builtins.is_calm(values[0]) else None
+        case _:
+            return None
+
+
+def leaves(node: Node, in_loop: bool = False) -> bool:
+    """Whether something in a block ends it, or the function."""
+    for child in named(node):
+        if child.type in _LEAVING and not (in_loop and child.type != "return_statement"):
+            return True
+        if child.type not in SCOPES and leaves(child, in_loop or child.type in _LOOPS):
+            return True
+    return False

@@ -1,0 +1,329 @@
+"""Loops over numbers and arrays, and `match`, as people write them, in the model's words."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from itertools import chain, count
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.models.building import binary, selected
+from rebsync.reverse.python.generated import endings, idioms
+from rebsync.reverse.python.generated import py_builtins as builtins
+from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
+from rebsync.reverse.python.generated.py_types import call_parts, markers_above
+from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
+
+_STEP = "step"
+
+# What leaves a round, or may be done after it.
+_LEAVING = frozenset({"break_statement", "continue_statement", "function_definition", "lambda"})
+
+
+def counted(reader: ModelStatementReader, node: Node, name: str) -> m.For:
+    """`for i in range(...)`."""
+    start, end, step = idioms.rounds(reader.expressions, node)
+    if reader.lasting:  # the variable keeps its last value, and not the one that ends the loop
+        index = _free(reader, node, name)
+        body = _round(reader, node, [], index, [(name, m.Type("int"), m.Name(index))])
+        return _for(reader, node, index, start, end, step, body)
+    reader.annotated[name] = m.Type("int")
+    index = _counter(reader, node, name)
+    body = _round(reader, node, [(name, m.Type("int"))], index, [])
+    return _for(reader, node, index, start, end, step, body)
+
+
+def _counter(reader: ModelStatementReader, node: Node, name: str) -> str:
+    """What a loop counts by in the model: there, `i` may be what `i__2` is in Python.
+
+    It is not where the body has another `i`.
+    """
+    plain = reader.without_number(name)
+    return reader.local(name if plain in idioms.names_in(field(node, "body")) else plain)
+
+
+def stepped(reader: ModelStatementReader, body: Node) -> tuple[list[Node], list[Node]]:
+    """What a `while` does up to the marker of a step, and the step, which a `continue` skips.
+
+    There is none behind a `continue`, and where more than stores stands there.
+    """
+    nodes = named(body)
+    marked = (_STEP in markers_above(reader.expressions.py, n) for n in nodes)
+    at = next((i for i, is_step in enumerate(marked) if is_step), len(nodes))
+    is_plain = all(n.type == "expression_statement" for n in nodes[at:])
+    if not is_plain or endings.leaves(body, "continue_statement"):
+        return nodes, []
+    return nodes[:at], nodes[at:]
+
+
+def through(
+    reader: ModelStatementReader, node: Node, called: str, arguments: list[Node]
+) -> m.For | m.Block | None:
+    """`enumerate`, `zip` and `reversed(range(...))`, and a tuple of numbers; None for others."""
+    left, right = field(node, "left"), field(node, "right")
+    names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]
+    match called, arguments:
+        case (("enumerate" | "zip"), _) if any(a.type in ("tuple", "list") for a in arguments):
+            return _unrolled(reader, node, names)
+        case "enumerate", [values] if len(names) == 2:
+            return _numbered(reader, node, names[0], names[1:], [values])
+        case "zip", _ if len(names) == len(arguments) > 0:
+            return _numbered(reader, node, "", names, arguments)
+        case "reversed", [inner] if len(names) == 1:
+            return _backwards(reader, node, names[0], inner)
+        case "", _ if right.type in ("tuple", "list") and len(names) == 1:
+            return _listed(reader, node, names[0], named(right))
+        case _:
+            return None
+
+
+def _numbered(
+    reader: ModelStatementReader, node: Node, number: str, names: list[str], arrays: list[Node]
+) -> m.For:
+    """A loop through several arrays at once; the variable `number` counts, if it has a name."""
+    each_ = [builtins.array_elements(reader.expressions, a) for a in arrays]
+    if None in each_ or len({*names, number}) != len(names) + 1:
+        raise reader.expressions.unread(node, "the model has no such loop")
+    for array in arrays:
+        _assert_kept(reader, node, array)
+    length = min(len(elements) for elements in each_ if elements is not None)
+    index = reader.local(number) if number else _free(reader, node, names[0])
+    first: list[tuple[str, m.Type, m.Expression]] = []
+    for name, elements in zip(names, each_, strict=True):
+        read = elements[0] if elements else m.IntLiteral(0)
+        element = reader.expressions.kind(read)
+        if not isinstance(read, m.Index) or element is None:
+            raise reader.expressions.unread(node, "the model has no such loop")
+        first.append((name, element, m.Index(read.target, m.Name(index))))
+    body = _round(reader, node, [(number, m.Type("int"))] if number else [], index, first)
+    return _times(reader, node, index, length, body)
+
+
+def _listed(reader: ModelStatementReader, node: Node, name: str, values: list[Node]) -> m.For:
+    """A loop over numbers, each in its turn."""
+    read = [reader.expressions.read(v) for v in values]
+    kinds = {reader.expressions.kind(e) for e in read}
+    if len(kinds) != 1 or not all(idioms.is_literal(reader.expressions, v) for v in values):
+        raise reader.expressions.unread(node, "the model has no such loop")
+    (kind,) = kinds
+    index = _free(reader, node, name)
+    value = selected(m.Name(index), dict(enumerate(read[:-1])), read[-1])
+    body = _round(reader, node, [], index, [(name, kind or m.Type("int"), value)])
+    return _times(reader, node, index, len(read), body)
+
+
+def _unrolled(reader: ModelStatementReader, node: Node, names: list[str]) -> m.Block:
+    """What a loop through values that are written out does, once for each of them."""
+    body, expressions = field(node, "body"), reader.expressions
+    stored = idioms.stored_in(body)
+    given = {text_of(n) for n in nodes_in(field(node, "right")) if n.type == "identifier"}
+    leaves = any(n.type in _LEAVING for n in nodes_in(body))
+    if leaves or {*names, *given} & set(stored) or set(names) & expressions.locals.keys():
+        raise expressions.unread(node, "the model has no such loop")
+    statements: list[m.Statement] = []
+    for values in builtins.rows(expressions, field(node, "right"), len(names)):
+        if not all(_is_steady(expressions, v) for v in values):
+            raise expressions.unread(node, "the model has no such loop")
+        with expressions.standing_for(names, values):
+            statements.append(reader.suite(body))
+    return m.Block(tuple(statements), span=expressions.py.span(node))
+
+
+def _is_steady(expressions: ModelExpressionReader, value: m.Expression) -> bool:
+    """Whether only a store into a local changes a value."""
+    is_local = isinstance(value, m.Name) and value.name in expressions.locals.values()
+    return is_local or isinstance(value, m.IntLiteral | m.BoolLiteral)
+
+
+def _backwards(reader: ModelStatementReader, node: Node, name: str, inner: Node) -> m.For:
+    """`for i in reversed(range(n))`, of numbers that count up by one."""
+    called, arguments = call_parts(inner) or ("", [])
+    if called != "range" or not 1 <= len(arguments) <= 2:
+        if builtins.array_elements(reader.expressions, inner) is not None:
+            raise reader.expressions.unread(node, builtins.NO_LENGTH.format("reversed"))
+        raise reader.expressions.unread(node, "the model has no such loop")
+    ends = [n for n in map(whole_number_of, arguments) if n is not None]
+    if len(ends) != len(arguments):
+        raise reader.expressions.unread(node, "say with numbers how often this is done")
+    low, high = (0, *ends) if len(ends) == 1 else (ends[0], ends[1])
+    index = _counter(reader, node, name)
+    place = m.Name(index)
+    body = _round(reader, node, [(name, m.Type("int"))], index, [])
+    declared = m.Declaration(m.Type("int"), (m.Declarator(index, m.IntLiteral(high - 1)),))
+    condition = binary(">=", place, m.IntLiteral(low))
+    span = reader.expressions.py.span(node)
+    return m.For(declared, condition, (m.Postfix("--", place),), body, span=span)
+
+
+def _round(
+    reader: ModelStatementReader,
+    node: Node,
+    counting: list[tuple[str, m.Type]],
+    index: str,
+    first: list[tuple[str, m.Type, m.Expression]],
+) -> m.Block:
+    """The body of a loop that begins with what its variables are this time."""
+    body, known = field(node, "body"), reader.expressions.locals
+    lasting, reader.lasting = reader.lasting, ""
+    names = [(name, type_) for name, type_, _ in first] + counting
+    taken = {*known, *idioms.stored_in(body)}
+    if not all(n.isidentifier() and n not in taken for n, _ in names):
+        raise reader.expressions.unread(node, "the variable of this loop is used elsewhere")
+    known[f"index of {names[0][0]}"] = index
+    types = reader.expressions.types
+    hidden = dict(types)
+    for name, type_ in names:
+        known[name] = index if (name, type_) in counting else reader.local(name)
+        types[known[name]] = type_
+    found = reader.suite(body)
+    declared: tuple[m.Statement, ...] = tuple(
+        m.ExpressionStatement(m.Assign("=", m.Name(known[name]), value))
+        if name == lasting
+        else m.Local(m.Declaration(type_, (m.Declarator(known[name], value),)))
+        for name, type_, value in first
+    )
+    for name, type_ in names:
+        if name != lasting:
+            types[known[name]] = hidden.get(known[name], type_)
+            del known[name]
+    del known[f"index of {names[0][0]}"]
+    return replace(found, statements=(*declared, *found.statements))
+
+
+def each(reader: ModelStatementReader, node: Node, name: str) -> m.For:
+    """`for x in self._values` goes through an array of one dimension."""
+    values = reader.expressions.read(field(node, "right"))
+    is_whole = isinstance(values, m.Name | m.Member)
+    type_ = idioms.type_of(reader.expressions, values) if is_whole else None
+    if type_ is None or len(type_.dimensions) != 1:
+        raise reader.expressions.unread(node, "the model has no such loop")
+    _assert_kept(reader, node, field(node, "right"))
+    index = _free(reader, node, name)
+    read = m.Index(values, m.Name(index))
+    element = reader.expressions.kind(read) or m.Type(type_.name)
+    body = _round(reader, node, [], index, [(name, element, read)])
+    return _times(reader, node, index, type_.dimensions[0], body)
+
+
+def _assert_kept(reader: ModelStatementReader, node: Node, array: Node) -> None:
+    """Python goes on through the array that there was at the start. Unread: another is stored."""
+    body, name = field(node, "body"), text_of(array)
+    store = re.compile(rf"(?<![\w.]){re.escape(name)}(?:, [^\n=]+)?\s*=(?!=)")
+    is_ours = store.search(text_of(body)) is not None
+    if (
+        "." in name
+        and not is_ours
+        and re.search(r"\b(?:self|super\(\))\.(?!send_)\w+\(", text_of(body))
+    ):
+        is_ours = store.search(reader.expressions.py.source.text) is not None
+    if is_ours:
+        why = "what is stored here in the array is not gone through: store it behind the loop"
+        raise reader.expressions.unread(node, why)
+
+
+def _free(reader: ModelStatementReader, node: Node, name: str) -> str:
+    """A name for the index of a loop, which nothing in it has."""
+    taken = {*reader.expressions.locals.values(), *reader.expressions.names.types}
+    taken |= {name, *idioms.stored_in(field(node, "body"))}
+    numbered = (f"i{number}" for number in count(1))
+    return next(n for n in chain(("i", "j", "k"), numbered) if n not in taken)
+
+
+def _times(
+    reader: ModelStatementReader, node: Node, index: str, count_: int, body: m.Block
+) -> m.For:
+    """A loop that is done so often."""
+    zero, one = m.IntLiteral(0), m.IntLiteral(1)
+    return _for(reader, node, index, zero, m.IntLiteral(count_), one, body)
+
+
+def _for(
+    reader: ModelStatementReader,
+    node: Node,
+    index: str,
+    start: m.Expression,
+    end: m.Expression,
+    step: m.Expression,
+    body: m.Block,
+) -> m.For:
+    place = m.Name(index)
+    declared = m.Declaration(m.Type("int"), (m.Declarator(index, start),))
+    is_down = isinstance(step, m.Unary)
+    by = step.operand if isinstance(step, m.Unary) else step
+    if not isinstance(by, m.IntLiteral) or by.value == 0:
+        raise reader.expressions.unread(node, "the step of this loop is to be a number")
+    operator = "-" if is_down else "+"
+    update: m.Expression = m.Postfix(operator * 2, place)
+    if by.value != 1:
+        update = m.Assign(f"{operator}=", place, by)
+    else:  # an integer is behind the last one that the body runs with, as `end` is an integer
+        update = reader.expressions.cuts.converted("int32", update, update=True)
+    condition = binary(">" if is_down else "<", place, end)
+    span = reader.expressions.py.span(node)
+    return m.For(declared, condition, (update,), body, span=span)
+
+
+def match(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
+    """`match` as the chain of conditions that it is."""
+    subject = next(c for c in named(node) if c.type not in ("block", "case_clause"))
+    branches: list[tuple[m.Expression | None, m.Block]] = []
+    for values, guard, block in idioms.cases(reader.expressions, node):
+        asked: m.Expression | None = None
+        for value in values:
+            each = binary("==", reader.expressions.read(subject), value)
+            asked = each if asked is None else m.Binary("||", asked, each)
+        branches.append(_guarded(reader, subject, asked, guard, block))
+    found: m.Statement | None = None
+    for asked, body in reversed(branches):
+        if asked is None and found is None:
+            found = body
+        elif asked is None:
+            raise reader.expressions.unread(node, "no case behind this one is ever taken")
+        else:
+            found = m.If(asked, body, found, span=reader.expressions.py.span(node))
+    return [found] if found is not None else []
+
+
+def _guarded(
+    reader: ModelStatementReader,
+    subject: Node,
+    asked: m.Expression | None,
+    guard: tuple[str, Node | None],
+    block: Node,
+) -> tuple[m.Expression | None, m.Block]:
+    """The condition of a case with that behind its `if`, and what the case does."""
+    name, test = guard
+    if test is None:
+        return asked, reader.branch(block)
+    if not builtins.is_calm(test):
+        raise reader.expressions.unread(test, "what this does may count for the cases behind it")
+    bound = reader.expressions.bound
+    if name:
+        bound[name] = reader.expressions.read(subject)
+    try:
+        condition = reader.expressions.condition(test)
+        whole = condition if asked is None else binary("&&", asked, condition)
+        return whole, reader.branch(block)
+    finally:
+        bound.pop(name, None)
+
+
+def taken_before(
+    before: list[m.Statement], condition: m.Expression | None, updates: tuple[m.Expression, ...]
+) -> m.Declaration | tuple[m.Expression, ...]:
+    """What stands directly before a loop and gives its variable a value, taken out of there."""
+    parts = [e for e in (condition, *updates) if e is not None]
+    used = {n.name for e in parts for n in m.walk(e) if isinstance(n, m.Name)}
+    match before[-1:]:
+        case [m.Local(declaration, annotations=())] if declaration.declarators[0].name in used:
+            before.pop()
+            return declaration
+        case [m.ExpressionStatement(m.Assign("=", m.Name(name)) as first, annotations=())]:
+            if name in used:
+                before.pop()
+                return (first,)
+    return ()

@@ -1,0 +1,144 @@
+"""What members of generated Python are that no model has: parameters of people's own, and locks."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
+
+from tree_sitter import Node
+
+from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1
+from rebsync.reverse.python.generated.logs import Looks, looks_in
+from rebsync.reverse.python.generated.module_variables import (
+    computing_of,
+    imported_as,
+    is_clock,
+    loggers_of,
+    tables_of,
+)
+from rebsync.reverse.python.generated.plain_functions import describing
+from rebsync.reverse.python.generated.py_types import call_parts, string_value
+from rebsync.reverse.python.generated.record_classes import records_in
+from rebsync.reverse.syntax.ancestors import functions_around
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_tree import field, named, text_of
+
+VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
+_NUMBERS = frozenset({"true", "false", "integer", "float"})
+_DECLARE, _GET = "self.declare_parameter", "self.get_parameter"
+_LIBRARY_BASES = frozenset({"Node", "LifecycleNode", "object", "ABC"})
+_TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target"})
+_LOCKS = frozenset({"threading.Lock", "threading.RLock"})
+
+
+def is_own_parameter(node: Node) -> bool:
+    """`rospy.get_param("~label", "robot")` and `self.declare_parameter("label", "robot").value`.
+
+    So is `self.get_parameter("label").value` behind the declaration.
+    """
+    inner = _asked(node)
+    called, arguments = call_parts(inner if inner is not None else node) or ("", [])
+    if inner is not None and called == _GET and len(arguments) == 1:
+        key = string_value(arguments[0])
+        return key is not None and any(declares_plain(c, key) for c in _before(node))
+    if inner is not None:
+        return inner is not node and declares_plain(inner)
+    key = string_value(arguments[0]) if called == PARAMETER_OF_ROS_1 and arguments else None
+    is_private = key is not None and key.startswith("~") and len(arguments) == 2
+    return is_private and _is_plain(key or "", arguments[1])
+
+
+def declares_plain(call: Node, name: str | None = None) -> bool:
+    """Whether a call declares a parameter that no model has, described or not."""
+    called, arguments = call_parts(call) or ("", [])
+    key = string_value(arguments[0]) if called == _DECLARE and 1 < len(arguments) < 4 else None
+    if key is None or name not in (None, key) or not _is_plain(key, arguments[1]):
+        return False
+    return all(_is_description(each) for each in arguments[2:])
+
+
+def _is_description(node: Node) -> bool:
+    if node.type == "keyword_argument":
+        is_named = text_of(field(node, "name")) == "descriptor"
+        return is_named and _is_description(field(node, "value"))
+    function = node.child_by_field_name("function")
+    given = field(node, "arguments") if function is not None else node
+    is_made = function is not None and text_of(function).rpartition(".")[2] == "ParameterDescriptor"
+    values = [n.child_by_field_name("value") or n for n in named(given)]
+    return is_made and all(v.type in VALUES | _NUMBERS for v in values)
+
+
+def _asked(node: Node) -> Node | None:
+    """What a value is asked of: `.value`, or `.get_parameter_value().string_value`."""
+    if node.type != "attribute":
+        return None
+    inner, name = field(node, "object"), text_of(field(node, "attribute"))
+    if name.endswith("_value") and inner.type == "call":
+        function = field(inner, "function")
+        is_value = function.type == "attribute" and not named(field(inner, "arguments"))
+        is_value = is_value and text_of(field(function, "attribute")) == "get_parameter_value"
+        return field(function, "object") if is_value else None
+    return inner if name == "value" and inner.type == "call" else None
+
+
+def _before(node: Node) -> Iterator[Node]:
+    """The calls that are statements of a function before something in it."""
+    function = next(functions_around(node), None)
+    for statement in named(field(function, "body")) if function is not None else ():
+        if statement.start_byte < node.start_byte and statement.type == "expression_statement":
+            yield named(statement)[0]
+
+
+def _is_plain(key: str, default: Node) -> bool:
+    section = re.split(r"[./]", key.removeprefix("~"))[0]
+    is_other = section not in ("env", "knownrebecs", "mailbox", "drive")
+    return is_other and default.type in VALUES | _NUMBERS
+
+
+def is_lock(module: Scope, node: Node) -> bool:
+    """Whether a value is a lock of Python's library."""
+    called, arguments = call_parts(node) or ("", [])
+    head, _, rest = called.partition(".")
+    whole = ".".join(filter(None, (imported_as(module, head), rest)))
+    return whole in _LOCKS and not arguments
+
+
+def attributes_in(line: Sequence[Scope]) -> frozenset[str] | None:
+    """What objects of a class have by itself and those above it; None where others are above."""
+    names = {owner.name for owner in line} | _LIBRARY_BASES
+    listed = (owner.node.child_by_field_name("superclasses") for owner in line)
+    bases = (base for each in listed if each is not None for base in named(each))
+    if any(text_of(base).rpartition(".")[2] not in names for base in bases):
+        return None
+    modules = {id(owner.module): owner.module for owner in line}.values()
+    nodes = (n for module in modules for n in nodes_in(module.node) if n.type == "attribute")
+    stored = (text_of(field(n, "attribute")) for n in nodes if _is_stored(n))
+    return frozenset(stored).union(*(owner.names for owner in line))
+
+
+def _is_stored(node: Node) -> bool:
+    above = node.parent
+    if above is None or above.type in _TARGETS:
+        return above is not None
+    return above.child_by_field_name("left") == node
+
+
+def looks_of(
+    code: PyCode, line: Sequence[Scope], makers: frozenset[str], hidden: Collection[str]
+) -> Looks:
+    """What names stand for in the code of a class; `hidden` are bound anew somewhere."""
+    owner = line[0]
+    module, records = owner.module, records_in(code, owner.module)
+    texts = describing(code, module)
+    return replace(
+        looks_in(code, [*{id(c.module): c.module for c in line}.values()], makers),
+        attributes=attributes_in(line),
+        loggers=loggers_of(module).difference(hidden),
+        tables=tables_of(code, module).difference(hidden),
+        clocks=frozenset(n for n in module.names if is_clock(module, n)).difference(hidden),
+        computing=frozenset(n for n in computing_of(module) if n.partition(".")[0] not in hidden),
+        records={name: fields for name, fields in records.items() if name not in hidden},
+        describing={name: count for name, count in texts.items() if name not in hidden},
+    )

@@ -1,0 +1,325 @@
+"""Whether what generated Python does around the model's bodies is what the model says.
+
+Set-up, shims, and functions that send are not in the model: what somebody changed there is listed.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+from tree_sitter import Node
+
+from rebsync.intervals import Interval
+from rebsync.names import graph_name
+from rebsync.records import dataclass
+from rebsync.reserved import NO_PYTHON_CLASSES
+from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.generated.messages import OwnMessages
+from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
+from rebsync.reverse.python.generated.decorators import is_context, is_transparent
+from rebsync.reverse.python.generated.logs import is_logger
+from rebsync.reverse.python.generated.members import declares_plain
+from rebsync.reverse.python.generated.named_constants import CodeConstants
+from rebsync.reverse.python.generated.parameters import only_declares, parameter_read
+from rebsync.reverse.python.generated.posts import Post
+from rebsync.reverse.python.generated.py_types import (
+    call_parts,
+    called_late,
+    expression_in,
+    handed_over,
+    is_alias,
+    is_unset,
+    literal_type,
+    string_value,
+    type_made,
+    type_of,
+    without_parentheses,
+)
+from rebsync.reverse.python.generated.roles import OFFERING, PyRoles, PySends
+from rebsync.reverse.python.generated.send_functions import odd_in_send
+from rebsync.reverse.python.generated.shims import odd_in_shim
+from rebsync.reverse.python.generated.silent import Silent
+from rebsync.reverse.python.generated.validation import is_passed
+from rebsync.reverse.python.values.class_creation import DECORATORS
+from rebsync.reverse.python.values.py_callbacks import body_of
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import Py, field, named, text_of
+
+_MADE = frozenset({"Mailbox", "Drive", "Sensor"})
+_CONNECTING = frozenset(
+    {
+        *("advertise", "advertise_all", "subscribe", "subscribe_on_bridge"),
+        *OFFERING,
+    }
+)
+_NAMED = frozenset({"Server", "logging.getLogger", "getLogger", LOGGER})
+_CALLED = frozenset(
+    {
+        *("self._wire", "super()._wire", "super().__init__", "Node.__init__"),
+        "RebecNode.__init__",
+        "self._mailbox.on_served",
+    }
+)
+_AT_TOP = frozenset(
+    {"comment", "import_statement", "import_from_statement", "future_import_statement"}
+)
+_IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
+_PLAIN = frozenset({"__init__", "_wire", "_publish_state", "mailbox"})
+_STORING = frozenset({"assignment", "named_expression", "lambda", "await", "yield"})
+_LOOKING = frozenset({"flatten"})
+_WHY = "what this does is not in the model"
+_LOST = "no subscription takes this in: the class only sends it to itself"
+_LATE = "this gives a coroutine, and nobody runs it"
+_HINT = "say it in the model, or move it into a user block"
+
+
+@dataclass(frozen=True, slots=True)
+class Plumbing:
+    """One class with what its functions are for.
+
+    Of `messages` that another package has, as in ROS 2, only the order of what is passed on can be
+    looked at. `above` are the classes above, `posts` what is posted, by the ids of the calls; what
+    is lost nobody takes in. `numbers` are those of the constants.
+    """
+
+    roles: PyRoles
+    messages: OwnMessages
+    findings: Findings
+    constants: CodeConstants
+    silent: Silent
+    above: Sequence[Scope]
+    posts: Mapping[int, Post]
+    is_lost: Callable[[PySends], bool]
+    numbers: Mapping[str, Interval]
+
+    def check(self) -> None:
+        """Lists what a class does besides."""
+        owner = self.roles.owner
+        for function in self.roles.functions.values():
+            sends = self.roles.sends.get(function.name)
+            why = _LOST if sends is not None and self.is_lost(sends) else _WHY
+            for node in self._odd(function):
+                self._list(owner.py, node, why, function.name)
+            for node, reason in self._failing(function):
+                self._list(owner.py, node, reason, function.name)
+        for function in self.roles.functions.values():
+            if any(c.type == "async" for c in function.node.children):
+                self._list(owner.py, function.node, _LATE, function.name)
+            odd = [d for d in function.decorators if not self._is_plain(function, d)]
+            if odd := [d for d in odd if not self._is_transparent(d)]:
+                why = f'nobody knows what "@{odd[0]}" makes of it'
+                self._list(owner.py, function.node, why, function.name)
+        for node, why in self._overridden():
+            self._list(owner.py, node, why, "")
+        for statement in named(field(owner.node, "body")):
+            if statement.type in _IN_CLASS or _is_text(statement):
+                continue
+            if not self.constants.is_quiet(owner, statement):
+                self._list(owner.py, statement, _WHY, "")
+
+    def _is_transparent(self, decorator: str) -> bool:
+        """Whether a decorator only tells people of the function."""
+        code, module = self.constants.code, self.roles.owner.module
+        return is_transparent(code, module, decorator, self.silent.exceptions)
+
+    def _is_plain(self, function: Scope, decorator: str) -> bool:
+        """Whether the model knows what a function is with it: what is called is no property."""
+        if decorator != "property":
+            return decorator in DECORATORS
+        roles, name = self.roles, function.name
+        called = re.search(rf"\bself\.{name}\s*\(", text_of(roles.owner.node))
+        return called is None and not any(name in r for r in (roles.handlers, roles.sends))
+
+    def _overridden(self) -> Iterator[tuple[Node, str]]:
+        """The constants that functions above use by the value of a class above."""
+        owner = self.roles.owner
+        values = {n: bound[0] for n, bound in owner.names.items() if bound[0].how == "value"}
+        for above in self.above:
+            for name in sorted(values.keys() & above.names.keys()):
+                if None not in (self.constants.of(c, name) for c in (owner, above)):
+                    why = f'this counts in functions of "{above.name}" as well, in place of its own'
+                    yield values[name].node, why
+
+    def _list(self, py: Py, node: Node, why: str, function: str) -> None:
+        within = ".".join(filter(None, (self.roles.owner.name, function)))
+        self.findings.unreadable(py.source, Unread(py.span(node), why, _HINT), within)
+
+    def _odd(self, function: Scope) -> Iterator[Node]:
+        name = function.name
+        body = [s for s in body_of(function) if not self.silent.tells(s)]
+        if name in ("__init__", "_wire"):
+            yield from self._odd_in_set_up(function, body)
+        elif name in self.roles.shims:
+            yield from odd_in_shim(self.constants.code, self.roles, function, body, self.messages)
+        elif name in self.roles.sends:
+            sends = self.roles.sends[name]
+            if self.is_lost(sends):
+                yield from body[-1:]
+            else:
+                yield from odd_in_send(function, body, sends, self.messages, self.posts)
+        elif name == "_publish_state":
+            yield from (s for s in body if not _is_of_state(s))
+        elif name == "mailbox":
+            yield from (s for s in body if text_of(s) != "return self._mailbox")
+
+    def _failing(self, function: Scope) -> Iterator[tuple[Node, str]]:
+        """What only tells people where no body of the model is, and may raise an exception."""
+        others = (self.roles.shims, self.roles.sends, self.roles.functions.keys() & _PLAIN)
+        if any(function.name in names for names in others):
+            for statement in filter(self.silent.tells, body_of(function)):
+                reason = next(self.silent.exceptions.reasons(statement), None)
+                if reason is not None:
+                    yield statement, reason
+
+    # --- set up ---------------------------------------------------------------------------------
+
+    def _odd_in_set_up(self, function: Scope, body: list[Node]) -> Iterator[Node]:
+        """What does not set up, or comes when the model's constructor has been handed over."""
+        is_constructed = False
+        early = [s for s in body_of(function) if _is_before_node(function, s)]
+        yield from early
+        for statement in body:
+            if statement in early:
+                continue
+            if is_passed(statement, self.roles.env, self.numbers):
+                continue
+            is_late = is_constructed and not is_logger(expression_in(statement))
+            if is_late or not self._sets_up(function, statement):
+                yield statement
+            called, _ = call_parts(expression_in(statement)) or ("", [])
+            is_constructed = is_constructed or called == "self._mailbox.construct"
+
+    def _sets_up(self, function: Scope, statement: Node) -> bool:
+        inner = expression_in(statement)
+        if inner is None:
+            return statement.type == "pass_statement"
+        if inner.type == "call":
+            return self._is_called(function, inner)
+        if inner.type != "assignment":
+            return _is_text(statement)
+        member = text_of(field(inner, "left")).removeprefix("self.")
+        if self.silent.is_member(member):
+            return True
+        roles = self.roles
+        if member in roles.known:
+            return roles.known[member][2] == inner
+        if member in roles.env:
+            return roles.env[member].statement == inner
+        if member in roles.own and roles.own[member][1] == inner:
+            return True
+        if member in roles.state:
+            return _is_of_type(inner)
+        if member in roles.arguments:
+            read = parameter_read(field(inner, "right"))
+            return read is not None and read.key == roles.arguments[member]
+        called, arguments = call_parts(inner.child_by_field_name("right")) or ("", [])
+        if called.endswith("get_logger"):
+            return True
+        method = called.removeprefix("self._mailbox.")
+        if method != called:
+            return method in _CONNECTING and self._is_connected(member, arguments)
+        return called in _MADE or (called in PUBLISHERS and member == "_state_pub")
+
+    def _is_called(self, function: Scope, call: Node) -> bool:
+        called, arguments = call_parts(call) or ("", [])
+        if called == "self._mailbox.construct" and len(arguments) == 1:
+            passed = arguments[0]
+            given = called_late(passed)
+            _, values = call_parts(given) or ("", [])
+            names = [*(p.name for p in function.parameters[1:]), *self.roles.arguments]
+            return [text_of(v) for v in values] == names[-len(values) :] if values else True
+        if self.silent.timers.is_idle(call) or self.silent.asked.is_idle(call):
+            return True
+        if declares_plain(call) and string_value(arguments[1]) is not None:
+            return True
+        return called in _CALLED or only_declares(call, function.node)
+
+    def _is_connected(self, member: str, arguments: list[Node]) -> bool:
+        """Whether topics are called after the servers they lead to."""
+        # The feedback of an action stands behind the shim.
+        shims = [handed_over(a).removeprefix("self.") for a in (*arguments[5:6], arguments[-1])]
+        shim = next((s for s in shims if s in self.roles.topics), None)
+        if shim is not None:
+            key = self.roles.topics[shim].removeprefix("port/")
+            server = self.roles.served_by(shim)
+            return server is not None and key.startswith(graph_name(server))
+        return member in self.roles.publishers
+
+
+def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
+    """The statements of a module of a class that are none of the model's."""
+    for statement in named(module.node):
+        inner = expression_in(statement)
+        called, _ = call_parts(inner.child_by_field_name("right") if inner else None) or ("", [])
+        definition = statement.child_by_field_name("definition") or statement
+        if any(c.type == "wildcard_import" for c in statement.children):
+            yield statement
+            continue
+        if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
+            continue
+        if constants.is_quiet(module, statement) or is_alias(module, statement):
+            continue
+        if (
+            statement.type == "decorated_definition"
+            and definition.type == "function_definition"
+            and is_context(module, constants.code.scope_of(definition, module.py))
+        ):
+            continue
+        is_class = definition.type == "class_definition"
+        if is_class and text_of(field(definition, "name")) not in NO_PYTHON_CLASSES:
+            continue  # of those names generated code means its own
+        if statement.type == "if_statement" and "TYPE_CHECKING" in text_of(statement):
+            continue
+        yield statement
+
+
+def _is_of_type(statement: Node) -> bool:
+    """Whether a state variable is made as its type says, with a value that the model has."""
+    value = without_parentheses(field(statement, "right"))
+    if not is_unset(value) and literal_type(value) is None:
+        return False
+    said, made = type_of(statement.child_by_field_name("type")), type_made(value)
+    return said is None or made is None or said.dimensions == made.dimensions
+
+
+def _is_before_node(function: Scope, statement: Node) -> bool:
+    """Whether a statement of a constructor asks of the object what only a node can do."""
+    made = (s for s in body_of(function) if text_of(s).startswith("super().__init__("))
+    start = next(made, None)
+    is_early = start is not None and statement.start_byte < start.start_byte
+    return is_early and re.search(r"\bself\b(?!\._\w+\s*=)", text_of(statement)) is not None
+
+
+def _is_of_state(statement: Node) -> bool:
+    inner = expression_in(statement)
+    if inner is None:
+        return False
+    if inner.type == "assignment":
+        target, value = text_of(field(inner, "left")), field(inner, "right")
+        if target == "msg":
+            return value.type == "call" and _only_looks(field(value, "arguments"))
+        return target.startswith("msg.") and _only_looks(value)
+    return text_of(inner) == "self._state_pub.publish(msg)"
+
+
+def _only_looks(value: Node) -> bool:
+    """Whether to evaluate something changes nothing: it stores nowhere, and calls nothing else."""
+    return all(
+        node.type not in _STORING
+        and (node.type != "call" or text_of(field(node, "function")) in _LOOKING)
+        for node in nodes_in(value)
+    )
+
+
+def _is_text(statement: Node) -> bool:
+    inner = expression_in(statement)
+    return inner is not None and inner.type in ("string", "concatenated_string")
+
+
+def set_in(statement: Node) -> Iterator[str]:
+    """The variable that a statement at the top of a module makes."""
+    inner = named(statement)[0] if named(statement) else statement
+    if inner.type == "assignment":
+        yield text_of(field(inner, "left"))

@@ -1,0 +1,80 @@
+"""Locals of generated Python that are records: `cell = Cell(x, y)` is a local for each field.
+
+A record may be changed, so that only its fields may be read, and it may be called nothing else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import has_splat
+from rebsync.reverse.syntax.py_tree import SCOPES, field, is_label, named, text_of
+
+
+def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m.Statement] | None:
+    """The statements of one that makes a local record, and behind it; None if it does not."""
+    inner = named(node)[0] if node.type == "expression_statement" and named(node) else node
+    value = inner.child_by_field_name("right") if inner.type == "assignment" else None
+    if value is None or value.type != "call" or field(inner, "left").type != "identifier":
+        return None
+    name = text_of(field(inner, "left"))
+    fields = reader.expressions.names.silent.looks.records.get(text_of(field(value, "function")))
+    if fields is None or not _is_only_read(inner, name, fields):
+        return None
+    given = _given(value, fields)
+    if given is None or any(f"{name}_{f}" in reader.expressions.locals for f in fields):
+        return None
+    found: list[m.Statement] = [reader.implied_local(f"{name}_{f}", v, node) for f, v in given]
+    local = [m.Name(reader.local(f"{name}_{f}")) for f, _ in given]
+    with reader.expressions.standing_for([f"{name}.{f}" for f, _ in given], local):
+        return [*found, *reader.block(rest, node).statements]
+
+
+def _given(call: Node, fields: Sequence[str]) -> list[tuple[str, Node]] | None:
+    """What each field is made of, in the order of evaluation; None where that fails."""
+    found = []
+    for index, argument in enumerate(named(field(call, "arguments"))):
+        if argument.type == "keyword_argument":
+            found.append((text_of(field(argument, "name")), field(argument, "value")))
+        elif index < len(fields):
+            found.append((fields[index], argument))
+    is_whole = sorted(f for f, _ in found) == sorted(fields) and not has_splat(call)
+    return found if is_whole and len(found) == len(named(field(call, "arguments"))) else None
+
+
+def _is_only_read(assignment: Node, name: str, fields: Sequence[str]) -> bool:
+    """Whether a local is bound once, and else only its fields are read, in the function itself."""
+    function = climb(assignment, lambda n: n.type in SCOPES)
+    if function is None:
+        return False
+    uses = [n for n in nodes_in(function) if n.type == "identifier" and text_of(n) == name]
+    others = [n for n in uses if n != field(assignment, "left") and not is_label(n)]
+    return all(_is_read(n, function, fields) for n in others)
+
+
+def _is_read(use: Node, function: Node, fields: Sequence[str]) -> bool:
+    above = use.parent
+    if above is None or above.type != "attribute":
+        return False
+    if text_of(field(above, "attribute")) not in fields:
+        return False
+    outer = above.parent
+    is_target = outer is None or outer.type in _TARGETS
+    if outer is not None and outer.type in _STORING:
+        is_target = above in (
+            *outer.children_by_field_name("left"),
+            *outer.children_by_field_name("function"),
+        )
+    return not is_target and climb(use, lambda n: n.type in SCOPES) == function
+
+
+_STORING = frozenset({"assignment", "augmented_assignment", "for_statement", "call"})
+_TARGETS = frozenset(
+    {"pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target", "delete_statement"}
+)

@@ -1,0 +1,342 @@
+"""Statements that people write in Python where the model has several, or declares a variable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import count
+
+from tree_sitter import Node
+
+from rebsync import model as m
+from rebsync.reverse.findings import Unread
+from rebsync.reverse.models.building import is_calm
+from rebsync.reverse.python.generated import idioms
+from rebsync.reverse.python.generated import py_builtins as builtins
+from rebsync.reverse.python.generated.inner import leaves
+from rebsync.reverse.python.generated.places import is_kept
+from rebsync.reverse.python.generated.py_types import call_parts, string_value
+from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of, whole_number_of
+from rebsync.static.types import INT
+
+_PLACES = ("identifier", "attribute")
+
+_WHOLE = "say what is stored here element by element"
+
+
+# --- assignments --------------------------------------------------------------------------------
+
+
+def chained(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
+    """`a = b = e`. Unread: e may be another value the second time."""
+    lefts, value = [field(node, "left")], node.child_by_field_name("right")
+    while value is not None and value.type == "assignment":
+        lefts.append(field(value, "left"))
+        value = value.child_by_field_name("right")
+    if value is None:
+        raise reader.expressions.unread(node, "nothing is stored here: give it a value")
+    stored = {idioms.base_of(left) for left in lefts}
+    if not idioms.is_plain(value) or not stored.isdisjoint(idioms.names_in(value)):
+        raise reader.expressions.unread(node, "store this in one variable after the other")
+    return [s for left in lefts for s in _stored(reader, left, value, node)]
+
+
+def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
+    """`a, b = x, y` and `a, b = self._pair`, what is needed again being kept.
+
+    Unread: the values are not as many, or what they are depends on their order.
+    """
+    lefts, right = named(field(node, "left")), field(node, "right")
+    expressions = reader.expressions
+    elements = builtins.array_elements(expressions, right)
+    if elements is not None and len(elements) == len(lefts):
+        if text_of(right) in {idioms.base_of(left) for left in lefts}:
+            raise expressions.unread(node, _WHOLE)
+        pairs = zip(lefts, elements, strict=True)
+        return [s for left, e in pairs for s in _given(reader, left, e, node)]
+    values = named(right) if right.type in ("expression_list", "tuple") else []
+    lefts, values = _flat(lefts, values)
+    if len(lefts) != len(values) or "list_splat" in {v.type for v in (*lefts, *values)}:
+        raise expressions.unread(node, "the model has no such assignment")
+    needed = [i for i, v in enumerate(values) if _is_needed(lefts[:i], v)]
+    if not all(map(idioms.is_plain, values[1:] if not needed else values)):
+        why = "this needs a value from before: store one after the other"
+        raise expressions.unread(node, why)
+    kept = {number: _kept(reader, lefts[number], values[number], node) for number in needed}
+    found: list[m.Statement] = list(kept.values())
+    for number, (left, value) in enumerate(zip(lefts, values, strict=True)):
+        if number in kept:
+            name = kept[number].declaration.declarators[0].name
+            found += _given(reader, left, m.Name(name), node)
+        else:
+            found += _stored(reader, left, value, node)
+    return found
+
+
+def _flat(lefts: list[Node], values: list[Node]) -> tuple[list[Node], list[Node]]:
+    """`a, (b, c) = x, (y, z)` as three: all values are there before the first is stored."""
+    if len(lefts) != len(values):
+        return lefts, values
+    flat: tuple[list[Node], list[Node]] = [], []
+    for left, value in zip(lefts, values, strict=True):
+        parts = named(left), named(value)
+        is_tuple = left.type == "tuple_pattern" and value.type == "tuple"
+        is_pair = is_tuple and len(parts[0]) == len(parts[1])
+        inner = _flat(*parts) if is_pair else ([left], [value])
+        flat[0].extend(inner[0])
+        flat[1].extend(inner[1])
+    return flat
+
+
+def _is_needed(before: list[Node], value: Node) -> bool:
+    """Whether a value is looked at that is stored over before its turn."""
+    stored = {idioms.base_of(left) for left in before}
+    return not stored.isdisjoint(idioms.names_in(value))
+
+
+def _kept(reader: ModelStatementReader, left: Node, value: Node, node: Node) -> m.Local:
+    """A local that keeps a value until it is its turn."""
+    read = reader.expressions.read(value)
+    type_ = reader.expressions.kind(read)
+    if type_ is None:
+        raise reader.expressions.unread(node, "store one after the other, with a variable between")
+    taken = {*reader.expressions.locals.values(), *reader.expressions.names.types}
+    plain = idioms.base_of(left).removeprefix("self.").strip("_")
+    name = next(n for n in (f"{plain}_{i}" for i in count(1)) if n not in taken)
+    reader.expressions.locals[f"kept as {name}"] = name
+    reader.expressions.types[name] = type_
+    span = reader.expressions.py.span(node)
+    return m.Local(m.Declaration(type_, (m.Declarator(name, read, span),), span=span), span=span)
+
+
+def _stored(reader: ModelStatementReader, left: Node, value: Node, node: Node) -> list[m.Statement]:
+    name = text_of(left)
+    if left.type == "identifier" and name not in reader.expressions.locals:
+        return [reader.implied_local(name, value, node)]
+    target = reader.expressions.read(left)
+    stored = reader.expressions.stored(target, left, value, node, statement=True)
+    reader.in_order(stored)
+    return [m.ExpressionStatement(stored, span=reader.expressions.py.span(node))]
+
+
+def _given(
+    reader: ModelStatementReader, left: Node, value: m.Expression, node: Node
+) -> list[m.Statement]:
+    """A value of the model that is stored."""
+    name, span = text_of(left), reader.expressions.py.span(node)
+    if left.type != "identifier" or name in reader.expressions.locals:
+        stored = m.Assign("=", reader.expressions.read(left), value, span)
+        reader.in_order(stored)
+        return [m.ExpressionStatement(stored, span=span)]
+    type_ = reader.expressions.kind(value)
+    if type_ is None:
+        raise reader.expressions.unread(node, f'say the type of "{name}" where it is first set')
+    return [_declaration(reader, name, type_, value, node)]
+
+
+def _declaration(
+    reader: ModelStatementReader, name: str, type_: m.Type, value: m.Expression | None, node: Node
+) -> m.Local:
+    span = reader.expressions.py.span(node)
+    plain = reader.local(name)
+    reader.implied.add(name)
+    reader.expressions.locals[name] = plain
+    reader.expressions.types[plain] = type_
+    declared = m.Declaration(type_, (m.Declarator(plain, value, span),), span=span)
+    return m.Local(declared, span=span)
+
+
+def all_elements(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
+    """`self._a = Array([x, y])`, element by element; None for another assignment."""
+    called, arguments = call_parts(value) or ("", [])
+    if (sliced := _whole_slice(left)) is not None and value.type == "list":
+        left, called, arguments = sliced, "Array", [value]
+    if called != "Array" or len(arguments) != 1:
+        return _filled(reader, left, value)
+    places = builtins.array_elements(reader.expressions, left)
+    values = builtins.listed(reader.expressions, arguments[0]) if places else []
+    if places is None or len(places) != len(values):
+        raise reader.expressions.unread(value, _WHOLE)
+    if idioms.base_of(left) in idioms.names_in(arguments[0]):
+        raise reader.expressions.unread(value, _WHOLE)
+    span = reader.expressions.py.span(value)
+    stored = (m.Assign("=", p, v, span) for p, v in zip(places, values, strict=True))
+    return [m.ExpressionStatement(each, span=span) for each in stored]
+
+
+def _whole_slice(node: Node) -> Node | None:
+    """The array of which all is stored in: `self._a[:]`."""
+    at = node.children_by_field_name("subscript") if node.type == "subscript" else []
+    return field(node, "value") if [text_of(n) for n in at] == [":"] else None
+
+
+def _filled(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
+    """`self._a[:] = self._b` and `self._a[:] = [0] * 8`, of as many elements as it has."""
+    target = _whole_slice(left)
+    places = builtins.array_elements(reader.expressions, target) if target is not None else None
+    if target is None or places is None:
+        return None
+    span = reader.expressions.py.span(value)
+    if value.type == "binary_operator" and text_of(field(value, "operator")) == "*":
+        given, times = field(value, "left"), whole_number_of(field(value, "right"))
+        if given.type != "list" or len(named(given)) != 1 or times != len(places):
+            return None
+        if not idioms.is_literal(reader.expressions, named(given)[0]):
+            return None
+        read = reader.expressions.read(named(given)[0])
+        stores = [m.Assign("=", place, read, span) for place in places]
+        return [m.ExpressionStatement(each, span=span) for each in stores]
+    others = builtins.array_elements(reader.expressions, value)
+    kinds = {reader.expressions.kind(each) for each in (*places, *(others or ()))}
+    if others is None or len(others) != len(places) or len(kinds) != 1:
+        return None
+    copied = m.Assign("=", reader.expressions.read(target), reader.expressions.read(value), span)
+    return [m.ExpressionStatement(copied, span=span)]
+
+
+# --- variables ----------------------------------------------------------------------------------
+
+
+def declared_before(
+    reader: ModelStatementReader, node: Node, after: list[Node]
+) -> list[m.Statement]:
+    """The variables that a statement names first within, which the model declares before it.
+
+    `:=` stores where it stands; what all branches store is known behind them.
+    """
+    names = {text_of(field(w, "name")): field(w, "value") for w in _walruses(node)}
+    for unsure in _unsure(node, after):
+        names.pop(unsure, None)
+    if node.type == "if_statement" and after:
+        wanted = {n for each in after for n in idioms.names_in(each)}
+        names |= {k: v for k, v in _of_all_branches(node).items() if k in wanted}
+    found: list[m.Statement] = []
+    for name, value in names.items():
+        known = reader.expressions
+        if name in known.locals or name in known.names.constants or name in known.kept:
+            continue
+        try:
+            type_ = idioms.kind_at(known, value)
+        except Unread:
+            continue  # it is listed where it stands
+        if type_ is not None:
+            found.append(_declaration(reader, name, type_, None, node))
+    return found
+
+
+def _walruses(node: Node) -> Iterator[Node]:
+    """The `:=` that a statement evaluates itself, and not one within it."""
+    for child in named(node):
+        if child.type in ("block", *SCOPES) or child.type == "comment":
+            continue
+        if child.type == "named_expression" and not is_kept(child):
+            yield child
+        yield from _walruses(child)
+
+
+def _unsure(node: Node, after: list[Node]) -> Iterator[str]:
+    """What `:=` may leave as it is, and is looked at all the same: a round before may have set it.
+
+    Behind `and` a variable is set wherever all of the condition holds.
+    """
+    behind = {name for each in after for name in idioms.names_in(each)}
+    for walrus in _walruses(node):
+        name, way = text_of(field(walrus, "name")), list(_may_skip(walrus, node))
+        if way and (name in behind or (set(way) != {"and"} and _count(node, name) > 1)):
+            yield name
+
+
+def _may_skip(walrus: Node, node: Node) -> Iterator[str]:
+    """What may leave out a part of a statement."""
+    inner, above = walrus, walrus.parent
+    while above is not None and inner != node:
+        if above.type == "boolean_operator" and field(above, "right") == inner:
+            yield text_of(field(above, "operator"))
+        elif above.type == "conditional_expression" and named(above)[1] != inner:
+            yield "if"
+        elif above.type == "elif_clause":
+            yield "elif"
+        inner, above = above, above.parent
+
+
+def _count(node: Node, name: str) -> int:
+    return sum(n.type == "identifier" and text_of(n) == name for n in nodes_in(node))
+
+
+def _of_all_branches(node: Node) -> dict[str, Node]:
+    """What each branch of an `if` with an `else` stores at its top, with the first value."""
+    parts = [node, *node.children_by_field_name("alternative")]
+    if parts[-1].type != "else_clause":
+        return {}
+    found = []
+    for part in parts:
+        body = field(part, "body" if part.type == "else_clause" else "consequence")
+        inner = [named(s)[0] for s in named(body) if s.type == "expression_statement" and named(s)]
+        plain = [a for a in inner if a.type == "assignment" and a.child_by_field_name("right")]
+        stores = [a for a in plain if field(a, "left").type == "identifier"]
+        untyped = [a for a in stores if a.child_by_field_name("type") is None]
+        found.append({text_of(field(a, "left")): field(a, "right") for a in reversed(untyped)})
+    first, *others = found
+    return {k: v for k, v in first.items() if all(k in other for other in others)}
+
+
+def deleted(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
+    """`del x` of a local that nothing names behind it, which says nothing in the model."""
+    names = [text_of(n) for n in (named(named(node)[0]) or named(node))]
+    block = node.parent
+    rest = named(block)[named(block).index(node) + 1 :] if block is not None else []
+    used = {name for each in rest for name in idioms.names_in(each)}
+    if not set(names) <= reader.implied or used & set(names):
+        raise reader.expressions.unread(node, "the model has no such statement")
+    return []
+
+
+# --- control ------------------------------------------------------------------------------------
+
+
+def asserted(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
+    """`assert e, "text"`: what must hold, told as one of the model's assertions.
+
+    Nothing for what the types of the model say already.
+    """
+    parts, span = named(node), reader.expressions.py.span(node)
+    if _is_of_its_type(reader, parts[0]):
+        return []
+    given: list[m.Expression] = [reader.expressions.condition(parts[0])]
+    if not is_calm(given[0]):
+        raise reader.expressions.unread(node, "Python without assertions does not do this")
+    if len(parts) > 1 and string_value(parts[1]) is not None:
+        is_formatted = any(c.type == "interpolation" for c in parts[1].children)
+        given += [] if is_formatted else [reader.expressions.read(parts[1])]
+    return [m.ExpressionStatement(m.Call(None, "assertion", tuple(given), span=span), span=span)]
+
+
+def _is_of_its_type(reader: ModelStatementReader, node: Node) -> bool:
+    """Whether it is `isinstance(x, int)` of a whole number: of others Python may have another.
+
+    What is asked is a variable: other expressions may fail, or change something.
+    """
+    called, arguments = call_parts(node) or ("", [])
+    binds, local = reader.expressions.names.constants.binds, reader.expressions.locals
+    is_own = any(binds(word) or word in local for word in ("isinstance", "int"))
+    if called != "isinstance" or len(arguments) != 2 or is_own or arguments[0].type not in _PLACES:
+        return False
+    kind = reader.expressions.kind(reader.expressions.read(arguments[0]))
+    return text_of(arguments[1]) == "int" and kind == INT
+
+
+def tried(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
+    """`try` with a `finally` alone: one behind the other, as nothing leaves the first part."""
+    clauses = [c for c in named(node) if c.type.endswith("_clause")]
+    body = field(node, "body")
+    if [c.type for c in clauses] != ["finally_clause"]:
+        why = "what is caught here ends the body in the model"
+        raise reader.expressions.unread(node, why)
+    if any(leaves(part) for part in (body, clauses[0])):
+        raise reader.expressions.unread(node, "nothing is to leave a block that has a finally")
+    last = next(c for c in named(clauses[0]) if c.type == "block")
+    return [
+        *reader.block(named(body), body).statements,
+        *reader.block(named(last), last).statements,
+    ]
