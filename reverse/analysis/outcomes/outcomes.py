@@ -62,6 +62,7 @@ class OutcomeAnalysis:
         self.iterators = EndlessIterators(self.origins)
         self.elements: dict[str, int] = {}  # of what functions get, by their names
         self._solutions = LeastFixpoint(self._of_function, self._recursion)
+        self._equations: dict[str, Equation[Problem]] = {}
         self._calls: dict[str, set[str]] = {}
         self._raised: dict[tuple[str, Span], frozenset[Problem]] = {}
         self._nested: dict[str, tuple[_Nested, ...]] = {}
@@ -71,7 +72,10 @@ class OutcomeAnalysis:
         return frozenset(p for p in self._solutions.of(name) if p.given is None)
 
     def _of_function(self, name: str) -> Equation[Problem]:
-        return self._of_body(self.program.function(name), frozenset({name}))
+        if name not in self._equations:
+            function = self.program.function(name)
+            self._equations[name] = self._of_body(function, frozenset({name}))
+        return self._equations[name]
 
     def _recursion(self, names: Collection[str]) -> dict[str, frozenset[Problem]]:
         """Which functions of some may call themselves, as far as that depends on no others."""
@@ -106,14 +110,22 @@ class OutcomeAnalysis:
 
     def raised_by(self, function: Function, span: Span) -> frozenset[Problem]:
         """The exceptions of statements at a place that leave the function, or end the program."""
-        leaving = frozenset(p for p in self.of(function.name) if p.raises)
-        if not leaving:
-            return leaving
         key = function.name, span
         if key not in self._raised:
-            own = {p for p in leaving if p.function == function.name and _is_in(p.place, span)}
-            self._raised[key] = leaving & self.of_statements(function, span) | own
+            self._raised[key] = self._raised_by(function, span)
         return self._raised[key]
+
+    def _raised_by(self, function: Function, span: Span) -> frozenset[Problem]:
+        def is_own(p: Problem) -> bool:
+            return p.raises and p.function == function.name and _is_in(p.place, span)
+
+        of_statements = self.of_statements(function, span)
+        # Most statements raise nothing: then nobody looks at what else the function calls.
+        own = self._of_function(function.name).own
+        if not any(p.raises for p in of_statements) and not any(map(is_own, own)):
+            return frozenset()
+        leaving = frozenset(p for p in self.of(function.name) if p.raises)
+        return leaving & of_statements | frozenset(filter(is_own, leaving))
 
     def _of_body(self, function: Function, running: frozenset[str]) -> Equation[Problem]:
         """What a body may do; `running` are functions that silent calls are not looked for of."""
