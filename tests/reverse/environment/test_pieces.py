@@ -7,6 +7,7 @@ breaks the property, or may, and no run of the model does.
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,6 +16,7 @@ import pytest
 
 from rebsync.cli import main
 from rebsync.records import dataclass
+from tests.roundtrip.edits.drawing import drawn
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -192,15 +194,25 @@ class Table:
         return self.client in ("roscpp", "rclcpp")
 
 
+_IN_CI = "CI" in os.environ  # where each row is of one of its client libraries
+
+
 def _tables(path: Path) -> Iterator[tuple[str, Table]]:
     """A file of rows, once for each client library that its nodes are of."""
     found = tomllib.loads(path.read_text(encoding="utf-8"))
     pieces = tuple(Piece(**row) for row in found["piece"])
     first = "roscpp" if path.stem.startswith("cpp") else "rospy"
-    for client in found.get("clients", [first]):
+    every = tuple(found.get("clients", [first]))
+    for client in every:
         name = path.stem if client == first else f"{path.stem}_{client}"
-        asked = tuple(p for p in pieces if not p.clients or client in p.clients)
+        asked = tuple(p for p in pieces if client in _clients(p, every))
         yield name, Table(found["ask"], client, asked)
+
+
+def _clients(piece: Piece, every: tuple[str, ...]) -> tuple[str, ...]:
+    """The client libraries that a row is tried with: in CI one of them, by its name."""
+    clients = piece.clients or every
+    return (clients[drawn("client", piece.name, len(clients))],) if _IN_CI else clients
 
 
 _FILES = sorted((Path(__file__).parent / "pieces").glob("*.toml"))
@@ -246,6 +258,7 @@ def test_what_may_harm_is_not_satisfied(table: Table, piece: Piece, tmp_path: Pa
     assert status == _STATUS[piece.verdict], (tmp_path / "answer.txt").read_text(encoding="utf-8")
 
 
+@pytest.mark.skipif(_IN_CI, reason="each row is of one client library in CI")
 def test_each_table_has_what_harms_and_what_does_not() -> None:
     for table in _TABLES.values():
         verdicts = {piece.verdict for piece in table.pieces}
