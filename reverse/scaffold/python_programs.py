@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 
 SERVES = "rebec.mailbox.serve()"
+_STARTS = "rclpy.init"
 _GUARD = "__name__ == '__main__'"
 # What only comes up when a program is to end.
 _ENDS = frozenset(
@@ -25,13 +26,20 @@ def plain_program(module: ast.Module, is_script: bool) -> ast.Module:
     return ast.Module([*_plain(module.body, is_script)], [])
 
 
-def _plain(body: Iterable[ast.stmt], is_script: bool) -> Iterator[ast.stmt]:
+def _plain(body: Sequence[ast.stmt], is_script: bool, ends: bool = False) -> Iterator[ast.stmt]:
+    """Statements; where these `ends` a program, nothing that does something follows them."""
     for statement in body:
+        is_last = ends and statement is body[-1]
         match statement:
             case ast.If(test, inner, []) if is_script and ast.unparse(test) == _GUARD:
                 yield from _plain(inner, False)
             case ast.Try(inner, handlers, [], last) if _only_ends(handlers, last):
-                yield from _plain(inner, False)
+                yield from _plain(inner, False, is_last)
+            case ast.With([ast.withitem(ast.Call() as start, None)], inner) if (
+                is_last and ast.unparse(start.func) == _STARTS
+            ):  # what the context does behind its block is to shut down
+                yield ast.copy_location(ast.Expr(start), statement)
+                yield from _plain(inner, False, is_last)
             case ast.FunctionDef("main"):
                 yield _without_arguments(statement)
             case _:
@@ -56,7 +64,7 @@ def _each(type_: ast.expr) -> list[ast.expr]:
 def _without_arguments(main: ast.FunctionDef) -> ast.FunctionDef:
     """`def main(args=None)`, which only hands ROS the arguments, as `def main()`."""
     fields = dict(ast.iter_fields(main))
-    body = [*_plain(main.body, False)]
+    body = [*_plain(main.body, False, True)]
     match main.args:
         case ast.arguments([], [ast.arg(name)], None, [], [], None, [ast.Constant(None)]):
             handed = f"rclpy.init(args={name})"

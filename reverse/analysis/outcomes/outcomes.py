@@ -117,7 +117,7 @@ class OutcomeAnalysis:
 
     def _raised_by(self, function: Function, span: Span) -> frozenset[Problem]:
         def is_own(p: Problem) -> bool:
-            return p.raises and p.function == function.name and _is_in(p.place, span)
+            return bool(p.raises) and p.function == function.name and _is_in(p.place, span)
 
         of_statements = self.of_statements(function, span)
         # Most statements raise nothing: then nobody looks at what else the function calls.

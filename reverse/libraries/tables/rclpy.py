@@ -88,7 +88,7 @@ _FUNCTIONS = {
     "rclpy.Node": _NAMED,
     "rclpy.wait_for_message.wait_for_message": _asks(Kind.SINGLE, "type", "", "name"),
     "message_filters.Subscriber": _asks(Kind.SUBSCRIPTION, "", "type", "name", "depth", least=3),
-    "rclpy.init": Routine(Kind.START),
+    "rclpy.init": Routine(Kind.START, result="rclpy.InitContextManager"),
     "rclpy.shutdown": Routine(Kind.START, does=Effect.ENDS),
     "rclpy.spin": Routine(Kind.SPIN),
     "rclpy.spin_until_future_complete": Routine(Kind.SPIN, result="future"),
@@ -144,6 +144,10 @@ _METHODS = {
         )
     },
     "rclpy.context.Context": {"on_shutdown": _CALLED},
+    "rclpy.InitContextManager": {
+        "__enter__": Routine(Kind.START),
+        "__exit__": Routine(Kind.START, does=Effect.ENDS),
+    },
     "rclpy.task.Future": {
         "add_done_callback": _CALLED,
         "set_result": Routine(does=Effect.CHANGES),

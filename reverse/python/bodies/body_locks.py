@@ -26,7 +26,7 @@ def waits_for_itself(reading: Reading, statement: Node, frame: Frame) -> bool:
     return reading.form is None or reading.form.waits_for_itself(frame.py, statement)
 
 
-def locks_of(statement: Node) -> list[Node]:
+def contexts_of(statement: Node) -> list[Node]:
     """What a `with` enters, without the names that it gives them."""
     found = []
     for item in named(named(statement)[0]):

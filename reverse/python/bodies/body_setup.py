@@ -12,6 +12,7 @@ from rebsync.reverse.bodies.cpp_timers import started
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import ParameterFact, RateFact, SubscriptionFact, TimerFact
 from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.contexts import starting_contexts
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.bodies import (
     body_calls,
@@ -54,6 +55,14 @@ def asked(reader: BodyStatementReader, call: Node) -> Iterator[m.Statement] | No
                 raise Unread(reader.frame.span(call), why)
             return iter((delay(m.IntLiteral(period), reader, call),))
     return _started(reader, call, name) if reader.frame.is_start else None
+
+
+def is_entered(reader: BodyStatementReader, context: Node) -> bool:
+    """Whether `with` starts by this what runs a node, and ends it where its block does."""
+    if context.type != "call" or not reader.frame.is_start:
+        return False
+    name = reader.reading.external(field(context, "function"), reader.frame)
+    return name in starting_contexts()
 
 
 def delay(time: m.Expression, reader: BodyStatementReader, node: Node) -> m.Statement:

@@ -31,7 +31,7 @@ from rebsync.reverse.python.bodies.body_effects import (
     is_log,
 )
 from rebsync.reverse.python.bodies.body_expressions import short
-from rebsync.reverse.python.bodies.body_locks import is_lock, locks_of, waits_for_itself
+from rebsync.reverse.python.bodies.body_locks import contexts_of, is_lock, waits_for_itself
 from rebsync.reverse.python.bodies.body_match import Way
 from rebsync.reverse.python.bodies.body_raising import raised
 from rebsync.reverse.python.bodies.body_scope import (
@@ -252,8 +252,12 @@ class PyStatements(BodyStatementReader):
         return found[0] if len(found) == 1 else m.Block(found)
 
     def _with(self, node: Node) -> Iterator[m.Statement]:
-        if not all(is_lock(self.reading, lock, self.frame) for lock in locks_of(node)):
-            raise Unread(self.frame.span(node), "what entering and leaving this does is not known")
+        for context in contexts_of(node):
+            if body_setup.is_entered(self, context):
+                yield from self.expression(context)
+            elif not is_lock(self.reading, context, self.frame):
+                why = "what entering and leaving this does is not known"
+                raise Unread(self.frame.span(node), why)
         if waits_for_itself(self.reading, node, self.frame):
             raise Unread(self.frame.span(node), "this may wait for ever for a lock that it holds")
         for item in named(named(node)[0]):
