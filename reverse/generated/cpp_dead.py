@@ -26,8 +26,10 @@ _NUMBER = (
     r"|float|double|bool)"
 )
 _VALUE = re.compile(rf"{_NUMBER}|(?:std::)?atomic<{_NUMBER}>|(?:std::)?atomic_(?:bool|int|uint)")
+_ARRAY = re.compile(rf"(?:std::)?array<{_NUMBER},(\d+)>")
 _FLOAT = re.compile(r"(?:float|double)")
 _PLACES = ("identifier", "field_expression")
+_PARTS = ("field_expression", "subscript_expression")
 _STORES = ("assignment_expression", "update_expression")
 _ACTS = (*_STORES, "lambda_expression", "new_expression", "delete_expression", "throw_statement")
 # Methods of atomic numbers that store in them.
@@ -37,7 +39,7 @@ _FLOATING = re.compile(r"static_cast<(?:double|float)>|\d\.\d|\.0")
 
 
 def dead_members(code: Code, owner: CppClass) -> set[str]:
-    """The numbers of a class that are told to people, and else only stored in.
+    """The numbers of a class, and arrays of them, that are told to people, and else only stored in.
 
     Each place that names them is looked at, in all files: as long as one that is left out stands
     in a statement of another, that is looked at again.
@@ -99,14 +101,15 @@ def _root(store: Node) -> str:
 
 def _name_of(place: Node) -> str:
     """The member or variable that a place is part of."""
-    while place.type == "field_expression" and part(place, "argument").type != "this":
+    while place.type in _PARTS and part(place, "argument").type != "this":
         place = part(place, "argument")
     return text_of(place).removeprefix("this->")
 
 
 def _is_candidate(code: Code, type_: Node) -> bool:
     text = squeezed(type_)
-    return _VALUE.fullmatch(text) is not None or is_plain_class(code, text)
+    is_number = _VALUE.fullmatch(text) is not None or _ARRAY.fullmatch(text) is not None
+    return is_number or is_plain_class(code, text)
 
 
 class _DeadStores:
@@ -116,6 +119,8 @@ class _DeadStores:
         self._left = left
         texts = {f.name: squeezed(f.type) for f in owner.fields}
         self._floating = {n for n, t in texts.items() if _FLOAT.search(t)}
+        arrays = ((n, _ARRAY.fullmatch(t)) for n, t in texts.items())
+        self._sizes = {n: int(found[1]) for n, found in arrays if found is not None}
 
     def has(self, around: list[Node], known: Collection[int]) -> bool:
         """Whether a place, which `around` begins with, is in such a statement, or declares one."""
@@ -174,15 +179,27 @@ class _DeadStores:
                 call = call_of(node)
                 if call is None or call.target is None or not self._is_dead(call.target):
                     return False
+                if _name_of(call.target) in self._sizes and call.name != "fill":
+                    return False
                 return all(map(self._is_pure, call.arguments))
         return False
 
     def _is_dead(self, place: Node) -> bool:
-        return place.type in _PLACES and _name_of(place) in self._left
+        is_place = place.type in _PLACES or self._is_element(place)
+        return is_place and _name_of(place) in self._left
+
+    def _is_element(self, place: Node) -> bool:
+        """Whether a place is an element of an array of the class that is there."""
+        if place.type != "subscript_expression" or part(place, "argument").type not in _PLACES:
+            return False
+        index = text_of(named(part(place, "indices"))[0])
+        return index.isdecimal() and int(index) < self._sizes.get(_name_of(place), 0)
 
     def _is_pure(self, node: Node) -> bool:
         """Whether to evaluate something changes nothing, and cannot fail."""
-        if inside(node, *_ACTS) or inside(node, "subscript_expression", "pointer_expression"):
+        if inside(node, *_ACTS) or inside(node, "pointer_expression"):
+            return False
+        if not all(map(self._is_element, inside(node, "subscript_expression"))):
             return False
         return not divides(node, self._floating) and all(map(_is_pure_call, calls_in(node)))
 

@@ -85,7 +85,11 @@ def _failing_logs(
     code: Code, form: CppForm, owner: CppClass, function: CppFunction
 ) -> Iterator[tuple[Node, str]]:
     """What is logged around the bodies, and may end the program: `10 / count` where that is 0."""
-    for node in inside(function.body, "expression_statement"):
+    for node in inside(function.body, "expression_statement", "declaration"):
+        if node.type == "declaration":
+            if declared_type(code, part(node, "type")) is None:  # a text to be logged, say
+                yield from ((n, _NOTHING) for n in unsure_lookups(code, owner, node))
+            continue
         if not is_logging(node):
             continue
         if (why := form.raises(function.cpp, node)) is not None:

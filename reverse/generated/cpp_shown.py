@@ -113,7 +113,8 @@ def sends(function: Node, member: str, type_: str, sizes: Mapping[str, int]) -> 
     }
     given = [c.arguments for c in calls_in(function) if c.on == member and c.name == "publish"]
     used = [n for n in inside(function, "identifier", "field_identifier") if text_of(n) == member]
-    is_known = all(len(a) == 1 and text_of(a[0]) in made for a in given)
+    made |= {f"{type_}()", f"{type_}{{}}"}  # empty messages have no name
+    is_known = all(len(a) == 1 and squeezed(a[0]) in made for a in given)
     stores = inside(function, "assignment_expression") if given else []
     filled = (n for n in stores if text_of(part(n, "left")).partition(".")[0] in made)
     is_sure = not any(_may_fail(n, sizes) for n in filled)
@@ -172,10 +173,19 @@ def _is_sent(name: Node) -> bool:
         return above.type in _PLACES and node.type == "qualified_identifier"
     if above.type == "declaration":
         return above.child_by_field_name("type") == node
+    if above.type in ("call_expression", "compound_literal_expression"):
+        return _is_published(above)
     around = above.parent if above.type == "type_descriptor" else None
     of = around.parent if around is not None else None
     is_argument = around is not None and around.type == "template_argument_list"
     return of is not None and is_argument and text_of(part(of, "name")) in OFFERS | {"Publisher"}
+
+
+def _is_published(message: Node) -> bool:
+    """Whether a message is made where it is published, and has no name."""
+    around = message.parent
+    call = call_of(around.parent) if around is not None and around.parent is not None else None
+    return call is not None and call.name == "publish" and call.arguments == (message,)
 
 
 def _is_free(name: str, own: set[int], literals: list[Node]) -> bool:

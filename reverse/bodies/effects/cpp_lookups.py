@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_present import Question, is_asked
+from rebsync.reverse.bodies.effects.cpp_indices import Indices
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
 from rebsync.reverse.syntax.cpp_tree import inside, named, operator_of, part, squeezed, text_of
@@ -38,16 +39,17 @@ def unsure_lookups(code: Code, owner: CppClass, log: Node) -> list[Node]:
     members = {text_of(n): squeezed(d) for d in declared for n in inside(d, "field_identifier")}
     functions = (f for above in line for f in code.functions_of(above))
     texts = [text_of(f.node) for f in functions]
-    look = _Lookups(members, texts)
+    look = _Lookups(members, texts, Indices(code, members))
     return [n for n in inside(log, *_KINDS) if look.is_unsure(n)]
 
 
 class _Lookups:
     """Looks up members by their declarations, without layout; `texts` are those of functions."""
 
-    def __init__(self, members: Mapping[str, str], texts: list[str]) -> None:
+    def __init__(self, members: Mapping[str, str], texts: list[str], indices: Indices) -> None:
         self._members = members
         self._texts = texts
+        self._indices = indices
 
     def is_unsure(self, node: Node) -> bool:
         """Whether what an expression looks up may not be there."""
@@ -77,8 +79,11 @@ class _Lookups:
         name, declared = self._declared(whole)
         index = squeezed(node).removeprefix("this->").removeprefix(name).strip("[]")
         found = _ARRAY.match(declared)
-        if not index.isdecimal():  # numbers that are computed are trusted, what comes is not
-            return "map<" not in declared and _is_untested_parameter(index, node)
+        if not index.isdecimal():  # of locals they are trusted, what comes and what is kept is not
+            is_table = "map<" in declared
+            return not is_table and (
+                _is_untested_parameter(index, node) or self._indices.is_unsure(node)
+            )
         if found is not None:
             return int(index) >= int(found[1] or found[2])
         is_table = re.search(r"(?:map|set)<", declared.partition("<")[0] + "<") is not None

@@ -102,6 +102,7 @@ _FUNCTIONS = {
     "rclcpp::ok": Routine(Kind.RUNNING, result="bool"),
     "rclcpp::to_yaml": Routine(),
     **_does(Effect.NONE, "rclcpp::get_logger", "rclcpp::get_c_string"),
+    **_does(Effect.LOGS, "rcutils_logging_set_logger_level"),
     "rclcpp::Duration": Routine(Kind.SPAN),
 }
 _METHODS = {
