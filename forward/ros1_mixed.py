@@ -58,7 +58,6 @@ def _stays(path: str, stems: Mapping[str, str], target: str) -> bool:
 def _cmake_lists(
     package: Package, depends: list[str], scripts: list[str], files: Collection[str]
 ) -> str:
-    built = ros1_package.executables_of(package)
     return fill(
         "ros1_cpp/CMakeLists.txt.j2",
         package=package.name,
@@ -68,6 +67,6 @@ def _cmake_lists(
         services=service_names(package),
         actions=action_names(package),
         library=[s for s in ros1_package.library_of(package) if f"src/{s}.cpp" in files],
-        executables=[e for e in built if f"src/{e.name}.cpp" in files],
+        executables=[e for e in package.executables if f"src/{e}.cpp" in files],
         scripts=scripts,
     )

@@ -31,19 +31,6 @@ def manifest(package: Package) -> str:
     return fill("ros1_cpp/package.xml.j2", package=package, depends=depends_of(package))
 
 
-@dataclass(frozen=True, slots=True)
-class Executable:
-    """A program and its source."""
-
-    name: str
-    source: str
-
-    @property
-    def runs_rebec(self) -> bool:
-        """Whether it needs the classes."""
-        return self.name.endswith("_node")
-
-
 def cmake_lists(package: Package) -> str:
     """CMakeLists.txt for catkin."""
     depends = depends_of(package)
@@ -56,16 +43,8 @@ def cmake_lists(package: Package) -> str:
         services=service_names(package),
         actions=action_names(package),
         library=library_of(package),
-        executables=executables_of(package),
+        executables=package.executables,
     )
-
-
-def executables_of(package: Package) -> list[Executable]:
-    """The programs, each with the file that it is made of."""
-    runs = (f"{n.file}_node" for n in package.classes if n.executable)
-    plays = (f"{n.file}_stand_in" for n in package.classes if any(s.stands_in for s in n.sensors))
-    monitors = ["monitor_node"] if package.monitored else []
-    return [Executable(name, name) for name in sorted([*runs, *plays, *monitors])]
 
 
 def library_of(package: Package) -> list[str]:

@@ -35,10 +35,6 @@ def manifest(package: Package) -> str:
 def cmake_lists(package: Package, classes: list[CppClass]) -> str:
     """CMakeLists.txt for ament: the classes are one library, which each executable runs one of."""
     runs = [c for c in classes if c.node.executable]
-    stand_ins = [c for c in classes if any(s.stands_in for s in c.node.sensors)]
-    executables = [f"{c.node.file}_node" for c in runs]
-    executables += [f"{c.node.file}_stand_in" for c in stand_ins]
-    executables += ["monitor_node"] if package.monitored else []
     return fill(
         "ros2_cpp/CMakeLists.txt.j2",
         package=package.name,
@@ -49,7 +45,7 @@ def cmake_lists(package: Package, classes: list[CppClass]) -> str:
         actions=action_names(package),
         sources=sorted(c.node.file for c in classes if not c.node.interface),
         components=sorted(map(component, runs)),
-        executables=sorted(executables),
+        executables=package.executables,
         lifecycle=package.settings.lifecycle,
         unchecked=unchecked(package),
     )

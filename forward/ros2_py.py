@@ -129,7 +129,7 @@ def render(
         from rebsync.forward.monitor import python_monitor
 
         files.update(python_monitor(package, analysis, _FOLDER, f"{name}/{name}", model_name))
-    files[f"{name}/setup.py"] = _setup(package, sorted(files))
+    files[f"{name}/setup.py"] = _setup(package)
     return dict(sorted(files.items()))
 
 
@@ -156,10 +156,8 @@ def _depends(package: Package) -> list[str]:
     return sorted(own | message_packages(package))
 
 
-def _setup(package: Package, paths: list[str]) -> str:
-    stems = [p.rpartition("/")[2].removesuffix(".py") for p in paths]
-    executables = [s for s in stems if s.endswith(("_node", "_stand_in"))]
-    return fill(f"{_FOLDER}/setup.py.j2", package=package, executables=executables)
+def _setup(package: Package) -> str:
+    return fill(f"{_FOLDER}/setup.py.j2", package=package, executables=package.executables)
 
 
 def _node(c: PyClass) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from keyword import kwlist
 
 from rebsync import package as p
 from rebsync.config import Config
@@ -35,6 +36,8 @@ from rebsync.static.values import env_value
 _NO_LICENSE = "TODO: License declaration"
 _NOBODY = p.Maintainer("TODO: maintainer", "user@todo.todo")
 _FILES = ("", "_node", "_sensors", "_stand_in")
+# What no module of a package can be called: what no import can name, and what ROS 1 generates.
+_NO_MODULE = {"ros1-py": frozenset({*kwlist, "msg", "srv"}), "ros2-py": frozenset(kwlist)}
 
 
 def view(model: Model, analysis: Analysis, config: Config, name: str) -> tuple[p.Package, Topics]:
@@ -159,8 +162,9 @@ class _View:
     def _file(self, class_name: str) -> str:
         """The stem of the class's files, none of which another class has."""
         stem = snake_case(class_name)
+        reserved = _NO_MODULE.get(self.config.target_of(class_name), frozenset())
         candidate, number = stem, 2
-        while any(candidate + suffix in self._files for suffix in _FILES):
+        while candidate in reserved or any(candidate + s in self._files for s in _FILES):
             candidate, number = f"{stem}_{number}", number + 1
         self._files |= {candidate + suffix for suffix in _FILES}
         return candidate

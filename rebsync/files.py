@@ -89,11 +89,13 @@ def source_below(root: str, name: str) -> Source | None:
 def names_below(root: str, name: str) -> list[str]:
     """The files of a package in and below one of its directories, by their paths in that.
 
+    What Python has compiled there is no file of the package.
     RebsyncError: one of them is a link or no regular file, or cannot be told of.
     """
     ignored = suppress(FileNotFoundError, NotADirectoryError)
     with operating_on(f"{root}/{name}"), ignored, Folder(root) as folder:
-        return [each.removeprefix(f"{name}/") for each in folder.files(name)]
+        below = (each.removeprefix(f"{name}/") for each in folder.files(name))
+        return [each for each in below if "__pycache__" not in each.split("/")]
     return []
 
 

@@ -350,6 +350,14 @@ class Package:
         return tuple(o for o in self.offers if o.is_action)
 
     @property
+    def executables(self) -> tuple[str, ...]:
+        """The programs: of the classes that rebecs are of, of the stand-ins, the monitor."""
+        runs = [f"{c.file}_node" for c in self.classes if c.executable]
+        plays = [f"{c.file}_stand_in" for c in self.classes if any(s.stands_in for s in c.sensors)]
+        monitors = ["monitor_node"] if self.monitored else []
+        return tuple(sorted([*runs, *plays, *monitors]))
+
+    @property
     def monitored(self) -> bool:
         """Whether a node compares a run of the system with the model."""
         return self.settings.monitor and bool(self.instances)

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.files import read_source
+from rebsync.files import names_below, read_source
 from rebsync.writing import replace_text, replace_tree
 from tests.cli.run import environment, rebsync
 
@@ -156,6 +156,12 @@ def test_a_tree_is_written_and_later_only_what_changed(tmp_path: Path) -> None:
         "package/src/b.py": b"b",
         "package/new/c": b"c",
     }
+
+
+def test_what_python_compiled_is_no_file_of_a_package(tmp_path: Path) -> None:
+    names = ("a.py", "src/b.py", "__pycache__/a.cpython-311.pyc", "src/__pycache__/b.pyc")
+    replace_tree(str(tmp_path), {f"kept/{name}": "" for name in names})
+    assert sorted(names_below(str(tmp_path), "kept")) == ["a.py", "src/b.py"]
 
 
 def test_programs_can_be_run_but_for_their_records(tmp_path: Path) -> None:

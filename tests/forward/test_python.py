@@ -142,3 +142,37 @@ main { A a():(1); }
     stored = {n.attr for n in ast.walk(class_) if isinstance(n, ast.Attribute)}
     assert not stored & {"_clock", "_parameters"}
     assert_says(files, model)
+
+
+_FILES = """
+reactiveclass Msg(2) { msgsrv go() { self.go() after(1); } }
+reactiveclass Import extends Msg (2) { }
+reactiveclass Control(2) { knownrebecs { Import i; } msgsrv go() { i.go(); } }
+reactiveclass ControlNode(2) { msgsrv go() { self.go() after(1); } }
+reactiveclass ArmStandIn(2) { msgsrv go() { self.go() after(1); } }
+main { Msg m():(); Import i():(); Control c(i):(); ControlNode n():(); ArmStandIn a():(); }
+"""
+
+
+@pytest.mark.parametrize("target", ["ros1-py", "ros2-py"])
+def test_classes_whose_names_are_those_of_files(target: str) -> None:
+    """Their modules can be imported, and what is started of them is what has a main."""
+    files = generated(_FILES, "files", Config(target=target))
+    modules = {path: ast.parse(text) for path, text in files.items() if _is_python(path, text)}
+    assert not [p for p in files if p.endswith(("src/files/msg.py", "/import.py"))]
+    if target == "ros2-py":
+        having = {Path(path).stem for path, tree in modules.items() if _has_main(tree)}
+        texts = (
+            n.value for n in ast.walk(modules["files/setup.py"]) if isinstance(n, ast.Constant)
+        )
+        entries = dict(str(text).split(" = ") for text in texts if " = " in str(text))
+        assert entries == {name: f"files.{name}:main" for name in having}
+        assert len(having) == 5
+
+
+def _is_python(path: str, text: str) -> bool:
+    return path.endswith(".py") or text.startswith("#!/usr/bin/env python")
+
+
+def _has_main(tree: ast.Module) -> bool:
+    return any(isinstance(n, ast.FunctionDef) and n.name == "main" for n in tree.body)
