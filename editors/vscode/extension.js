@@ -42,7 +42,21 @@ async function activate(context) {
   try {
     await client.start();
   } catch (error) {
-    vscode.window.showErrorMessage(`${program()} lsp does not start: ${error.message}`);
+    askForProgram(error);
+  }
+}
+
+/** Tells that the server does not start, and leads to the setting that says where it is. */
+async function askForProgram(error) {
+  const reason = error?.message ? ` (${error.message})` : ""; // the client may reject with nothing
+  const setting = "Open the Setting";
+  const chosen = await vscode.window.showErrorMessage(
+    `"${program()} lsp" does not start${reason}. Install it with pip install 'rebsync[lsp]'; ` +
+      `where it is not in PATH, the setting rebsync.path says where it is.`,
+    setting,
+  );
+  if (chosen === setting) {
+    await vscode.commands.executeCommand("workbench.action.openSettings", "rebsync.path");
   }
 }
 
