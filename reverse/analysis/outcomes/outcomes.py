@@ -95,9 +95,13 @@ class OutcomeAnalysis:
 
     def of_statements(self, function: Function, span: Span) -> frozenset[Problem]:
         """What the statements of a function at a place may do besides to compute."""
+        return self.of_body(function, self.statements(function, span))
+
+    def statements(self, function: Function, span: Span) -> s.Body:
+        """The statements of a function at a place."""
         if function.name not in self._nested:
             self._nested[function.name] = tuple(_nested(function.body))
-        return self.of_body(function, tuple(_within(self._nested[function.name], span)))
+        return tuple(_within(self._nested[function.name], span))
 
     def of_body(self, function: Function, body: s.Body) -> frozenset[Problem]:
         """What some statements of a function may do besides to compute."""

@@ -46,6 +46,8 @@ from rebsync.reverse.python.generated.told_containers import (
     member_of,
     stores_in,
 )
+from rebsync.reverse.python.generated.told_candidates import candidate_locals, is_candidate, may_tell
+from rebsync.reverse.python.generated.told_effects import ToldEffects, ToldPlaces
 from rebsync.reverse.python.generated.told_exceptions import ToldExceptions
 from rebsync.reverse.python.generated.told_locals import told_locals
 from rebsync.reverse.python.generated.told_messages import ToldMessages, told_types
@@ -65,7 +67,8 @@ class Silent:
     `ticking` are timers that only log, as `timers` tells them. `locals` are what a function makes
     or measures for people, by the function's node, and `counters` variables of the module; `form`
     tells who may wait for a lock, and `variables` the state by the names of attributes; `asked`
-    are services and diagnostics; `exceptions` say what may fail of what is told.
+    are services and diagnostics; `exceptions` say what may fail of what is told. Those of `computed`
+    are made by any code that only computes, as `effects` tell.
     """
 
     texts: frozenset[str] = frozenset()
@@ -80,6 +83,8 @@ class Silent:
     variables: Mapping[str, m.Type] = with_default(default_factory=dict)
     asked: Answering = Answering()
     exceptions: ToldExceptions = ToldExceptions()
+    computed: frozenset[str] = frozenset()
+    effects: ToldEffects | None = None
     messages: ToldMessages = ToldMessages({}, {}, Looks())
 
     @property
@@ -107,6 +112,20 @@ class Silent:
 
     def tells(self, node: Node) -> bool:
         """Whether a statement does nothing but to tell people something, or to keep it for that."""
+        return self._tells_by_words(node) or self._only_computes(node)
+
+    def _only_computes(self, node: Node) -> bool:
+        """Whether the effects of a statement stay where only people look."""
+        local = self.locals.get(_function(node), frozenset[str]())
+        py = self.exceptions.file_of(node)
+        if self.effects is None or py is None:
+            return False
+        if not may_tell(node, self.texts, local, self.publishers):
+            return False
+        places = ToldPlaces(self.texts, local, self.publishers, self.looks.is_node)
+        return self.effects.only_tells(py, py.span(node), places)
+
+    def _tells_by_words(self, node: Node) -> bool:
         if only_logs(node, self.looks):
             return True
         if node.type == "if_statement":
@@ -233,12 +252,16 @@ def silent_in(
     timers = replace(timers, looks=looks)  # what ticks runs while containers may change
     asked = Answering.of(code, owner.module, handed, members, looks, exceptions)
     told = frozenset(n for n, v in members.items() if _is_told(n, v, looks))
+    computed = frozenset(n for n, v in members.items() if is_candidate(code, owner.module, v)) - told
     found = Silent(
-        told,
+        told | computed,
         frozenset(n for n, v in publishers.items() if tells_by(code, owner.module, v, types)),
         frozenset(n for n, v in members.items() if timers.is_idle(v) or asked.is_idle(v)),
         frozenset(n for n, v in members.items() if is_lock(owner.module, v)),
-        {f.node.id: told_locals(f, makers, looks) for f in functions.values()},
+        {
+            f.node.id: told_locals(f, makers, looks) | candidate_locals(code, f)
+            for f in functions.values()
+        },
         timers,
         {n: s for n, v in publishers.items() if (s := shown_by(code, owner.module, v, variables))},
         frozenset(counters_of(code, owner.module)) - hidden,
@@ -246,6 +269,8 @@ def silent_in(
         variables,
         asked,
         exceptions,
+        computed,
+        ToldEffects(form, variables, {n for r in roles for n in (*r.known, *r.env)}),
         messages,
     )
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
@@ -282,6 +307,7 @@ def _without(silent: Silent, wrong: set[str]) -> Silent:
     return replace(
         silent,
         texts=texts,
+        computed=silent.computed & texts,
         publishers=publishers,
         ticking=ticking,
         locks=locks,
@@ -320,7 +346,8 @@ def _odd(silent: Silent, root: Node, beside: Collection[str]) -> set[str]:
         if node.type == "attribute" and text_of(field(node, "attribute")) in members:
             name = text_of(field(node, "attribute"))
             is_own = text_of(field(node, "object")) == "self"
-            is_apart = name in silent.looks.containers and _name_around(node) in beside
+            is_shared = name in silent.looks.containers or name in silent.computed
+            is_apart = is_shared and _name_around(node) in beside
             if is_apart or not (is_own and _is_quiet(silent, node, name)):
                 found.add(name)
         elif node.type == "identifier" and not is_label(node):
@@ -341,11 +368,13 @@ def _is_quiet(silent: Silent, node: Node, name: str) -> bool:
         if above.type == "with_item":
             return name in silent.locks and text_of(above) == f"self.{name}"
         if above.type == "expression_statement" and _sets_up(above, name):
-            return True
+            return name not in silent.computed or silent.holds(above)
         if above.type == "global_statement":
             return name in silent.counters
-        if silent.tells(above) or above.id in silent.asked.bodies:
+        if silent.tells(above):
             return True
+        if above.id in silent.asked.bodies:
+            return name not in silent.computed
     return False
 
 
