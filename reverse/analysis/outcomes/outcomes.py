@@ -25,6 +25,7 @@ from rebsync.reverse.analysis.outcomes.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.outcomes.given_arguments import with_none
 from rebsync.reverse.analysis.outcomes.held_locks import HeldLocks
 from rebsync.reverse.analysis.outcomes.outcome_statements import ENDLESS, OutcomeWalk
+from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
 from rebsync.reverse.analysis.python.operand_classes import OperandClasses
 from rebsync.reverse.analysis.silent_calls import SilentCalls
@@ -154,6 +155,10 @@ class OutcomeAnalysis:
         families = {each for c in classes for each in self.graph.family(c)}
         owners = {n: self.program.function(n).owner for n in self.origins.operators}
         return frozenset(n for n, owner in owners.items() if owner in families)
+
+    def kinds(self, function: Function) -> OperandKinds:
+        """Of which types the values of a function in Python are."""
+        return OperandKinds(self._notes(function))
 
     def _notes(self, function: Function) -> ProblemNotes:
         return ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)

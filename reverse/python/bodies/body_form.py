@@ -15,6 +15,7 @@ from rebsync.reverse.analysis.outcomes.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
 from rebsync.reverse.analysis.outcomes.size_changes import GROWING
 from rebsync.reverse.analysis.problems import Problem
+from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, Program
@@ -121,6 +122,10 @@ class PyForm:
             return None, ()
         function = min(around, key=lambda f: f.place.end - f.place.start)
         return function, self._outcomes.statements(function, place)
+
+    def kinds(self, function: Function) -> OperandKinds:
+        """Of which types the values of a function are."""
+        return self._outcomes.kinds(function)
 
     def acting(self, function: Function, place: Span) -> Iterator[Problem]:
         """What statements at a place may do besides to compute, and to raise exceptions."""

@@ -252,9 +252,8 @@ def silent_in(
     timers = replace(timers, looks=looks)  # what ticks runs while containers may change
     asked = Answering.of(code, owner.module, handed, members, looks, exceptions)
     told = frozenset(n for n, v in members.items() if _is_told(n, v, looks))
-    computed = frozenset(n for n, v in members.items() if is_candidate(code, owner.module, v)) - told
     found = Silent(
-        told | computed,
+        told,
         frozenset(n for n, v in publishers.items() if tells_by(code, owner.module, v, types)),
         frozenset(n for n, v in members.items() if timers.is_idle(v) or asked.is_idle(v)),
         frozenset(n for n, v in members.items() if is_lock(owner.module, v)),
@@ -269,10 +268,13 @@ def silent_in(
         variables,
         asked,
         exceptions,
-        computed,
+        frozenset(),
         ToldEffects(form, variables, {n for r in roles for n in (*r.known, *r.env)}),
         messages,
     )
+    rest = {n: v for n, v in members.items() if not found.is_member(n)}
+    computed = frozenset(n for n, v in rest.items() if is_candidate(code, owner.module, v))
+    found = replace(found, texts=told | computed, computed=computed)
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)
     timers = found.timers.telling(code, handed, found.holds)

@@ -21,19 +21,20 @@ from rebsync.reverse.analysis.origins import (
     LibraryOrigin,
     Origin,
     Origins,
-    PlainOrigin,
 )
+from rebsync.reverse.analysis.python.value_types import ValueTypes
 from rebsync.reverse.analysis.stores import key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.routines import Effect, Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.python.bodies.body_form import PyForm
-from rebsync.reverse.python.generated.log_words import CALLING, LOOKS
+from rebsync.reverse.python.generated.told_calls import is_known, method_takes, takes
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
 
@@ -42,7 +43,7 @@ _LOG_LEVELS = frozenset({"debug", "info", "warn", "warning", "error", "fatal", "
 _CONTEXTS = frozenset({LibraryOrigin("contextlib.suppress", True)})
 _ASKING = frozenset({"get", "items", "keys", "values", "index", "count"})  # of a constant table
 # What only gives a number, or a text, of what it gets; the rest goes through its elements.
-_WHOLE = frozenset({"str", "repr", "len", "int", "float", "bool", "abs", "round", "isinstance"})
+_WHOLE = frozenset({"str", "repr", "len", "int", "float", "bool", "abs", "round"})
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -139,10 +140,11 @@ class _Scope:
             case s.Assign(target, value) | s.Declare(target, _, e.Expression() as value):
                 return self._keeps(target, value)
             case s.CompoundAssign(target, _, value):
-                return self._is_place(target) and self.is_free(value)
+                is_kept = self._is_place(target) and self.is_free(value)
+                return is_kept and self._is_typed(target, value)
             case s.Unpack(targets, value):
                 self.made.update(targets)
-                return self._is_seen(value)
+                return self._is_seen(value) and self._is_typed(value)
             case s.Insert(container, value, key):
                 return container in self.made and self.is_free(value) and self._is_free(key)
             case s.Delete(target):
@@ -174,7 +176,8 @@ class _Scope:
                 kept = all(h.target is None or self._is_place(h.target) for h in handlers)
                 return caught and kept and all(map(self.body, (body, otherwise, final)))
             case s.ForEach(target, iterable, body, otherwise, waits=False):
-                is_read = self._is_seen(iterable) and self._is_place(target)
+                is_read = self._is_seen(iterable) and self._is_typed(iterable)
+                is_read = is_read and self._is_place(target)
                 return is_read and self._repeated(body) and self.body(otherwise)
             case s.Loop(test, body, prelude, step, otherwise):
                 is_read = self._repeated((*prelude, *body, *step)) and self._is_seen(test)
@@ -235,6 +238,18 @@ class _Scope:
             return frozenset({ClassOrigin(owner)})
         return self.effects.origins.of(value, self.function.name)
 
+    # --- types ----------------------------------------------------------------------------------
+
+    def _types(self, value: e.Expression) -> ValueTypes:
+        """The types of what a value may be: it must not fail where it is used."""
+        return self.effects.form.kinds(self.function).types(value, frozenset())
+
+    def _is_typed(self, *values: e.Expression) -> bool:
+        return all(is_known(self._types(value)) for value in values)
+
+    def _arguments(self, node: s.Call) -> list[tuple[str | None, ValueTypes]]:
+        return [(a.name, self._types(a.value)) for a in node.arguments]
+
     # --- values ---------------------------------------------------------------------------------
 
     def _is_free(self, value: e.Expression | None) -> bool:
@@ -263,11 +278,16 @@ class _Scope:
             case e.Attribute(of, name):
                 return self.is_free(of) and self._is_known(of, name)
             case e.Index(of, index):
-                return self._is_seen(index) and self._is_seen(of, whole=False)
-            case e.Unary(_, operand) | e.Convert(_, operand):
-                return self._is_seen(operand)
-            case e.Binary(_, left, right):
-                return self._is_seen(left) and self._is_seen(right)
+                is_seen = self._is_seen(index) and self._is_seen(of, whole=False)
+                return is_seen and self._is_typed(of)
+            case e.Unary(operator, operand):
+                return self._is_seen(operand) and (
+                    operator is Operator.NOT or self._is_typed(operand)
+                )
+            case e.Binary(operator, left, right):
+                return (self._is_seen(left) and self._is_seen(right)) and (
+                    operator in _OF_ANYTHING or self._is_typed(left, right)
+                )
             case e.Conditional(test, then, otherwise):
                 return self._is_seen(test) and self.is_free(then) and self.is_free(otherwise)
             case e.And(left, right) | e.Or(left, right):
@@ -291,10 +311,9 @@ class _Scope:
                     for x in entries
                 )
             case e.Format(pieces):
-                styles = (p.style for p in pieces)
-                return all(self._is_seen(p.value) for p in pieces) and all(
-                    map(self._is_free, styles)
-                )
+                styled = [p for p in pieces if p.style is not None]
+                fits = all(self._is_free(p.style) and self._is_typed(p.value) for p in styled)
+                return fits and all(self._is_seen(p.value) for p in pieces)
             case _:
                 return False
 
@@ -423,16 +442,13 @@ class _Scope:
 
     def _calls_library(self, node: s.Call, name: str) -> bool:
         effect = of_function(Language.PYTHON, name).effect
-        table = self.effects.origins.table
         if effect is Effect.LOGS:
             return self._given(node, seen=True)
-        last = name.removeprefix("builtins.")
-        if last in _WHOLE:
-            return self._given(node, seen=True)
-        if last in LOOKS and last not in CALLING:
-            return all(self._is_seen(a.value, whole=False) for a in node.arguments)
-        is_known = table.is_known(name) or effect is not Effect.UNKNOWN
-        return is_known and self._given(node)
+        if any(a.stars for a in node.arguments):
+            return False
+        is_whole = name.removeprefix("builtins.") in _WHOLE
+        seen = all(self._is_seen(a.value, whole=is_whole) for a in node.arguments)
+        return seen and takes(name, self._arguments(node))
 
     def _calls_method(self, node: s.Call, receiver: e.Expression, name: str) -> bool:
         places = self.places
@@ -453,35 +469,31 @@ class _Scope:
                 self.known.add(node.place)
                 return name == "publish" and self._given(node)
         if self._is_table(receiver):
-            return name in _ASKING and self._given(node)
+            is_asked = name in _ASKING and self._given(node)
+            return is_asked and method_takes(name, self._arguments(node))
         held = self._held(receiver)
         is_logging = held == {_LOGGER} and name in _LOG_LEVELS
         if is_logging or not self._given(node):
             return is_logging and self._given(node, seen=True)
-        return self._is_kept(receiver) and bool(held) and all(self._answers(o, name) for o in held)
+        answers = (self._answers(node, o, name) for o in held)
+        return self._is_kept(receiver) and bool(held) and all(answers)
 
-    def _answers(self, origin: object, name: str) -> bool:
+    def _answers(self, node: s.Call, origin: Origin, name: str) -> bool:
         """Whether a method of an object that the receiver may be does nothing to the model."""
         match origin:
-            case PlainOrigin():
-                return True
             case LibraryOrigin(of, True):
-                return self.effects.origins.table.is_standard(of) or of in _BUILT_IN
+                return of in _CONTAINERS and method_takes(name, self._arguments(node))
             case ClassOrigin(of, True):
                 found = self.effects.origins.methods(of, name)
                 return bool(found) and all(map(self.effects.is_foreign, found))
             case _:
                 return False
 
-    def _enters(self, origin: object) -> bool:
+    def _enters(self, origin: Origin) -> bool:
         """Whether calling a value does nothing to the model."""
         match origin:
             case FunctionOrigin(name):
                 return self.effects.is_foreign(name)
-            case LibraryOrigin(name, False):
-                table = self.effects.origins.table
-                effect = of_function(Language.PYTHON, name).effect
-                return table.is_known(name) or effect is not Effect.UNKNOWN
             case ClassOrigin(name, False):
                 graph = self.effects.origins.graph
                 return all(map(self.effects.is_foreign, graph.construction(name).functions))
@@ -490,4 +502,10 @@ class _Scope:
 
 
 _LOGGER = LibraryOrigin("logging.getLogger", True)
-_BUILT_IN = frozenset({"str", "list", "dict", "set", "tuple", "deque"})
+_OF_ANYTHING = (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SAME)
+_CONTAINERS = frozenset(
+    {
+        *("str", "list", "dict", "set", "tuple", "deque"),
+        *("collections.deque", "collections.Counter", "collections.OrderedDict"),
+    }
+)
