@@ -39,6 +39,8 @@ from rebsync.reverse.python.generated.py_types import (
 from rebsync.reverse.python.generated.roles import OFFERING, PyRoles, PySends
 from rebsync.reverse.python.generated.send_functions import odd_in_send
 from rebsync.reverse.python.generated.shims import odd_in_shim
+from rebsync.reverse.python.generated.log_setup import imports_types, sets_up_logs
+from rebsync.reverse.python.generated.moments import names_moment
 from rebsync.reverse.python.generated.silent import Silent
 from rebsync.reverse.python.generated.validation import is_passed
 from rebsync.reverse.python.values.class_creation import DECORATORS
@@ -260,6 +262,10 @@ def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
         if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
             continue
         if constants.is_quiet(module, statement) or is_alias(module, statement):
+            continue
+        if names_moment(module, statement) or sets_up_logs(module, statement):
+            continue
+        if imports_types(module, statement):
             continue
         if (
             statement.type == "decorated_definition"

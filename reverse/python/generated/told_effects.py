@@ -40,7 +40,8 @@ from rebsync.source import Span
 
 _SCALARS = (t.Integer, t.Float, t.Truth, t.Text)
 _LOG_LEVELS = frozenset({"debug", "info", "warn", "warning", "error", "fatal", "critical"})
-_CONTEXTS = frozenset({LibraryOrigin("contextlib.suppress", True)})
+_SUPPRESS = "contextlib.suppress"
+_CONTEXTS = frozenset({LibraryOrigin(_SUPPRESS, True)})
 _ASKING = frozenset({"get", "items", "keys", "values", "index", "count"})  # of a constant table
 # What only gives a number, or a text, of what it gets; the rest goes through its elements.
 _WHOLE = frozenset({"str", "repr", "len", "int", "float", "bool", "abs", "round"})
@@ -446,6 +447,8 @@ class _Scope:
             return self._given(node, seen=True)
         if any(a.stars for a in node.arguments):
             return False
+        if name == _SUPPRESS:
+            return all(isinstance(a.value, e.LibraryReference) for a in node.arguments)
         is_whole = name.removeprefix("builtins.") in _WHOLE
         seen = all(self._is_seen(a.value, whole=is_whole) for a in node.arguments)
         return seen and takes(name, self._arguments(node))
