@@ -116,9 +116,9 @@ def _without_diagnostics(module: ast.Module) -> ast.Module:
         for statement in body:
             made = made or _makes_rebec(statement)
             names = {n.id for n in ast.walk(statement) if isinstance(n, ast.Name)}
-            if _DIAGNOSES.match(ast.unparse(statement)) is None or names - known - {"rebec"}:
-                yield statement
-            elif "rebec" in names and not made:
+            if isinstance(statement, ast.Expr) and "rebec" in names and not made:
+                yield ast.copy_location(ast.Raise(), statement)  # there is none yet
+            elif _DIAGNOSES.match(ast.unparse(statement)) is None or names - known - {"rebec"}:
                 yield statement
 
     body = [*rest(module.body)]
