@@ -29,9 +29,7 @@ _DIAGNOSES = re.compile(
     rf"|rebec\.get_logger\(\)\.set_level\({_SEVERITY}\)"
     rf"|rclpy\.logging\.set_logger_level\('\w+', {_SEVERITY}\))\Z"
 )
-_DIAGNOSING = frozenset(
-    {"faulthandler", "rclpy", "rclpy.logging", "rclpy.logging.LoggingSeverity"}
-)
+_DIAGNOSING = frozenset({"faulthandler", "rclpy", "rclpy.logging", "rclpy.logging.LoggingSeverity"})
 _IMPORTS = (ast.Import, ast.ImportFrom)
 _TOLD = frozenset({"__version__", "__author__", "__license__", "__copyright__"})
 

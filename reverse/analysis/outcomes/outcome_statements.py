@@ -40,7 +40,6 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import walk
 from rebsync.unions import assert_never
 
-_SUPPRESS = "contextlib.suppress"
 ENDLESS = "nothing shows that this loop ends"
 
 
@@ -56,7 +55,6 @@ class OutcomeWalk:
         self._calls = OutcomeCalls(notes, self._expressions, self._sizes)
         self._endings = LoopEndings(notes, self._sizes, iterators)
         self._handlers = Handlers(notes)
-        self._suppressed: dict[e.Expression, tuple[e.Expression, ...]] = {}
         self._handled: list[set[Problem | Called]] = []
         self._breaks: list[list[Facts]] = []  # what is known where the loops around are left
         self.first = UnsetNames(notes).first()
@@ -101,11 +99,8 @@ class OutcomeWalk:
                 return None
             case s.Continue():
                 return None
-            case s.Call(target, s.LibraryCallee(name), arguments) if name == _SUPPRESS:
-                if isinstance(target, e.Temporary) and not any(a.stars for a in arguments):
-                    self._suppressed[target] = tuple(a.value for a in arguments)
-                return self._calls.call(node, facts)
             case s.Call():
+                self._handlers.note(node)
                 return self._calls.call(node, facts)
             case s.Construct():
                 return self._calls.construct(node, facts)
@@ -281,7 +276,7 @@ class OutcomeWalk:
                 after = self._body_of_context(context, body, facts)
                 if after is None:
                     return None
-                bound = () if self._may_swallow(context) else filter(is_bound, after)
+                bound = () if self._handlers.may_swallow(context) else filter(is_bound, after)
                 return self._changed(facts, body).union(bound)
             case s.Assert(test):
                 self.value(test, facts)
@@ -296,27 +291,15 @@ class OutcomeWalk:
             case _:
                 assert_never(node)
 
-    def _body_of_context(
-        self, context: e.Expression, body: s.Body, facts: Facts
-    ) -> Facts | None:
+    def _body_of_context(self, context: e.Expression, body: s.Body, facts: Facts) -> Facts | None:
         """What is known after the body of a `with`, which may end some exceptions."""
-        types = self._suppressed.get(context)
-        if types is None:
-            return self.body(body, facts)
         outer, self.notes.found = self.notes.found, set()
         after = self.body(body, facts)
-        _, passed = self._handlers.split(self.notes.found, s.Handler(types, ()))
-        self.notes.found = outer
-        self.notes.take(passed)
-        return self._changed(facts, body) if after is None else after
-
-    def _may_swallow(self, context: e.Expression) -> bool:
-        """Whether leaving a context may end an exception, so that its block was left before."""
-        held = self.origins.of(context, self.name)
-        return any(
-            isinstance(o, ClassOrigin) or o == LibraryOrigin(_SUPPRESS, True)
-            for o in held
-        )
+        raised, self.notes.found = self.notes.found, outer
+        self.notes.take(self._handlers.passed(context, raised))
+        if after is None and self._handlers.suppresses(context):
+            return self._changed(facts, body)
+        return after
 
     def _loop(self, node: s.Loop, facts: Facts) -> Facts:
         inner = (*node.prelude, *node.body, *node.step)

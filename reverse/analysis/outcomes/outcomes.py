@@ -25,9 +25,9 @@ from rebsync.reverse.analysis.outcomes.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.outcomes.given_arguments import with_none
 from rebsync.reverse.analysis.outcomes.held_locks import HeldLocks
 from rebsync.reverse.analysis.outcomes.outcome_statements import ENDLESS, OutcomeWalk
-from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
 from rebsync.reverse.analysis.python.operand_classes import OperandClasses
+from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.silent_calls import SilentCalls
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s

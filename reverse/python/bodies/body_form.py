@@ -26,8 +26,8 @@ from rebsync.reverse.libraries.endless import FINITE
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.size_effects import CHANGING_OBJECT
-from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import NOWHERE, Source, Span
 

@@ -9,10 +9,10 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own
 from rebsync.reverse.models.building import binary, is_calm, located
-from rebsync.reverse.python.generated.moments import is_moment, named_moment
 from rebsync.reverse.python.generated.cuts import other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
+from rebsync.reverse.python.generated.moments import is_moment, named_moment
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import calls_in, field, is_asked, named, text_of
 

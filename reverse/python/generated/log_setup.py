@@ -1,4 +1,4 @@
-"""Statements at the top of modules that only say how is logged, and what a version of Python has."""
+"""Statements at the top of modules that only say how is logged, or import what a version has."""
 
 from __future__ import annotations
 

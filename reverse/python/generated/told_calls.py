@@ -21,6 +21,7 @@ from rebsync.reverse.analysis.python.value_types import (
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.python.generated.log_words import COMPUTING
 
+_CONTAINERS = frozenset({OwnType.LIST, OwnType.TUPLE, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
 _PLAIN = frozenset({OwnType.NUMBER, OwnType.TEXT, OwnType.NONE})
 
 
@@ -38,6 +39,20 @@ def _is_known(type_: ValueType | None) -> bool:
             return all(_is_known(t) for of in within for t in of)
         case _:
             return True
+
+
+def is_plain(types: ValueTypes) -> bool:
+    """Whether values are numbers and texts, or Python's own containers of such."""
+    return bool(types) and all(map(_is_plain, types))
+
+
+def _is_plain(type_: ValueType | None) -> bool:
+    match type_:
+        case ContainerType(own, elements, values):
+            within = (elements, values) if own is OwnType.MAPPING else (elements,)
+            return own in _CONTAINERS and all(_is_plain(t) for of in within for t in of)
+        case _:
+            return type_ in _PLAIN
 
 
 def _anything(types: ValueTypes) -> bool:
@@ -129,7 +144,7 @@ _METHODS: dict[str, tuple[int, Sequence[Takes]]] = {
 
 
 def takes(name: str, given: Sequence[tuple[str | None, ValueTypes]]) -> bool:
-    """Whether a function takes some arguments, by place or name, and does nothing but give a value."""
+    """Whether a function takes some arguments, by place or name, and only gives a value."""
     if name in libraries.clocks():
         return not given
     plain = name.removeprefix("builtins.")

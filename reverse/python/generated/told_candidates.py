@@ -5,17 +5,18 @@ To lower code takes time: what has to do with the node itself is known by its wo
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator, Mapping
 
 from tree_sitter import Node
 
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.libraries.routines import Language
+from rebsync.reverse.libraries.tables.runtime import names_in_model
+from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
-from rebsync.reverse.syntax.py_tree import field, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _STATEMENTS = frozenset(
     {
@@ -23,6 +24,7 @@ _STATEMENTS = frozenset(
         *("with_statement", "try_statement"),
     }
 )
+SET_UP = ("__init__", "_wire")
 _NUMBERS = frozenset({"integer", "float", "true", "false", "unary_operator"})
 _STORING = frozenset({"assignment", "augmented_assignment"})
 
@@ -71,15 +73,16 @@ def _is_of_package(code: PyCode, module: Scope, statement: Node) -> bool:
 def may_tell(
     node: Node, members: Collection[str], own: Collection[str], publishers: Collection[str]
 ) -> bool:
-    """Whether a statement names something for people, or logs, and asks nothing else of the node."""
+    """Whether a statement names something for people, or logs, and asks the node nothing else."""
     if node.type not in _STATEMENTS:
         return False
     names_told = False
     for part in nodes_in(node):
-        if part.type == "identifier" and text_of(part) in own:
-            names_told = True
-        elif part.type == "call" and libraries.log_words().match(text_of(field(part, "function"))):
-            names_told = True
+        words = text_of(field(part, "function")) if part.type == "call" else ""
+        if part.type == "identifier":
+            names_told |= text_of(part) in own
+        elif words:
+            names_told |= libraries.log_words().match(words) is not None
         elif part.type == "attribute" and text_of(field(part, "object")) == "self":
             name = text_of(field(part, "attribute"))
             is_told = name in members or name in publishers
@@ -103,3 +106,15 @@ def _is_acted_on(attribute: Node) -> bool:
     return False
 
 
+def made_once(functions: Mapping[str, Scope]) -> Iterator[tuple[str, Node]]:
+    """What the constructor of a class puts into members, into each once only."""
+    found: dict[str, list[Node]] = {}
+    for function in (functions[name] for name in SET_UP if name in functions):
+        for statement in body_of(function):
+            inner = named(statement)[0] if statement.type == "expression_statement" else statement
+            left, value = inner.child_by_field_name("left"), inner.child_by_field_name("right")
+            if inner.type != "assignment" or left is None or value is None:
+                continue
+            if left.type == "attribute" and text_of(field(left, "object")) == "self":
+                found.setdefault(text_of(field(left, "attribute")), []).append(value)
+    yield from ((name, values[0]) for name, values in found.items() if len(values) == 1)
