@@ -90,7 +90,9 @@ class _Scope(ToldValues):
                 return self.is_free(value)
             case s.Declare(target, _, None):
                 return self._is_place(target)
-            case s.Assign(target, value) | s.Declare(target, _, e.Expression() as value):
+            case s.Assign(target, value):
+                return self._keeps(target, value)
+            case s.Declare(target, _, value) if value is not None:
                 return self._keeps(target, value)
             case s.CompoundAssign(target, _, value):
                 is_kept = self._is_place(target) and self.is_free(value)

@@ -250,11 +250,13 @@ class ToldValues(ABC):
 
     def is_object(self, value: e.Expression) -> bool:
         """Whether a value is the object of the model itself."""
-        if self.outside is not None:
-            is_captured = isinstance(value, e.Captured)
-            return is_captured and self.outside.is_object(e.Local(value.name))
-        is_local = self.places is not None and isinstance(value, e.Local)
-        return is_local and value.name == self.function.receiver
+        match value:
+            case e.Captured(name=name) if self.outside is not None:
+                return self.outside.is_object(e.Local(name))
+            case e.Local(name) if self.outside is None:
+                return self.places is not None and name == self.function.receiver
+            case _:
+                return False
 
     def _is_free_global(self, value: e.Global) -> bool:
         """Whether a variable of a module is a function or class, a logger, or one plain value."""
