@@ -160,8 +160,8 @@ class ToldValues(ABC):
             case e.Global():
                 return self._is_free_global(value)
             case e.Attribute(of, name) if self.is_object(of):
-                kept = self.places.attributes if self.places is not None else ()
-                return name in kept or name in self.effects.plain or self.is_plain(value, name)
+                own = self.places.attributes if self.places is not None else ()
+                return name in own or name in self.effects.plain or self.is_plain(value, name)
             case e.Attribute(of, name):
                 return self.is_free(of) and self._is_known(of, name)
             case e.Index(of, index):
