@@ -48,7 +48,7 @@ _STAMP: list[tuple[str, str, int | None]] = [("sec", "int32", None), ("nanosec",
 # quaternion starts as the one that does not turn.
 _COUNTED = frozenset({("std_msgs/Header", "seq")})
 _STARTED = frozenset({("geometry_msgs/Quaternion", "w")})
-_ROS2 = re.compile(r"\b(?:rclcpp|rclpy|ament_\w+|rosidl_\w+)")
+_ROS2 = re.compile(r"\b(?:ament|rosidl)_\w+")
 
 Fields = Mapping[str, Type | None]
 

@@ -137,8 +137,6 @@ _METHODS = {
         **_does(Effect.NONE, "getTopic", "isLatched"),
         **_does(Effect.NONE, "getNumSubscribers", kind=Kind.AUDIENCE),
     },
-    # What a callback of new subscribers gets: it sends to one of them.
-    "ros::SingleSubscriberPublisher": _does(Effect.RUNS, "publish"),
     "ros::Subscriber": _does(Effect.NONE, "getNumPublishers", kind=Kind.AUDIENCE),
     "ros::Timer": _does(Effect.NONE, "hasPending", "hasStarted", "isValid"),
     "ros::Duration": _does(Effect.NONE, "isZero", "toNSec", "toSec"),
