@@ -44,6 +44,12 @@ _MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
 _STAMP_TYPES = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
 _STAMP: list[tuple[str, str, int | None]] = [("sec", "int32", None), ("nanosec", "uint32", None)]
 
+# The number of a header is counted by the publishers of ROS 1, whatever the code says. In ROS 2 a
+# quaternion starts as the one that does not turn.
+_COUNTED = frozenset({("std_msgs/Header", "seq")})
+_STARTED = frozenset({("geometry_msgs/Quaternion", "w")})
+_ROS2 = re.compile(r"\b(?:ament|rosidl)_\w+")
+
 Fields = Mapping[str, Type | None]
 
 
@@ -58,6 +64,8 @@ class MessageTypes:
     own: dict[str, list[tuple[str, str, int | None]]]
     package: str
     widths: dict[str, dict[str, int]] = field(default_factory=dict)
+    # Fields of types that come with ROS which start with, or get, other values than 0.
+    set_by_library: frozenset[tuple[str, str]] = _COUNTED
     _constants: dict[str, int | str] = field(default_factory=dict)
     _ranges: dict[tuple[str, str], Interval] = field(default_factory=dict)
     _fields: dict[str, Fields] = field(default_factory=dict)
@@ -85,7 +93,8 @@ class MessageTypes:
                         if constants.setdefault(name, value) != value:
                             unclear.add(name)  # messages of two packages have one name
         known = {name: value for name, value in constants.items() if name not in unclear}
-        return MessageTypes(own, package, {}, known, {})
+        others = _COUNTED | _STARTED if _is_ros2(files) else _COUNTED
+        return MessageTypes(own, package, {}, others, known, {})
 
     def constants(self) -> dict[str, int | str]:
         """The whole numbers and texts that messages of the package give names."""
@@ -188,7 +197,9 @@ class MessageTypes:
                 self.widths.setdefault(whole, {})[at] = _WIDTHS[plain]
             if plain in _UNSIGNED:
                 self._ranges[whole, at] = unsigned(_UNSIGNED[plain])
-            if plain in _TYPES:
+            if (type_, name) in self.set_by_library:
+                yield at, None
+            elif plain in _TYPES:
                 dimensions = () if length is None else (length,)
                 is_kept = length is None if plain == "string" else length != 0
                 yield at, Type(_TYPES[plain], dimensions) if is_kept else None
@@ -241,6 +252,11 @@ def _of_rosidl(files: Mapping[str, Source]) -> bool | None:
     manifests = [s.text for path, s in files.items() if path.endswith("package.xml")]
     found = {"rosidl_" in text for text in manifests if _GENERATES.search(text)}
     return found.pop() if len(found) == 1 else None
+
+
+def _is_ros2(files: Mapping[str, Source]) -> bool:
+    """Whether a manifest is of a package of ROS 2."""
+    return any(_ROS2.search(s.text) for path, s in files.items() if path.endswith("package.xml"))
 
 
 def _dimension(length: int | None) -> str:

@@ -108,6 +108,11 @@ def node_classes() -> frozenset[str]:
     return frozenset(n for library in _libraries() for n in library.nodes)
 
 
+def sends_while_active(name: str) -> bool:
+    """Whether a method makes a publisher that sends only while the life cycle is active."""
+    return name == "create_lifecycle_publisher"
+
+
 @derived
 def managed() -> frozenset[str]:
     """The full names of classes of nodes whose state others change."""

@@ -294,7 +294,6 @@ class Setup:
         return None
 
     # --- loops and waiting ----------------------------------------------------------------------
-
     def _loops(self) -> None:
         rates = [f for f in self.facts if isinstance(f, RateFact)]
         for function in self.first:
@@ -305,9 +304,11 @@ class Setup:
     def _loop(self, function: CppFunction, loop: NodeLoop) -> None:
         parts = (*loop.first, *loop.rest)
         self.instead[loop.node.id] = ()
-        if loop.rate is not None and self.servers and _serves(loop.node):
-            place = loop.rate.site.place
-            self.findings.assumed(place.source, place.span, _ROUND, within=self.within)
+        if self.servers and _serves(loop.node) and (loop.rate is not None or loop.sleeps):
+            source, span = function.cpp.source, function.cpp.span(loop.node)
+            if loop.rate is not None:
+                source, span = loop.rate.site.place.source, loop.rate.site.place.span
+            self.findings.assumed(source, span, _ROUND, within=self.within)
         for middle in served_within(loop) if self.servers else ():
             self.findings.unreadable(function.cpp.source, middle, self.within)
         if parts:

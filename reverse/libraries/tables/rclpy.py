@@ -91,7 +91,7 @@ _FUNCTIONS = {
     "rclpy.init": Routine(Kind.START, result="rclpy.InitContextManager"),
     "rclpy.shutdown": Routine(Kind.START, does=Effect.ENDS),
     "rclpy.spin": Routine(Kind.SPIN),
-    "rclpy.spin_until_future_complete": Routine(Kind.SPIN, result="future"),
+    "rclpy.spin_until_future_complete": Routine(result="future", does=Effect.RUNS),
     "rclpy.spin_once": Routine(Kind.SERVE),
     "rclpy.ok": Routine(Kind.RUNNING, result="bool"),
     "rclpy.logging.get_logger": Routine(),

@@ -10,7 +10,13 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_timers import started
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.graph import ParameterFact, RateFact, SubscriptionFact, TimerFact
+from rebsync.reverse.graph import (
+    ParameterFact,
+    PublisherFact,
+    RateFact,
+    SubscriptionFact,
+    TimerFact,
+)
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.contexts import starting_contexts
 from rebsync.reverse.libraries.routines import Kind
@@ -29,6 +35,7 @@ from rebsync.reverse.python.values.py_worth import Class
 from rebsync.reverse.syntax.py_index import CLASS, arguments_of, last_name
 from rebsync.reverse.syntax.py_tree import field, text_of
 
+_SENDS = "this sends only while the life cycle of the node is active: the model always does"
 _NAMES = frozenset({"identifier", "attribute"})
 
 
@@ -100,6 +107,8 @@ def _fact(
             raise Unread(span, "it waits here for one message")
         case SubscriptionFact() if not reader.frame.is_start:
             raise Unread(span, "it subscribes while it runs: in the model it always has")
+        case PublisherFact() if libraries.sends_while_active(last_name(field(call, "function"))):
+            raise Unread(span, _SENDS)
         case _:
             return
 
