@@ -1,4 +1,4 @@
-"""What stands before each source of C++ as the build compiles it: a header of the macros it sets."""
+"""What stands before each source of C++ as the build compiles it: the macros that it sets."""
 
 from __future__ import annotations
 

@@ -111,7 +111,7 @@ class CompilerSettings:
             text = None
         self.macros.setdefault(BuildMacro(name, parameters or "", text))
 
-    # --- headers that are written -------------------------------------------------------------------
+    # --- headers that are written -----------------------------------------------------------------
 
     def _written(self, call: Invocation, maker: Maker) -> None:
         """The headers that a command writes: what they define is only known of templates."""

@@ -28,10 +28,11 @@ from rebsync.reverse.nodes.node_wiring import (
 from rebsync.reverse.python.bodies.body_reading import Reading
 from rebsync.reverse.python.bodies.body_scope import Key, PyUnit
 from rebsync.reverse.python.nodes.object_model import list_object_model
+from rebsync.reverse.python.values.py_lookup import scope_at
 from rebsync.reverse.python.values.py_worth import Instance as Object
 from rebsync.reverse.python.values.py_worth import Value
 from rebsync.reverse.syntax.py_bindings import Binding
-from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_index import MODULE, Scope
 from rebsync.reverse.syntax.py_tree import field, text_of
 from rebsync.reverse.unknowns import Open
 
@@ -131,9 +132,17 @@ def list_endless(
 
 
 def _set_elsewhere(unit: PyUnit, reading: Reading) -> Iterator[tuple[Scope, Binding]]:
-    """The assignments to attributes of the unit's object that its bodies do not have."""
-    own = {key[2] for key in reading.state.values() if key[0] == "self"}
+    """The assignments to what is state of the unit that its bodies do not have.
+
+    Those of a module that functions make; and to attributes of the unit's object.
+    """
     code = reading.code
+    for name in (key[2] for key in reading.state.values() if key[0] == "module"):
+        for binding in unit.module.names.get(name, ()):
+            scope = scope_at(reading.values, binding, unit.module)
+            if scope.kind != MODULE and scope.node.id not in reading.bodies:
+                yield scope, binding
+    own = {key[2] for key in reading.state.values() if key[0] == "self"}
     for scope in (*code.scopes.values(), *code.modules.values()):
         for (_, name), bindings in scope.stores.items():
             if name not in own or scope.node.id in reading.bodies:
