@@ -33,6 +33,7 @@ from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.models.dead_texts import without_dead_texts
 from rebsync.reverse.models.texts import enumerated, text_variables
+from rebsync.reverse.nodes.node_arguments import own_arguments
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_joined import Joined, Observed, Part
 from rebsync.reverse.nodes.node_lacking import marked_lacking
@@ -320,7 +321,7 @@ def _in_cpp(files: Mapping[str, Source], findings: Findings) -> Code:
     defined, odd = compiled_with(files)
     findings.all += odd
     code = Code.of(trees if defined is None else [*trees, parse(defined)])
-    findings.all += hiding_macros(code)
+    findings.all += (*hiding_macros(code), *own_arguments(code))
     return code
 
 

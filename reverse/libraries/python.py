@@ -397,3 +397,18 @@ def hook_roles(routine: Routine) -> frozenset[str]:
 def marks() -> tuple[bytes, ...]:
     """Where none of these is in a file, it asks nothing of ROS."""
     return tuple(m.encode() for library in _libraries() for m in library.marks)
+
+
+# --- arguments of programs ----------------------------------------------------------------------
+
+
+@derived
+def own_arguments() -> frozenset[str]:
+    """With which methods, keywords and types code gives its node arguments of its own."""
+    return frozenset[str]().union(*(library.own_arguments for library in _libraries()))
+
+
+@derived
+def taking_arguments() -> Mapping[str, Routine]:
+    """What takes the arguments of the program, by full names."""
+    return {n: r for n, r in _functions() if "arguments" in r.arguments}

@@ -90,7 +90,7 @@ _FUNCTIONS = {
     "image_transport::create_camera_subscription": _image(
         Kind.SUBSCRIPTION, "", "name", "callback", "", "depth"
     ),
-    "rclcpp::init": Routine(Kind.START),
+    "rclcpp::init": Routine(Kind.START, ("arguments", "arguments")),
     "rclcpp::spin": Routine(Kind.SPIN),
     "rclcpp::spin_some": Routine(Kind.SERVE),
     "rclcpp::spin_all": Routine(Kind.SERVE, ("timeout",)),
@@ -192,6 +192,12 @@ LIBRARIES = (
         },
         nodes=frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"}),
         managed=frozenset({"rclcpp_lifecycle::LifecycleNode"}),
+        own_arguments=frozenset(
+            {
+                *("arguments", "append_parameter_override", "parameter_overrides"),
+                "use_global_arguments",
+            }
+        ),
         plain=frozenset({"ParameterValue"}),
         marks=("rclcpp",),
         starts=("rclcpp",),
