@@ -31,7 +31,8 @@ def own_arguments(code: Code) -> Iterator[Finding]:
         for node in code.named(cpp, cpp.root, words) if not cpp.is_beside else ():
             above = climb(node, lambda n: n.type == "call_expression")
             call = call_of(above) if above is not None else None
-            if call is not None and call.name == text_of(node) and _gives(cpp, call):
+            name = call.name.rpartition("::")[2] if call is not None else ""
+            if call is not None and name == text_of(node) and _gives(cpp, call):
                 span = cpp.span(call.node)
                 yield Finding(Grade.UNREADABLE, cpp.source, span, OWN_ARGUMENTS)
 
