@@ -7,8 +7,8 @@ from functools import partial
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.syntax.cpp_tree import text_of
 from rebsync.reverse.syntax.cpp_index import CppFunction
+from rebsync.reverse.syntax.cpp_tree import text_of
 from rebsync.reverse.values.cpp_assignments import CppAssignments
 from rebsync.reverse.values.cpp_flow_types import Variable
 from rebsync.reverse.values.cpp_flow_writes import Key, key_of
