@@ -94,10 +94,10 @@ class CompilerSettings:
                     if (found := _DEFINITION.fullmatch(each)) is not None:
                         text = "1" if found[3] is None else found[3]
                         self._define(call, found[1], found[2], text)
-            elif not isinstance(word, Unset):  # what other packages define is for their headers
+            else:
                 written = [a.text for a in call.command.arguments if "$" in a.text]
                 names = [n for text in written for n in _names_in(text)]
-                if not names:
+                if not names and not isinstance(word, Unset):  # others' are for their headers
                     self._odd(call, word.why)
                 for name in names:
                     self._define(call, name, None, None)
