@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from rebsync.reverse.findings import Grade
@@ -15,6 +16,7 @@ from rebsync.reverse.report import different
 from rebsync.reverse.unknowns import Open
 
 _READ = (Access.GET, Access.DECLARE)
+_PLAIN_CHAR = re.compile(r"(?<!signed )\bchar[ \t]+\w+[ \t]*[=;{]")
 _CHANGED = (Access.SET, Access.DELETE)
 # What says in a launch file that whoever starts it may choose.
 _ARGUMENTS = ("<arg", "DeclareLaunchArgument", "$(env", "$(optenv", "EnvironmentVariable")
@@ -33,6 +35,9 @@ def assumed(extracted: Extracted) -> Iterator[str]:
     if inner := sorted(_topics_inside(extracted.joined)):
         yield f"nobody outside publishes to {', '.join(inner)}, and no message there is lost"
     yield from _launched(extracted.joined)
+    texts = (cpp.source.text for cpp in extracted.asking.code.files if b"char" in cpp.words)
+    if any(_PLAIN_CHAR.search(text) for text in texts):
+        yield "a char that does not say it has a sign, as on x86"
     yield "no callback ends by an exception"
 
 

@@ -403,9 +403,9 @@ def marks() -> tuple[bytes, ...]:
 
 
 @derived
-def own_arguments() -> frozenset[str]:
-    """With which methods, keywords and types code gives its node arguments of its own."""
-    return frozenset[str]().union(*(library.own_arguments for library in _libraries()))
+def own_arguments() -> Mapping[str, str]:
+    """With which methods and keywords code gives its node arguments of its own."""
+    return {n: text for library in _libraries() for n, text in library.own_arguments.items()}
 
 
 @derived

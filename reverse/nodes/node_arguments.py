@@ -19,14 +19,12 @@ from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of
 
 OWN_ARGUMENTS = "arguments that the code gives its node by itself are not read"
-_AS_IT_IS = ("true", "")
 
 
 def own_arguments(code: Code) -> Iterator[Finding]:
     """The places of some files that give nodes other arguments than the program's."""
-    words = libraries.own_arguments() | {
-        n.rpartition("::")[2] for n in libraries.taking_arguments()
-    }
+    taking = (name.rpartition("::")[2] for name in libraries.taking_arguments())
+    words = {*libraries.own_arguments(), *taking}
     for cpp in code.files:
         for node in code.named(cpp, cpp.root, words) if not cpp.is_beside else ():
             above = climb(node, lambda n: n.type == "call_expression")
@@ -40,7 +38,8 @@ def own_arguments(code: Code) -> Iterator[Finding]:
 def _gives(cpp: Cpp, call: CppCall) -> bool:
     given = [text_of(a) for a in call.arguments]
     if call.target is not None:
-        return call.name in libraries.own_arguments() and ", ".join(given) not in _AS_IT_IS
+        nothing = libraries.own_arguments().get(call.name)
+        return nothing is not None and given not in ([], [nothing])
     full = "".join(text_of(part(call.node, "function")).split())
     routine = libraries.taking_arguments().get(full.removeprefix("::"))
     if routine is None:

@@ -192,12 +192,10 @@ LIBRARIES = (
         },
         nodes=frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"}),
         managed=frozenset({"rclcpp_lifecycle::LifecycleNode"}),
-        own_arguments=frozenset(
-            {
-                *("arguments", "append_parameter_override", "parameter_overrides"),
-                "use_global_arguments",
-            }
-        ),
+        own_arguments={
+            **dict.fromkeys(("arguments", "parameter_overrides"), ""),
+            **{"append_parameter_override": "", "use_global_arguments": "true"},
+        },
         plain=frozenset({"ParameterValue"}),
         marks=("rclcpp",),
         starts=("rclcpp",),

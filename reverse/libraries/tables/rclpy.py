@@ -204,7 +204,10 @@ LIBRARIES = (
         },
         nodes=frozenset(_NODES),
         managed=frozenset(n for n in _NODES if n.startswith("rclpy.lifecycle.")),
-        own_arguments=frozenset({"cli_args", "parameter_overrides", "use_global_arguments"}),
+        own_arguments={
+            **dict.fromkeys(("cli_args", "parameter_overrides"), "None"),
+            **{"use_global_arguments": "True", "ignore_override": "False"},
+        },
         marks=("rclpy", "message_filters"),
         table=Table(profiles=_PROFILES, policies=_POLICIES),
         logs=("get_logger",),

@@ -16,30 +16,34 @@ from rebsync.reverse.python.values.py_worth import External, Items
 from rebsync.reverse.syntax.py_index import Scope, arguments_of, last_name
 from rebsync.reverse.syntax.py_tree import field, text_of
 
-_NOTHING = frozenset({"None", "True", "[]", "()"})
+_NOTHING = frozenset({"None", "[]", "()"})
 _OF_PROGRAM = re.compile(r"(?:sys\.)?argv(?:\[[^\]]*\])?")
 
 
 def list_own_arguments(values: PyValues, findings: Findings) -> None:
     """Lists the calls that give nodes other arguments than the program's."""
     for call, scope in values.code.calls:
-        if not scope.py.is_beside and any(
-            _is_own(values, n, scope) for n in _given(values, call, scope)
-        ):
+        is_beside = scope.py.is_beside
+        if not is_beside and (_is_told(call) or any(_others(values, call, scope))):
             findings.unreadable(scope.py.source, Unread(scope.py.span(call), OWN_ARGUMENTS), "")
 
 
-def _given(values: PyValues, call: Node, scope: Scope) -> Iterator[Node]:
-    """The arguments of a call that may be those of a node."""
+def _is_told(call: Node) -> bool:
+    """Whether a keyword of a call says something of the arguments or parameters of a node."""
+    words = libraries.own_arguments()
     _, keywords = arguments_of(call)
-    yield from (node for name, node in keywords.items() if name in libraries.own_arguments())
+    return any(name in words and text_of(node) != words[name] for name, node in keywords.items())
+
+
+def _others(values: PyValues, call: Node, scope: Scope) -> Iterator[bool]:
+    """Of what a call starts the library with whether it is other than the program's arguments."""
     taking = libraries.taking_arguments()
     function = field(call, "function")
     if last_name(function) in {n.rpartition(".")[2] for n in taking}:
         for way in values.ways(function, scope):
             if isinstance(way, External) and way.name in taking:
                 given = roles(taking[way.name], call).get("arguments")
-                yield from () if given is None else (given,)
+                yield given is not None and _is_own(values, given, scope)
 
 
 def _is_own(values: PyValues, node: Node, scope: Scope) -> bool:
