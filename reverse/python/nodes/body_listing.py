@@ -105,9 +105,10 @@ def list_shared(
             why = f'several rebecs of one program share "{name}": in the model each has its own'
             span = unit.module.py.span(binding.node)
             findings.unreadable(unit.module.py.source, Unread(span, why), names[0])
+    read = {body for reading in readings.values() for body in reading.bodies}
     for unit in units:
         list_object_model(readings[unit.name], findings)
-        for scope, binding in _set_elsewhere(unit, readings[unit.name]):
+        for scope, binding in _set_elsewhere(unit, readings[unit.name], read):
             why = "this sets what is state of a rebec, in code that is not read"
             span = scope.py.span(binding.node)
             findings.unreadable(scope.py.source, Unread(span, why), unit.name)
@@ -131,16 +132,19 @@ def list_endless(
                 findings.unreadable(source, Unread(span, why), unit.name)
 
 
-def _set_elsewhere(unit: PyUnit, reading: Reading) -> Iterator[tuple[Scope, Binding]]:
+def _set_elsewhere(
+    unit: PyUnit, reading: Reading, read: Collection[int]
+) -> Iterator[tuple[Scope, Binding]]:
     """The assignments to what is state of the unit that its bodies do not have.
 
-    Those of a module that functions make; and to attributes of the unit's object.
+    Those of a module that functions make which are no bodies that are `read`, of any unit; and to
+    attributes of the unit's object.
     """
     code = reading.code
     for name in (key[2] for key in reading.state.values() if key[0] == "module"):
         for binding in unit.module.names.get(name, ()):
             scope = scope_at(reading.values, binding, unit.module)
-            if scope.kind != MODULE and scope.node.id not in reading.bodies:
+            if scope.kind != MODULE and scope.node.id not in read:
                 yield scope, binding
     own = {key[2] for key in reading.state.values() if key[0] == "self"}
     for scope in (*code.scopes.values(), *code.modules.values()):
