@@ -13,7 +13,7 @@ from tree_sitter import Node
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.libraries.cpp import library_names
 from rebsync.reverse.syntax.cpp_index import Code
-from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, inside, text_of
 
 _MACROS = ("preproc_def", "preproc_function_def")
 # Words of the language that say nothing of what code does, and may be taken away.
@@ -50,6 +50,7 @@ _DECLARING = {
         }
     ),
 }
+_SEVERAL = "this is worked out of what has several values"
 _WHY = "a macro by the name of something else: it is read as that"
 
 
@@ -69,6 +70,21 @@ def hiding_macros(code: Code) -> Iterator[Finding]:
             for cpp, node in defined:
                 line = cpp.span(node)
                 yield Finding(Grade.UNREADABLE, cpp.source, line, f"{_WHY}: {name}")
+    yield from _enumerators(code)
+
+
+def _enumerators(code: Code) -> Iterator[Finding]:
+    """Enumerators by what their file defines in one way, and other files or the build in another.
+
+    What a constant is counts where it is named, but their values are those of the file alone.
+    """
+    for each in (e for found in code.enumerators.values() for e in found):
+        value = each.node.child_by_field_name("value")
+        for name in map(text_of, inside(value, "identifier")):
+            in_file = code.constant(each.cpp, name) is not None
+            if in_file and name not in code.constants_for(each.cpp):
+                span = each.cpp.span(each.node)
+                yield Finding(Grade.UNREADABLE, each.cpp.source, span, f"{_SEVERAL}: {name}")
 
 
 def _is_itself(node: Node, name: str) -> bool:

@@ -14,7 +14,7 @@ from rebsync.reverse.files.python_files import is_launch
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.python.bodies.body_units import scope_around
 from rebsync.reverse.python.values.py_values import PyValues
-from rebsync.reverse.python.values.py_worth import External, Module
+from rebsync.reverse.python.values.py_worth import External, Function, Module
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import MODULE, Scope
 from rebsync.reverse.syntax.py_tree import field, text_of
@@ -65,6 +65,8 @@ def _is_replaced(way: object, name: str) -> bool:
     match way:
         case Module(inner):
             return any(b.how in ("scope", "import") for b in inner.names.get(name, ()))
+        case Function():
+            return name.startswith("__")
         case External(library):
             return not f"{library}.{name}".startswith(_OF_INTERPRETER)
         case _:
