@@ -16,7 +16,7 @@ from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_declarations import function_of
 from rebsync.reverse.syntax.cpp_index import Code
-from rebsync.reverse.syntax.cpp_tree import Cpp, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, part, text_of
 
 OWN_ARGUMENTS = "arguments that the code gives its node by itself are not read"
 
@@ -53,4 +53,5 @@ def _parameters(cpp: Cpp, node: Node) -> set[str]:
     """The names of what the function around a node takes."""
     above = climb(node, lambda n: n.type == "function_definition")
     function = function_of(cpp, above, "") if above is not None else None
-    return {p.name for p in function.parameters} if function is not None else set()
+    found = function.parameters if function is not None else ()  # also of `char* argv[]`
+    return {text_of(name) for p in found for name in inside(p.node, "identifier")}
