@@ -400,19 +400,3 @@ def telling_words() -> frozenset[str]:
     """
     checks = (name for name in named(Kind.CHECK) if name.isupper() and "_" in name)
     return asking_words().union(checks, named(Kind.PUBLISH, Kind.SPIN, Kind.SERVE))
-
-
-# --- arguments of programs ----------------------------------------------------------------------
-
-
-@derived
-def own_arguments() -> Mapping[str, str]:
-    """With which methods and keywords code gives its node arguments of its own."""
-    return {n: text for library in _libraries() for n, text in library.own_arguments.items()}
-
-
-@derived
-def taking_arguments() -> Mapping[str, Routine]:
-    """What takes the arguments of the program, by full names."""
-    found = ((n, r) for library in _libraries() for n, r in library.functions.items())
-    return {n: r for n, r in found if "arguments" in r.arguments}

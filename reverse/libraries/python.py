@@ -397,18 +397,3 @@ def hook_roles(routine: Routine) -> frozenset[str]:
 def marks() -> tuple[bytes, ...]:
     """Where none of these is in a file, it asks nothing of ROS."""
     return tuple(m.encode() for library in _libraries() for m in library.marks)
-
-
-# --- arguments of programs ----------------------------------------------------------------------
-
-
-@derived
-def own_arguments() -> Mapping[str, str]:
-    """With which methods and keywords code gives its node arguments of its own."""
-    return {n: text for library in _libraries() for n, text in library.own_arguments.items()}
-
-
-@derived
-def taking_arguments() -> Mapping[str, Routine]:
-    """What takes the arguments of the program, by full names."""
-    return {n: r for n, r in _functions() if "arguments" in r.arguments}

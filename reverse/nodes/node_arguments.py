@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Finding, Grade
-from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries import arguments
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_declarations import function_of
@@ -23,8 +23,8 @@ OWN_ARGUMENTS = "arguments that the code gives its node by itself are not read"
 
 def own_arguments(code: Code) -> Iterator[Finding]:
     """The places of some files that give nodes other arguments than the program's."""
-    taking = (name.rpartition("::")[2] for name in libraries.taking_arguments())
-    words = {*libraries.own_arguments(), *taking}
+    taking = (name.rpartition("::")[2] for name in arguments.taking_in_cpp())
+    words = {*arguments.own_in_cpp(), *taking}
     for cpp in code.files:
         for node in code.named(cpp, cpp.root, words) if not cpp.is_beside else ():
             above = climb(node, lambda n: n.type == "call_expression")
@@ -38,10 +38,10 @@ def own_arguments(code: Code) -> Iterator[Finding]:
 def _gives(cpp: Cpp, call: CppCall) -> bool:
     given = [text_of(a) for a in call.arguments]
     if call.target is not None:
-        nothing = libraries.own_arguments().get(call.name)
+        nothing = arguments.own_in_cpp().get(call.name)
         return nothing is not None and given not in ([], [nothing])
     full = "".join(text_of(part(call.node, "function")).split())
-    routine = libraries.taking_arguments().get(full.removeprefix("::"))
+    routine = arguments.taking_in_cpp().get(full.removeprefix("::"))
     if routine is None:
         return False
     own = _parameters(cpp, call.node)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries import arguments
 from rebsync.reverse.nodes.node_arguments import OWN_ARGUMENTS
 from rebsync.reverse.python.values.py_asks import roles
 from rebsync.reverse.python.values.py_values import PyValues
@@ -30,14 +30,14 @@ def list_own_arguments(values: PyValues, findings: Findings) -> None:
 
 def _is_told(call: Node) -> bool:
     """Whether a keyword of a call says something of the arguments or parameters of a node."""
-    words = libraries.own_arguments()
+    words = arguments.own_in_python()
     _, keywords = arguments_of(call)
     return any(name in words and text_of(node) != words[name] for name, node in keywords.items())
 
 
 def _others(values: PyValues, call: Node, scope: Scope) -> Iterator[bool]:
     """Of what a call starts the library with whether it is other than the program's arguments."""
-    taking = libraries.taking_arguments()
+    taking = arguments.taking_in_python()
     function = field(call, "function")
     if last_name(function) in {n.rpartition(".")[2] for n in taking}:
         for way in values.ways(function, scope):
