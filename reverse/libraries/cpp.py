@@ -303,13 +303,6 @@ def copying() -> frozenset[str]:
 
 
 @derived
-def library_names() -> frozenset[str]:
-    """The last names of functions of libraries but for macros of theirs."""
-    names = {last(name) for library in _libraries() for name in library.functions}
-    return frozenset(n for n in names if not n.isupper())
-
-
-@derived
 def copying_scopes() -> frozenset[str]:
     """The outermost namespaces of libraries whose constructors only copy what they get."""
     return frozenset(scope for library in _libraries() for scope in library.copying)

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Finding, Grade
-from rebsync.reverse.libraries.cpp import library_names
+from rebsync.reverse.libraries.cpp_calls import library_names
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, by_types, inside, text_of
 
