@@ -12,6 +12,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.analysis.intervals.evaluation_order import out_of_order
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.build.built import unbuilt
+from rebsync.reverse.build.compiled_with import compiled_with
 from rebsync.reverse.build.field_order import in_order
 from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.calls.ros_calls import Asking
@@ -32,6 +33,7 @@ from rebsync.reverse.graph import Graph
 from rebsync.reverse.launch.launched import Launch
 from rebsync.reverse.models.dead_texts import without_dead_texts
 from rebsync.reverse.models.texts import enumerated, text_variables
+from rebsync.reverse.nodes.node_arguments import own_arguments
 from rebsync.reverse.nodes.node_components import executables
 from rebsync.reverse.nodes.node_joined import Joined, Observed, Part
 from rebsync.reverse.nodes.node_lacking import marked_lacking
@@ -42,6 +44,7 @@ from rebsync.reverse.nodes.node_system import Nodes, NodeSystem
 from rebsync.reverse.nodes.open_ends import open_ends, with_open_servers
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
+from rebsync.reverse.syntax.hiding_macros import hiding_macros
 from rebsync.reverse.syntax.unparsed import unparsed
 from rebsync.source import NOWHERE, Source
 
@@ -315,7 +318,11 @@ def _in_cpp(files: Mapping[str, Source], findings: Findings) -> Code:
         if path.endswith(_CODE)
     ]
     findings.all += [finding for tree in trees for finding in unparsed(tree)]
-    return Code.of(trees)
+    defined, odd = compiled_with(files)
+    findings.all += odd
+    code = Code.of(trees if defined is None else [*trees, parse(defined)])
+    findings.all += (*hiding_macros(code), *own_arguments(code))
+    return code
 
 
 def _in_python(

@@ -7,6 +7,9 @@ under that condition, and variables set there are open afterwards.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+from dataclasses import field
+
 from rebsync.records import dataclass
 from rebsync.reverse.unknowns import Open, Text, Unknown
 from rebsync.source import Source, Span
@@ -34,12 +37,29 @@ class BuildTarget:
 
 
 @dataclass(frozen=True, slots=True)
+class BuildMacro:
+    """A macro that the build defines; `text` is None where what it stands for is not known."""
+
+    name: str
+    parameters: str = ""
+    text: str | None = None
+
+    @property
+    def directives(self) -> Iterator[str]:
+        """The lines that say the same in a header: two that disagree where nothing is known."""
+        for text in ("0", "1") if self.text is None else (self.text,):
+            yield f"#define {self.name}{self.parameters} {text}\n"
+
+
+@dataclass(frozen=True, slots=True)
 class BuildFiles:
     """What the CMake files of a package say.
 
     `messages`, `services` and `actions` are paths relative to the package, as are `programs`:
     scripts that are installed. `foreign` are commands that may make targets of their own,
-    `packages` the packages that are looked for, `tests` the sources of what only tests.
+    `packages` the packages that are looked for, `tests` the sources of what only tests. `macros`
+    are defined for some source, in a way that is not known where something is `odd`; `written` are
+    the headers that the build writes, by their names.
     """
 
     project: str | None
@@ -53,6 +73,9 @@ class BuildFiles:
     foreign: frozenset[str] = frozenset()
     packages: frozenset[str] = frozenset()
     tests: frozenset[str] = frozenset()
+    macros: tuple[BuildMacro, ...] = ()
+    odd: tuple[Unknown, ...] = ()
+    written: Mapping[str, Unknown] = field(default_factory=dict)
 
     @property
     def is_closed(self) -> bool:

@@ -20,6 +20,7 @@ from rebsync.reverse.build.cmake_targets import (
 )
 from rebsync.reverse.build.cmake_text import Command, CommandBlock, Item, Quote, read_cmake
 from rebsync.reverse.build.cmake_values import CmakeVariables, known, sections
+from rebsync.reverse.build.compiler_settings import CompilerSettings
 from rebsync.reverse.files.packages import BESIDE
 from rebsync.reverse.unknowns import Open, Text
 from rebsync.source import Source, Span
@@ -80,6 +81,9 @@ def read_build(source: Source, folder: Folder | None = None) -> BuildFiles:
         frozenset(maker.foreign),
         frozenset(maker.packages),
         frozenset(maker.tests),
+        tuple(runner.settings.macros),
+        tuple(runner.settings.odd),
+        runner.settings.written,
     )
 
 
@@ -89,6 +93,7 @@ class _Runner:
     sources: list[Source]
     project: str | None = None
     macros: dict[str, tuple[CommandBlock, Source]] = field(default_factory=dict)
+    settings: CompilerSettings = field(default_factory=CompilerSettings)
     depth: int = 0
     steps: int = 0
 
@@ -197,6 +202,7 @@ class _Runner:
     def _command(self, command: Command, variables: CmakeVariables, source: Source) -> None:
         words = variables.words(command.arguments)
         call = Invocation(command, words, variables, source)
+        self.settings.read(call, self.maker)
         match command.name:
             case "project":
                 self._project(words, variables)
@@ -301,8 +307,15 @@ class _Runner:
         call.variables.values |= inside.exported
 
     def _include(self, call: Invocation) -> None:
-        """Modules of CMake do not matter here; files of the package may."""
+        """Modules of CMake do not matter here; files of the package are carried out."""
         name = call.words[0] if call.words else ""
+        inner = self._module(name, call) if isinstance(name, str) else None
+        if inner is not None and self.depth < _DEEPEST and len(self.sources) < _MOST_FILES:
+            self.sources.append(inner)
+            self.depth += 1
+            self.file(inner, call.variables)
+            self.depth -= 1
+            return
         if _MODULES in call.variables.values:
             self.maker.foreign.add("include")  # it may be a module of the package
         if isinstance(name, Open) or "." in name or "/" in name:
@@ -310,6 +323,14 @@ class _Runner:
             self.maker.unknown(f"`{what}`", "included files are not read", call)
             for variable in call.variables.values:
                 call.variables.values[variable] = (Open("an included file may have set it"),)
+
+    def _module(self, name: str, call: Invocation) -> Source | None:
+        """The file of the package that is included by a path, or by a name that is looked for."""
+        folders = [w for w in call.variables.values.get(_MODULES, ()) if isinstance(w, str)]
+        wanted = [name, *(posixpath.join(folder, f"{name}.cmake") for folder in folders)]
+        paths = (call.variables.path(each) for each in wanted if each)
+        found = (self.maker.folder.load(path) for path in paths if isinstance(path, str))
+        return next(filter(None, found), None)
 
 
 def _set(words: list[Text], variables: CmakeVariables) -> None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from rebsync.reverse.findings import Grade
-from rebsync.reverse.graph import ParameterFact, PublisherFact
+from rebsync.reverse.graph import ParameterFact, PublisherFact, Resolved
 from rebsync.reverse.libraries.routines import Access
 from rebsync.reverse.nodes.node_joined import Joined
 from rebsync.reverse.nodes.node_values import Instance
@@ -15,6 +16,8 @@ from rebsync.reverse.report import different
 from rebsync.reverse.unknowns import Open
 
 _READ = (Access.GET, Access.DECLARE)
+_PLAIN_CHAR = re.compile(r"(?<!signed )\bchar[ \t]+\w+[ \t]*[=;{]")
+_CHANGED = (Access.SET, Access.DELETE)
 # What says in a launch file that whoever starts it may choose.
 _ARGUMENTS = ("<arg", "DeclareLaunchArgument", "$(env", "$(optenv", "EnvironmentVariable")
 
@@ -32,6 +35,9 @@ def assumed(extracted: Extracted) -> Iterator[str]:
     if inner := sorted(_topics_inside(extracted.joined)):
         yield f"nobody outside publishes to {', '.join(inner)}, and no message there is lost"
     yield from _launched(extracted.joined)
+    texts = (cpp.source.text for cpp in extracted.asking.code.files if b"char" in cpp.words)
+    if any(_PLAIN_CHAR.search(text) for text in texts):
+        yield "a char that does not say it has a sign, as on x86"
     yield "no callback ends by an exception"
 
 
@@ -72,7 +78,7 @@ def _parameters(joined: Joined) -> Iterator[str]:
     """The parameters that started nodes read, with what a launch file or their defaults say."""
     for instance in joined.wiring.instances:
         for fact in instance.start.unit.facts if not instance.idle else ():
-            if isinstance(fact, ParameterFact) and fact.access in _READ:
+            if isinstance(fact, ParameterFact) and fact.access in (*_READ, Access.HAS):
                 yield from _parameter(instance, fact)
 
 
@@ -80,8 +86,32 @@ def _parameter(instance: Instance, fact: ParameterFact) -> Iterator[str]:
     name, found = instance.value(fact.name), instance.parameter(fact.name)
     default = instance.value(fact.default) if fact.default is not None else None
     value = found.value if found is not None else default
+    if found is None and fact.access is Access.HAS and not isinstance(name, Open):
+        yield f"the parameter {name} of {instance.node} is not set, whenever it is asked for"
+        return
     if isinstance(name, Open) or value is None or isinstance(value, Open):
         return
     how = "as a launch file sets it" if found is not None else "its default"
     shown = str(value).lower() if isinstance(value, bool) else value
     yield f"the parameter {name} of {instance.node} is {shown}, {how}, whenever it is read"
+
+
+def parameters_changed(extracted: Extracted) -> Iterator[str]:
+    """What sets or deletes parameters that started nodes read: their values are not those taken.
+
+    Names are compared by their last parts, as a program may be in any namespace.
+    """
+    facts = [f for f in extracted.graph.facts if isinstance(f, ParameterFact)]
+    for fact in (f for f in facts if f.access in _CHANGED):
+        changed = _last_part(fact.name)
+        for instance in extracted.joined.wiring.instances:
+            read = (f for f in instance.start.unit.facts if isinstance(f, ParameterFact))
+            names = {_last_part(f.name) for f in read if f.access not in _CHANGED}
+            if not instance.idle and (changed in names or (None in (changed, *names) and names)):
+                place = fact.site.place
+                where = f"{place.source.path}:{place.line}"
+                yield f"{where} sets a parameter that {instance.node} reads"
+
+
+def _last_part(name: Resolved) -> str | None:
+    return name.rpartition("/")[2].lstrip("~") if isinstance(name, str) else None

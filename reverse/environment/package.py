@@ -16,7 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.asking import TopicVocabulary
-from rebsync.reverse.environment.assumptions import assumed
+from rebsync.reverse.environment.assumptions import assumed, parameters_changed
 from rebsync.reverse.environment.closing import ClosedModel, closed, without_open
 from rebsync.reverse.environment.fragment_wiring import (
     constructor_publishes,
@@ -116,6 +116,7 @@ def closed_package(
     clock = ("a simulation publishes /clock as time passes",) if simulated else ()
     assumptions = (*assumed(extracted), *clock, *around.assumptions, *_time(unit, around))
     gaps = (*around.gaps, *_overwritten(model, wanted, observed), *_unheard(model, heard))
+    gaps = (*gaps, *dict.fromkeys(parameters_changed(extracted)))
     findings = tuple(different(extracted.findings))
     texts = extracted.texts, frozenset(_texts(extracted, wanted))
     return ClosedPackage(around.model, findings, unit, assumptions, gaps, texts)

@@ -22,7 +22,9 @@ BESIDE = (
 HEADERS = frozenset({".h", ".hh", ".hpp", ".hxx", ".cuh", ".ipp", ".tpp", ".inl", ".H"})
 CODE = HEADERS | {".c", ".cc", ".cpp", ".cxx", ".c++", ".C", ".cu"}
 _EXECUTABLE = 0o111
-_OTHERS = frozenset({".launch", ".msg", ".srv", ".action", ".yaml", ".yml", ".xml"})
+_OTHERS = frozenset(
+    {".launch", ".msg", ".srv", ".action", ".yaml", ".yml", ".xml", ".cmake", ".in"}
+)
 _NAMED = frozenset({"CMakeLists.txt", "rebsync.toml", "setup.cfg"})
 _IGNORING = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
 # What a build leaves in a directory of its own: by this it is told from code of the same name.

@@ -119,3 +119,10 @@ def asking_words() -> frozenset[str]:
     """Names of functions and methods that ask for something; other libraries have such classes."""
     found = (word.decode() for c in calls() for word in c.words)
     return frozenset(found).difference(*(c.classes for c in calls()))
+
+
+@derived
+def library_names() -> frozenset[str]:
+    """The last names of functions of libraries but for macros of theirs."""
+    names = {last(name) for library in libraries(Language.CPP) for name in library.functions}
+    return frozenset(n for n in names if not n.isupper())

@@ -275,13 +275,6 @@ def starting() -> frozenset[str]:
 
 
 @derived
-def over() -> frozenset[str]:
-    """Names of what only tidies up when a program ends."""
-    found = ((_last(n), r) for n, r in (*_functions(), *_methods()) if r.kind is Kind.START)
-    return frozenset(n for n, r in found if r.effect is Effect.ENDS)
-
-
-@derived
 def acting_methods() -> frozenset[str]:
     """Methods of objects of the client libraries that act, under whatever name they are called."""
     effects = {Effect.SENDS, Effect.TIME, Effect.RUNS, Effect.WAITS, Effect.ENDS, Effect.CHANGES}

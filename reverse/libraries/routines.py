@@ -264,7 +264,9 @@ class Library:
     is `generated` is called by code that rebsync makes, and its names mean
     something there only. `unmodelled` make what has no place in a model, by their full names: ends
     of actions, what sends and gets transforms, what lets others change parameters. They are no
-    functions, as what they do may be anything.
+    functions, as what they do may be anything. `own_arguments` are methods and keywords
+    with which code gives its node arguments or parameters of its own, each with the value that says
+    nothing.
     """
 
     name: str
@@ -293,3 +295,4 @@ class Library:
     strict: bool = False
     generated: bool = False
     unmodelled: Mapping[str, Routine] = field(default_factory=dict)
+    own_arguments: Mapping[str, str] = field(default_factory=dict)

@@ -17,14 +17,19 @@ from rebsync.reverse.syntax.cpp_numerals import whole_number
 
 _KNOWN: dict[str, int | None] = {
     **dict.fromkeys(("__linux__", "__linux", "linux", "__unix__", "__unix", "unix", "__GNUC__")),
-    **{"__cplusplus": 201402, "true": 1, "false": 0},
+    **{"true": 1, "false": 0},
 }
+# Of the standards that a build may ask for: what differs between them is not known.
+_CPLUSPLUS = "__cplusplus"
+_STANDARDS = (201402, 201703, 202002, 202302)
 _UNDEFINED = frozenset(
     {
         *("_WIN32", "WIN32", "_WIN64", "WIN64", "_MSC_VER", "__MINGW32__", "__CYGWIN__", "_DEBUG"),
         *("__APPLE__", "__MACH__", "__ANDROID__", "__QNX__", "__FreeBSD__", "__BORLANDC__"),
     }
 )
+# The macros of which the compiler and the machine decide.
+DECIDED = _UNDEFINED | _KNOWN.keys() | {_CPLUSPLUS}
 _DIRECTIVE = re.compile(
     r"[ \t]*#[ \t]*(?P<word>if|ifdef|ifndef|elif|else|endif|define|undef)\b"
     r"(?P<rest>[^\n\\]*(?:\\(?:\r?\n)?[^\n\\]*)*)"
@@ -124,7 +129,7 @@ class _DirectiveReader:
     def __init__(self) -> None:
         self.found: list[IfSection] = []
         self.open: list[_OpenConditional] = []
-        self.values: dict[str, int | None] = dict(_KNOWN)
+        self.values: dict[str, int | None] = {**_KNOWN, _CPLUSPLUS: _STANDARDS[0]}
         self.undefined = set(_UNDEFINED)
 
     def directive(self, match: re.Match[str]) -> None:
@@ -175,10 +180,17 @@ class _DirectiveReader:
 
     def _holds(self, word: str, rest: str) -> bool | None:
         if word == "if":
-            value = _Condition(rest, self).value()
-            return None if value is None else value != 0
+            return self._condition(rest)
         defined = self.is_defined(rest.strip())
         return _not(defined) if word == "ifndef" else defined
+
+    def _condition(self, text: str) -> bool | None:
+        """Whether a condition holds, if it does in each standard or in none."""
+        found = set[bool | None]()
+        for standard in _STANDARDS if _CPLUSPLUS in text else _STANDARDS[:1]:
+            self.values[_CPLUSPLUS] = standard
+            found.add(_truth(_Condition(text, self).value()))
+        return found.pop() if len(found) == 1 else None
 
     def is_defined(self, name: str) -> bool | None:
         if name in self.values:

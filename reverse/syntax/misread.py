@@ -1,4 +1,4 @@
-"""Where compilers of C++ join or name characters in ways that the parser does not know.
+"""Where compilers of C++ take a text otherwise than the parser, or a linker what it defines.
 
 "Phases of translation" in the standard: lines that end with a backslash are joined before there
 are tokens, trigraphs stand for other characters, and `\\u00e9` in a name is the character itself.
@@ -29,6 +29,12 @@ _IN_CODE = {
     ),
     "a character of a name is written by its number": re.compile(r"\\[uUN]"),
 }
+_LINKED = {
+    "whether this is what runs is decided when the program is linked": re.compile(
+        r"\b__attribute__\s*\(\(\s*_*(?:weak|alias|ifunc|cleanup|constructor|destructor)"
+        r"|\bgnu::(?:weak|alias|ifunc|cleanup|constructor|destructor)\b|#[ \t]*pragma[ \t]+weak\b"
+    ),
+}
 
 
 def misread(cpp: Cpp) -> Iterator[Finding]:
@@ -38,10 +44,14 @@ def misread(cpp: Cpp) -> Iterator[Finding]:
         yield from _found(cpp.source, text, _JOINING)
     if any(pattern.search(text) for pattern in _IN_CODE.values()):
         yield from _found(cpp.source, blank(text), _IN_CODE)
+    if any(pattern.search(text) for pattern in _LINKED.values()):
+        yield from _found(cpp.source, blank(text), _LINKED, "")
 
 
-def _found(source: Source, text: str, patterns: Mapping[str, re.Pattern[str]]) -> Iterator[Finding]:
+def _found(
+    source: Source, text: str, patterns: Mapping[str, re.Pattern[str]], hint: str = _HINT
+) -> Iterator[Finding]:
     for why, pattern in patterns.items():
         for match in pattern.finditer(text):
             span = Span(match.start(), match.start() + len(match[0].rstrip()))
-            yield Finding(Grade.UNREADABLE, source, span, why, _HINT)
+            yield Finding(Grade.UNREADABLE, source, span, why, hint)

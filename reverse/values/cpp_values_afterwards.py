@@ -7,8 +7,8 @@ from functools import partial
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.syntax.cpp_declarations import unscoped
 from rebsync.reverse.syntax.cpp_index import CppFunction
+from rebsync.reverse.syntax.cpp_tree import text_of
 from rebsync.reverse.values.cpp_assignments import CppAssignments
 from rebsync.reverse.values.cpp_flow_types import Variable
 from rebsync.reverse.values.cpp_flow_writes import Key, key_of
@@ -112,9 +112,9 @@ class Afterwards:
 
 
 def _delegates(constructor: CppFunction) -> bool:
-    """Whether a constructor calls another one of its class first."""
+    """Whether a constructor calls another one of its class first, and no base of its name."""
     listed = constructor.initialisers
     if listed is None:
         return False
     given = [n for n in listed.named_children if n.type == "field_initializer"]
-    return any(unscoped(n.named_children[0]) == constructor.owner for n in given)
+    return any(text_of(n.named_children[0]) == constructor.owner for n in given)

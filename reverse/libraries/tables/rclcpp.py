@@ -90,7 +90,7 @@ _FUNCTIONS = {
     "image_transport::create_camera_subscription": _image(
         Kind.SUBSCRIPTION, "", "name", "callback", "", "depth"
     ),
-    "rclcpp::init": Routine(Kind.START),
+    "rclcpp::init": Routine(Kind.START, ("arguments", "arguments")),
     "rclcpp::spin": Routine(Kind.SPIN),
     "rclcpp::spin_some": Routine(Kind.SERVE),
     "rclcpp::spin_all": Routine(Kind.SERVE, ("timeout",)),
@@ -193,6 +193,10 @@ LIBRARIES = (
         },
         nodes=frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"}),
         managed=frozenset({"rclcpp_lifecycle::LifecycleNode"}),
+        own_arguments={
+            **dict.fromkeys(("arguments", "parameter_overrides"), ""),
+            **{"append_parameter_override": "", "use_global_arguments": "true"},
+        },
         plain=frozenset({"ParameterValue"}),
         marks=("rclcpp",),
         starts=("rclcpp",),

@@ -88,7 +88,9 @@ _FUNCTIONS = {
     "rclpy.Node": _NAMED,
     "rclpy.wait_for_message.wait_for_message": _asks(Kind.SINGLE, "type", "", "name"),
     "message_filters.Subscriber": _asks(Kind.SUBSCRIPTION, "", "type", "name", "depth", least=3),
-    "rclpy.init": Routine(Kind.START, result="rclpy.InitContextManager"),
+    "rclpy.init": Routine(
+        Kind.START, ("arguments",), (("args", "arguments"),), result="rclpy.InitContextManager"
+    ),
     "rclpy.shutdown": Routine(Kind.START, does=Effect.ENDS),
     "rclpy.spin": Routine(Kind.SPIN),
     "rclpy.spin_until_future_complete": Routine(result="future", does=Effect.RUNS),
@@ -208,6 +210,10 @@ LIBRARIES = (
         },
         nodes=frozenset(_NODES),
         managed=frozenset(n for n in _NODES if n.startswith("rclpy.lifecycle.")),
+        own_arguments={
+            **dict.fromkeys(("cli_args", "parameter_overrides"), "None"),
+            **{"use_global_arguments": "True", "ignore_override": "False"},
+        },
         marks=("rclpy", "message_filters"),
         table=Table(profiles=_PROFILES, policies=_POLICIES),
         logs=("get_logger",),

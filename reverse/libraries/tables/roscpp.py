@@ -66,7 +66,7 @@ _HANDLE = {
     "searchParam": _SEARCH,
 }
 _FUNCTIONS = {
-    "ros::init": Routine(Kind.NODE, ("", "", "name", "options")),
+    "ros::init": Routine(Kind.NODE, ("arguments", "arguments", "name", "options")),
     "ros::topic::waitForMessage": Routine(Kind.SINGLE, ("name", "handle", "")),
     "ros::service::createClient": Routine(Kind.CLIENT, ("name",)),
     "ros::service::call": Routine(Kind.CLIENT, ("name", "call"), does=Effect.WAITS),

@@ -43,7 +43,9 @@ _LOG_CALLS = {
 }
 _DONE = tuple((name, "callback") for name in ("done_cb", "active_cb", "feedback_cb"))
 _FUNCTIONS = {
-    "rospy.init_node": _asks(Kind.NODE, "name", "", "anonymous"),
+    "rospy.init_node": Routine(
+        Kind.NODE, ("name", "arguments", "anonymous"), (("argv", "arguments"),)
+    ),
     "rospy.Publisher": Routine(
         Kind.PUBLISHER, _ADVERTISED, (*_KEYWORDS, ("subscriber_listener", "listener"))
     ),

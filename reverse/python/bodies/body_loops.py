@@ -10,6 +10,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.libraries.program_ends import over
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.bodies import body_variables
 from rebsync.reverse.python.bodies.body_effects import is_log
@@ -123,8 +124,8 @@ def goes_on(node: Node) -> bool:
         inner = named(behind)
         call = inner[0] if inner and inner[0].type == "call" else None
         name = last_name(field(call, "function")) if call is not None else ""
-        over = name in libraries.over() or (call is not None and is_log(call))
-        if not over and behind.type not in ("comment", "pass_statement"):
+        is_over = name in over() or (call is not None and is_log(call))
+        if not is_over and behind.type not in ("comment", "pass_statement"):
             return True
         behind = behind.next_named_sibling
     return False

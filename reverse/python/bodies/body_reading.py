@@ -42,6 +42,7 @@ from rebsync.reverse.python.bodies.body_scope import (
 )
 from rebsync.reverse.python.values.interfaces import interface_of
 from rebsync.reverse.python.values.node_effects import NodeEffects
+from rebsync.reverse.python.values.py_imports import star_imported
 from rebsync.reverse.python.values.py_lookup import attribute, bound
 from rebsync.reverse.python.values.py_values import PyValues
 from rebsync.reverse.python.values.py_worth import (
@@ -146,6 +147,8 @@ class Reading:
         if not bindings or any(b.how in ("import", "scope") for b in bindings):
             return Nobody()
         if self.values.is_stored(text, Module):
+            return Nobody()
+        if isinstance(star_imported(self.code, module, text), Module):  # which one comes last?
             return Nobody()
         if len(bindings) == 1 and bindings[0].how == "value":
             found = self.constant(bound(self.values, bindings[0], text, module))

@@ -18,7 +18,7 @@ from rebsync.reverse.graph import (
     TimerFact,
 )
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.libraries.contexts import starting_contexts
+from rebsync.reverse.libraries.program_ends import starting_contexts
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.python.bodies import (
     body_calls,

@@ -18,6 +18,12 @@ from rebsync.reverse.libraries.generated_calls import PUBLISHER_METHOD
 from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.generated.asked import Answering
 from rebsync.reverse.python.generated.logs import Looks, only_logs
+from rebsync.reverse.python.generated.member_places import (
+    function_around,
+    is_of_module,
+    makes_member,
+    name_around,
+)
 from rebsync.reverse.python.generated.members import (
     VALUES,
     is_lock,
@@ -36,7 +42,6 @@ from rebsync.reverse.python.generated.shown import (
 )
 from rebsync.reverse.python.generated.timers import Timers
 from rebsync.reverse.python.generated.told_candidates import (
-    SET_UP,
     candidate_locals,
     is_candidate,
     made_once,
@@ -122,7 +127,7 @@ class Silent:
 
     def _only_computes(self, node: Node) -> bool:
         """Whether the effects of a statement stay where only people look."""
-        place = _function(node)
+        place = function_around(node)
         local = self.kept.get(place, frozenset[str]())
         told = self.locals.get(place, frozenset[str]()) | (self.texts - self.computed)
         py = self.exceptions.file_of(node)
@@ -193,9 +198,9 @@ class Silent:
         if node.type != "identifier":
             return False
         name = text_of(node)
-        if name in self.locals.get(_function(node), ()):
+        if name in self.locals.get(function_around(node), ()):
             return True
-        return name in self.counters and _is_of_module(node, name)
+        return name in self.counters and is_of_module(node, name)
 
     def _stores_element(self, assignment: Node) -> bool:
         """`self._counts["served"] = self._counts.get("served", 0) + 1`."""
@@ -347,7 +352,7 @@ def _odd(silent: Silent, root: Node, beside: Collection[str]) -> set[str]:
             name = text_of(field(node, "attribute"))
             is_own = text_of(field(node, "object")) == "self"
             is_shared = name in silent.looks.containers or name in silent.computed
-            is_apart = is_shared and _name_around(node) in beside
+            is_apart = is_shared and name_around(node) in beside
             if is_apart or not (is_own and _is_quiet(silent, node, name)):
                 found.add(name)
         elif node.type == "identifier" and not is_label(node):
@@ -368,7 +373,7 @@ def _is_quiet(silent: Silent, node: Node, name: str) -> bool:
     for above in (node, *ancestors(node, lambda n: n.type in _STATEMENTS)):
         if above.type == "with_item":
             return name in silent.locks and text_of(above) == f"self.{name}"
-        if above.type == "expression_statement" and _sets_up(above, name):
+        if above.type == "expression_statement" and makes_member(above, name):
             return name not in silent.computed or silent.holds(above)
         if above.type == "global_statement":
             return name in silent.counters
@@ -377,36 +382,3 @@ def _is_quiet(silent: Silent, node: Node, name: str) -> bool:
         if above.id in silent.asked.bodies:
             return name not in silent.computed
     return False
-
-
-def _sets_up(statement: Node, name: str) -> bool:
-    """Whether a statement of the constructor makes the member."""
-    inner = named(statement)[0]
-    function = _enclosing(statement)
-    is_first = function is not None and text_of(field(function, "name")) in SET_UP
-    left = text_of(field(inner, "left")) if inner.type == "assignment" else ""
-    return (is_first and left == f"self.{name}") or (function is None and left == name)
-
-
-def _name_around(node: Node) -> str:
-    """The function that something is in, by its name."""
-    function = _enclosing(node)
-    return text_of(field(function, "name")) if function is not None else ""
-
-
-def _enclosing(node: Node) -> Node | None:
-    return next(functions_around(node), None)
-
-
-def _is_of_module(node: Node, name: str) -> bool:
-    """Whether a function says that a variable is the module's."""
-    function = _enclosing(node)
-    statements = nodes_in(function) if function is not None else ()
-    said = (n for n in statements if n.type == "global_statement")
-    return any(name in map(text_of, named(n)) for n in said)
-
-
-def _function(node: Node) -> int:
-    """The function that something is in, by its node."""
-    found = _enclosing(node)
-    return found.id if found is not None else 0

@@ -28,10 +28,11 @@ from rebsync.reverse.nodes.node_wiring import (
 from rebsync.reverse.python.bodies.body_reading import Reading
 from rebsync.reverse.python.bodies.body_scope import Key, PyUnit
 from rebsync.reverse.python.nodes.object_model import list_object_model
+from rebsync.reverse.python.values.py_lookup import scope_at
 from rebsync.reverse.python.values.py_worth import Instance as Object
 from rebsync.reverse.python.values.py_worth import Value
 from rebsync.reverse.syntax.py_bindings import Binding
-from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_index import MODULE, Scope
 from rebsync.reverse.syntax.py_tree import field, text_of
 from rebsync.reverse.unknowns import Open
 
@@ -104,9 +105,10 @@ def list_shared(
             why = f'several rebecs of one program share "{name}": in the model each has its own'
             span = unit.module.py.span(binding.node)
             findings.unreadable(unit.module.py.source, Unread(span, why), names[0])
+    read = {body for reading in readings.values() for body in reading.bodies}
     for unit in units:
         list_object_model(readings[unit.name], findings)
-        for scope, binding in _set_elsewhere(unit, readings[unit.name]):
+        for scope, binding in _set_elsewhere(unit, readings[unit.name], read):
             why = "this sets what is state of a rebec, in code that is not read"
             span = scope.py.span(binding.node)
             findings.unreadable(scope.py.source, Unread(span, why), unit.name)
@@ -130,10 +132,21 @@ def list_endless(
                 findings.unreadable(source, Unread(span, why), unit.name)
 
 
-def _set_elsewhere(unit: PyUnit, reading: Reading) -> Iterator[tuple[Scope, Binding]]:
-    """The assignments to attributes of the unit's object that its bodies do not have."""
-    own = {key[2] for key in reading.state.values() if key[0] == "self"}
+def _set_elsewhere(
+    unit: PyUnit, reading: Reading, read: Collection[int]
+) -> Iterator[tuple[Scope, Binding]]:
+    """The assignments to what is state of the unit that its bodies do not have.
+
+    Those of a module that functions make which are no bodies that are `read`, of any unit; and to
+    attributes of the unit's object.
+    """
     code = reading.code
+    for name in (key[2] for key in reading.state.values() if key[0] == "module"):
+        for binding in unit.module.names.get(name, ()):
+            scope = scope_at(reading.values, binding, unit.module)
+            if scope.kind != MODULE and scope.node.id not in read:
+                yield scope, binding
+    own = {key[2] for key in reading.state.values() if key[0] == "self"}
     for scope in (*code.scopes.values(), *code.modules.values()):
         for (_, name), bindings in scope.stores.items():
             if name not in own or scope.node.id in reading.bodies:

@@ -107,6 +107,9 @@ def declared(reading: Reading) -> Iterator[m.Statement]:
         if not bindings:
             continue
         binding, scope = bindings[0]
+        if where == "module" and _is_set_otherwise(reading, text):
+            reading.learnt.join(reading.state[name], OTHER)
+            continue
         if binding.value.type == "none" and len(bindings) == 1:
             reading.learnt.join(presence_key(reading.state[name]), TRUTH)
             kind = reading.learnt.kind(reading.state[name])
@@ -134,6 +137,14 @@ def _is_at(reading: Reading, binding: Binding, scope: Scope) -> bool:
     """Whether a name is bound in a scope itself, not by a function in it."""
     path = scope.py.source.path
     return binding.how == "value" and scope_around(reading.code, binding.node, path) is scope
+
+
+def _is_set_otherwise(reading: Reading, name: str) -> bool:
+    """Whether a statement at the top of the module sets a variable, that is no assignment of it."""
+    module = reading.unit.module
+    path = module.py.source.path
+    others = (b.node for b in module.names.get(name, ()) if b.how != "value")
+    return any(scope_around(reading.code, node, path) is module for node in others)
 
 
 def _aliases(nodes: Sequence[Node], names: tuple[str, ...]) -> tuple[str, ...]:

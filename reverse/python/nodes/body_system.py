@@ -44,6 +44,8 @@ from rebsync.reverse.python.nodes.body_listing import (
 from rebsync.reverse.python.nodes.body_started import NOTHING, Started, settings
 from rebsync.reverse.python.nodes.escapes import list_escapes
 from rebsync.reverse.python.nodes.handle_stores import list_handle_stores
+from rebsync.reverse.python.nodes.module_model import list_module_model
+from rebsync.reverse.python.nodes.own_arguments import list_own_arguments
 from rebsync.reverse.python.nodes.spinning import list_unserved
 from rebsync.reverse.python.values.node_effects import NodeEffects
 from rebsync.reverse.python.values.py_values import PyValues
@@ -118,6 +120,8 @@ class PySystem:
         list_endless(wanted, readings, self.findings)
         list_escapes(wanted, values, round_.effects, self._generated(), self.findings)
         list_handle_stores(wanted, values, self.findings)
+        list_module_model(values, self._generated(), self.findings)
+        list_own_arguments(values, self.findings)
         list_unserved(wanted, values, self.started.entries, served, self.findings)
         list_wiring(joined.wiring, {u.name for u in wanted}, self.findings)
         rebecs = tuple(round_.rebec(i) for i in instances if not i.idle)

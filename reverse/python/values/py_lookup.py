@@ -29,7 +29,7 @@ from rebsync.reverse.python.values.py_worth import (
 )
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_bindings import Binding, reaching
-from rebsync.reverse.syntax.py_index import CLASS, Scope
+from rebsync.reverse.syntax.py_index import CLASS, MODULE, Scope
 from rebsync.reverse.syntax.py_tree import SCOPES, field, text_of
 
 _ENUMERATIONS = frozenset({"enum.Enum", "enum.Flag"})
@@ -75,7 +75,13 @@ def name_ways(values: PyEvaluator, name: str, node: Node, scope: Scope) -> Ways:
             here = at is scope or _shares_flow(at, scope)
             seen = reaching(bindings, node) if here else bindings
             given = [(b, bound(values, b, name, at)) for b in seen or bindings]
-            return together(values, given, scope)
+            found = together(values, given, scope)
+            if at.kind != MODULE or "*" not in at.names:
+                return found
+            star = star_imported(values.code, at, name)
+            if not isinstance(star, Module):
+                return found
+            return distinct((*found, *attribute(values, star, name, node, scope)))
         at = at.parent
     star = star_imported(values.code, scope.module, name)
     if star is not None:

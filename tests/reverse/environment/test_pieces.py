@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import field
 from pathlib import Path
 
 import pytest
@@ -168,7 +169,10 @@ int main(int argc, char** argv) {{
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A row: the parts of a node, or its whole `text`; of some `clients`, or of all of the file."""
+    """A row: the parts of a node, or its whole `text`; of some `clients`, or of all of the file.
+
+    `build` is what its CMakeLists.txt says besides, `more` are other files of the package.
+    """
 
     name: str
     verdict: str
@@ -178,6 +182,8 @@ class Piece:
     body: str = ""
     text: str = ""
     clients: tuple[str, ...] = ()
+    build: str = ""
+    more: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -234,7 +240,7 @@ def _written(table: Table, piece: Piece, package: Path) -> None:
     path.parent.mkdir()
     if table.is_cpp:
         build = _AMENT if table.client == "rclcpp" else _BUILD
-        (package / "CMakeLists.txt").write_text(build, encoding="utf-8")
+        (package / "CMakeLists.txt").write_text(build + piece.build, encoding="utf-8")
     depth = 4 if table.is_cpp else 8
     text = piece.text or _NODES[table.client].format(
         module=piece.module,
@@ -245,6 +251,9 @@ def _written(table: Table, piece: Piece, package: Path) -> None:
     )
     path.write_text(text, encoding="utf-8")
     path.chmod(0o755)
+    for name, other in piece.more.items():
+        (package / name).parent.mkdir(exist_ok=True)
+        (package / name).write_text(other, encoding="utf-8")
 
 
 def _indented(text: str, depth: int) -> str:
