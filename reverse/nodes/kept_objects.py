@@ -7,7 +7,8 @@ from tree_sitter import Node
 from rebsync.reverse.graph import PublisherFact
 from rebsync.reverse.syntax.cpp_tree import inside, text_of
 
-_FLAGS = frozenset({"true", "false", "number_literal", "identifier"})
+_NUMBERS = frozenset({"true", "false", "number_literal"})
+_WRITTEN = _NUMBERS | {"identifier"}  # where it is known to be whether it latches
 _LATCHED = 2  # the place where `advertise` takes whether it latches, or else functions
 
 
@@ -36,5 +37,6 @@ def called_by_listeners(fact: PublisherFact) -> Node | None:
     if function is None or given is None or "advertise" not in text_of(function):
         return None
     arguments = [n for n in given.named_children if n.type != "comment"]
-    found = arguments[_LATCHED:_LATCHED + 1]
-    return next((n for n in found if n.type not in _FLAGS), None)
+    found = arguments[_LATCHED : _LATCHED + 1]
+    flags = _WRITTEN if isinstance(fact.latched, bool) else _NUMBERS
+    return next((n for n in found if n.type not in flags), None)

@@ -21,7 +21,7 @@ from rebsync.reverse.graph import (
     TimerFact,
 )
 from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.nodes.failing_parameters import failing_parameters
+from rebsync.reverse.nodes.failing_parameters import declared_again, never_declared
 from rebsync.reverse.nodes.kept_objects import called_by_listeners, is_kept
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit, bodies
@@ -71,7 +71,7 @@ class FindingList:
             if isinstance(fact, SubscriptionFact | TimerFact) and _is_lost(fact):
                 why = "nothing keeps what this gives: ROS ends it at once, the model does not"
                 self._unread(fact.site.place, why, unit.name, "keep it in a member")
-        for fact, why in failing_parameters(unit.facts):
+        for fact, why in (*declared_again(unit.facts), *never_declared(unit.facts)):
             self._unread(fact.site.place, why, unit.name)
         for server in servers:
             self._wide(unit, server)

@@ -16,6 +16,7 @@ from rebsync.reverse.graph import (
     TimerFact,
     Unresolved,
 )
+from rebsync.reverse.nodes.failing_parameters import declared_again
 from rebsync.reverse.nodes.node_namespaces import note_namespaces
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_wiring import (
@@ -54,6 +55,9 @@ def list_unit(
     note_namespaces(unit.unit, findings)
     for number, fact in enumerate(unit.unit.facts):
         _fact(unit, fact, number in servers, findings)
+    for asked, why in declared_again(unit.unit.facts):
+        place = asked.site.place
+        findings.unreadable(place.source, Unread(place.span, why), unit.name)
     served = [f for n, f in enumerate(unit.unit.facts) if n in servers]
     # One topic has a thread for each of its publishers, one service one for each of its clients.
     beside_itself = any(isinstance(f, SubscriptionFact | ServiceFact) for f in served)
