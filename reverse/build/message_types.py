@@ -63,6 +63,8 @@ class MessageTypes:
     _fields: dict[str, Fields] = field(default_factory=dict)
     # The types by texts of C++ that were asked for.
     _named: dict[str, str | None] = field(default_factory=dict)
+    # In ROS 2 a `byte` is a number without a sign in C++, and `bytes` in Python.
+    has_octets: bool = False
 
     @staticmethod
     def of(files: Mapping[str, Source], package: str) -> MessageTypes:
@@ -85,7 +87,7 @@ class MessageTypes:
                         if constants.setdefault(name, value) != value:
                             unclear.add(name)  # messages of two packages have one name
         known = {name: value for name, value in constants.items() if name not in unclear}
-        return MessageTypes(own, package, {}, known, {})
+        return MessageTypes(own, package, {}, known, {}, has_octets=_is_of_rcl(files))
 
     def constants(self) -> dict[str, int | str]:
         """The whole numbers and texts that messages of the package give names."""
@@ -184,6 +186,9 @@ class MessageTypes:
     ) -> Iterator[tuple[str, Type | None]]:
         for name, inner, length in self._declared(type_) or ():
             at, plain = f"{path}{name}", plain_type(inner)
+            if inner == "byte" and self.has_octets:
+                yield at, None
+                continue
             if plain in _WIDTHS:
                 self.widths.setdefault(whole, {})[at] = _WIDTHS[plain]
             if plain in _UNSIGNED:
@@ -241,6 +246,12 @@ def _of_rosidl(files: Mapping[str, Source]) -> bool | None:
     manifests = [s.text for path, s in files.items() if path.endswith("package.xml")]
     found = {"rosidl_" in text for text in manifests if _GENERATES.search(text)}
     return found.pop() if len(found) == 1 else None
+
+
+def _is_of_rcl(files: Mapping[str, Source]) -> bool:
+    """Whether a manifest names a client library of ROS 2."""
+    manifests = (s.text for path, s in files.items() if path.endswith("package.xml"))
+    return any("rclpy" in text or "rclcpp" in text for text in manifests)
 
 
 def _dimension(length: int | None) -> str:
