@@ -15,6 +15,7 @@ from rebsync.reverse.bodies.scope import WIDE, Variable, of_width
 from rebsync.reverse.build.common_messages import COMMON
 from rebsync.reverse.build.messages import plain_type, read_message
 from rebsync.reverse.files.packages import owner_of
+from rebsync.reverse.libraries import cpp, python
 from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_tree import Cpp
 from rebsync.source import Source
@@ -251,7 +252,7 @@ def _of_rosidl(files: Mapping[str, Source]) -> bool | None:
 def _is_of_rcl(files: Mapping[str, Source]) -> bool:
     """Whether a manifest names a client library of ROS 2."""
     manifests = (s.text for path, s in files.items() if path.endswith("package.xml"))
-    return any("rclpy" in text or "rclcpp" in text for text in manifests)
+    return any(cpp.is_flat(text.encode()) or python.client_in(text).flat for text in manifests)
 
 
 def _dimension(length: int | None) -> str:

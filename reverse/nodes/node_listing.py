@@ -34,7 +34,7 @@ from rebsync.reverse.nodes.node_wiring import (
     unfed,
     unheard,
 )
-from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Span
 
