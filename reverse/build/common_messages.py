@@ -7,7 +7,7 @@ _HEADER = "seq uint32, stamp time, frame_id string"
 _PLAIN = {
     **{f"{kind}{bits}": f"{kind.lower()}{bits}" for kind in ("Int", "UInt") for bits in (8, 16)},
     **{f"{kind}{bits}": f"{kind.lower()}{bits}" for kind in ("Int", "UInt") for bits in (32, 64)},
-    **{"Bool": "bool", "Byte": "int8", "Char": "uint8", "Float32": "float32"},
+    **{"Bool": "bool", "Byte": "byte", "Char": "uint8", "Float32": "float32"},
     **{"Float64": "float64", "String": "string", "Time": "time", "Duration": "duration"},
 }
 

@@ -15,6 +15,7 @@ from rebsync.reverse.bodies.scope import WIDE, Variable, of_width
 from rebsync.reverse.build.common_messages import COMMON
 from rebsync.reverse.build.messages import plain_type, read_message
 from rebsync.reverse.files.packages import owner_of
+from rebsync.reverse.libraries import cpp, python
 from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_tree import Cpp
 from rebsync.source import Source
@@ -71,6 +72,8 @@ class MessageTypes:
     _fields: dict[str, Fields] = field(default_factory=dict)
     # The types by texts of C++ that were asked for.
     _named: dict[str, str | None] = field(default_factory=dict)
+    # In ROS 2 a `byte` is a number without a sign in C++, and `bytes` in Python.
+    has_octets: bool = False
 
     @staticmethod
     def of(files: Mapping[str, Source], package: str) -> MessageTypes:
@@ -93,8 +96,9 @@ class MessageTypes:
                         if constants.setdefault(name, value) != value:
                             unclear.add(name)  # messages of two packages have one name
         known = {name: value for name, value in constants.items() if name not in unclear}
-        others = _COUNTED | _STARTED if _is_ros2(files) else _COUNTED
-        return MessageTypes(own, package, {}, others, known, {})
+        is_ros2 = _is_of_ros2(files)
+        others = _COUNTED | _STARTED if is_ros2 else _COUNTED
+        return MessageTypes(own, package, {}, others, known, {}, has_octets=is_ros2)
 
     def constants(self) -> dict[str, int | str]:
         """The whole numbers and texts that messages of the package give names."""
@@ -193,6 +197,9 @@ class MessageTypes:
     ) -> Iterator[tuple[str, Type | None]]:
         for name, inner, length in self._declared(type_) or ():
             at, plain = f"{path}{name}", plain_type(inner)
+            if inner == "byte" and self.has_octets:
+                yield at, None
+                continue
             if plain in _WIDTHS:
                 self.widths.setdefault(whole, {})[at] = _WIDTHS[plain]
             if plain in _UNSIGNED:
@@ -254,9 +261,13 @@ def _of_rosidl(files: Mapping[str, Source]) -> bool | None:
     return found.pop() if len(found) == 1 else None
 
 
-def _is_ros2(files: Mapping[str, Source]) -> bool:
-    """Whether a manifest is of a package of ROS 2."""
-    return any(_ROS2.search(s.text) for path, s in files.items() if path.endswith("package.xml"))
+def _is_of_ros2(files: Mapping[str, Source]) -> bool:
+    """Whether a manifest names a client library of ROS 2, or what builds packages there."""
+    manifests = (s.text for path, s in files.items() if path.endswith("package.xml"))
+    return any(
+        _ROS2.search(text) or cpp.is_flat(text.encode()) or python.client_in(text).flat
+        for text in manifests
+    )
 
 
 def _dimension(length: int | None) -> str:

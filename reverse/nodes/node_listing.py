@@ -21,6 +21,8 @@ from rebsync.reverse.graph import (
     TimerFact,
 )
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.nodes.failing_parameters import declared_again, never_declared
+from rebsync.reverse.nodes.kept_objects import called_by_listeners, is_kept
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit, bodies
 from rebsync.reverse.nodes.node_unmodelled import shared_state
@@ -32,7 +34,7 @@ from rebsync.reverse.nodes.node_wiring import (
     unfed,
     unheard,
 )
-from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Span
 
@@ -42,6 +44,8 @@ _ENTRIES = frozenset(
         *("TimeSynchronizer", "Synchronizer", "MessageFilter"),
     }
 )
+# Options of subscriptions by which the middleware leaves messages out.
+_CHOOSING = frozenset({"ignore_local_publications", "content_filter_options"})
 _TEXTS = frozenset({"string_literal", "concatenated_string", "raw_string_literal"})
 _NO_NUMBER = re.compile(r"string|char\b|chrono|Duration|Node[A-Z]\w*|Node\b|Ptr|_ptr")
 _SEVERAL = "its callbacks may run at the same time as others: the model has one at a time"
@@ -67,6 +71,8 @@ class FindingList:
             if isinstance(fact, SubscriptionFact | TimerFact) and _is_lost(fact):
                 why = "nothing keeps what this gives: ROS ends it at once, the model does not"
                 self._unread(fact.site.place, why, unit.name, "keep it in a member")
+        for fact, why in (*declared_again(unit.facts), *never_declared(unit.facts)):
+            self._unread(fact.site.place, why, unit.name)
         for server in servers:
             self._wide(unit, server)
         for cpp, body in bodies(unit):
@@ -87,6 +93,9 @@ class FindingList:
             case PublisherFact(site) if _is_elsewhere(site.kept):
                 why = "the publisher is kept in another object: what that publishes is not read"
                 self._unread(fact.site.place, why, unit.name)
+            case PublisherFact(site) if (given := called_by_listeners(fact)) is not None:
+                why = "this is called when somebody subscribes, or leaves: the model has no such"
+                self._unread(Place(site.cpp.source, site.cpp.span(given)), why, unit.name)
             case ServiceFact() if served:
                 why = "a service is a message server to which nobody in the model sends"
                 self._assumed(fact.site.place, why, unit.name, _CALLS)
@@ -109,7 +118,9 @@ class FindingList:
         for node in reversed(unit.code.named(cpp, body, listed)) if listed else ():
             name = text_of(node)
             place = Place(cpp.source, cpp.span(node))
-            if name in _ENTRIES:
+            if name in _CHOOSING:
+                self._unread(place, f'"{name}": some messages may not come to the node', unit.name)
+            elif name in _ENTRIES:
                 why = f'"{name}" calls functions of the node in ways that the model does not have'
                 self._unread(place, why, unit.name)
             else:
@@ -118,7 +129,8 @@ class FindingList:
     def _listed(self, cpp: Cpp) -> frozenset[str]:
         """The words of a file that are listed wherever the code names them."""
         if id(cpp) not in self._odd:
-            words = {n for n in _ENTRIES | libraries.threaded() if n.encode() in cpp.words}
+            known = _CHOOSING | _ENTRIES | libraries.threaded()
+            words = {n for n in known if n.encode() in cpp.words}
             self._odd[id(cpp)] = frozenset(words)
         return self._odd[id(cpp)]
 
@@ -293,13 +305,13 @@ def _is_lost(fact: SubscriptionFact | TimerFact) -> bool:
 
 
 def _is_dropped(fact: SubscriptionFact | TimerFact, above: Node) -> bool:
-    """Whether only a local of a function other than `main` has it, which nothing else names."""
+    """Whether only a local of a function other than `main` has it, which nothing else keeps."""
     function, name = fact.site.function, above.child_by_field_name("declarator")
     if function is None or function.name == "main" or function.body is None:
         return False
     if above.type != "init_declarator" or name is None or name.type != "identifier":
         return False
-    return sum(text_of(n) == text_of(name) for n in inside(function.body, "identifier")) == 1
+    return not is_kept(function.body, above, text_of(name))
 
 
 def _uses(unit: Unit, name: str) -> bool:

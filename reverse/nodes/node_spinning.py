@@ -14,6 +14,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.graph import ServiceFact, SubscriptionFact, TimerFact
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.nodes.kept_objects import is_local_group
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_loops import later, loops_in
 from rebsync.reverse.nodes.node_reach import all_functions
@@ -26,6 +27,7 @@ from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
 _NEVER = "this program never lets messages be served: the model serves them"
 _OTHER = "this program lets only the messages of other nodes be served"
 _REMOVED = "the node may be taken out of its executor here"
+_ENDED = "no member is known to keep this group: it ends, and what it has is never called"
 _GROUP = "no executor is known to get this group: what it has may never be called"
 _ENDED = "the node ends here, before its program lets messages be served"
 _NAMES = ("identifier", "field_identifier", "type_identifier")
@@ -125,7 +127,12 @@ class _Spun:
         """What takes the node out of an executor, or makes a group that is in none."""
         names = {"remove_node", "create_callback_group", "add_callback_group"}
         functions = (f for f in all_functions(self.code) if f.body is not None)
-        calls = [c for f in functions for c in self.code.calls_of(f) if c.name in names]
+        within = [(c, f) for f in functions for c in self.code.calls_of(f) if c.name in names]
+        calls = [call for call, _ in within]
+        for call, function in within:
+            is_made = call.name == "create_callback_group"
+            if is_made and function.name != "main" and is_local_group(call.node, function.body):
+                return call.node, _ENDED
         if not any(c.name == "add_callback_group" for c in calls):
             for call in calls:
                 apart = len(call.arguments) > 1 and text_of(call.arguments[1]) != "true"

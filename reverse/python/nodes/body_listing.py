@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from tree_sitter import Node
@@ -16,6 +17,7 @@ from rebsync.reverse.graph import (
     TimerFact,
     Unresolved,
 )
+from rebsync.reverse.nodes.failing_parameters import declared_again
 from rebsync.reverse.nodes.node_namespaces import note_namespaces
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_wiring import (
@@ -31,6 +33,7 @@ from rebsync.reverse.python.nodes.object_model import list_object_model
 from rebsync.reverse.python.values.py_lookup import scope_at
 from rebsync.reverse.python.values.py_worth import Instance as Object
 from rebsync.reverse.python.values.py_worth import Value
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding
 from rebsync.reverse.syntax.py_index import MODULE, Scope
 from rebsync.reverse.syntax.py_tree import field, text_of
@@ -39,6 +42,7 @@ from rebsync.reverse.unknowns import Open
 ENDLESS = "what this goes through may have no end"
 _HANGS = "it is not known whether this loop ends"
 _WAITS = "this may wait for ever for a lock that is held"
+_SAME_OBJECT = "another callback of this topic gets the object that is changed here"
 _OPEN = "add the package that has the receivers, if they matter"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
 _CALLS = "add a class to the model that calls it, or message servers that send to it"
@@ -55,6 +59,11 @@ def list_unit(
     note_namespaces(unit.unit, findings)
     for number, fact in enumerate(unit.unit.facts):
         _fact(unit, fact, number in servers, findings)
+    if unit.library.threads:
+        _changed(unit, servers, findings)
+    for asked, why in declared_again(unit.unit.facts):
+        place = asked.site.place
+        findings.unreadable(place.source, Unread(place.span, why), unit.name)
     served = [f for n, f in enumerate(unit.unit.facts) if n in servers]
     # One topic has a thread for each of its publishers, one service one for each of its clients.
     beside_itself = any(isinstance(f, SubscriptionFact | ServiceFact) for f in served)
@@ -62,6 +71,29 @@ def list_unit(
         place = served[-1].site.place
         why = unit.library.name + _THREADS
         findings.assumed(place.source, place.span, why, within=unit.name)
+
+
+def _changed(unit: PyUnit, servers: Mapping[int, Server], findings: Findings) -> None:
+    """Messages that a callback changes: all callbacks of a topic get the same object."""
+    heard = {n: f for n, f in enumerate(unit.unit.facts) if isinstance(f, SubscriptionFact)}
+    topics = Counter(f.topic for f in heard.values() if isinstance(f.topic, str))
+    for number in servers.keys() & heard.keys():
+        server, topic = servers[number], heard[number].topic
+        if not isinstance(topic, str) or topics[topic] < 2 or not server.message:
+            continue
+        for node in _changes(server):
+            place = unit.module.py.source, unit.module.py.span(node)
+            findings.unreadable(place[0], Unread(place[1], _SAME_OBJECT), unit.name)
+
+
+def _changes(server: Server) -> Iterator[Node]:
+    """Where a callback stores in its message, or calls what a part of it has."""
+    parts = {"assignment": "left", "augmented_assignment": "left", "call": "function"}
+    for node in nodes_in(server.body):
+        if node.type in parts:
+            stored = text_of(field(node, parts[node.type]))
+            if stored.startswith((f"{server.message}.", f"{server.message}[")):
+                yield node
 
 
 def _fact(unit: PyUnit, fact: Fact, served: bool, findings: Findings) -> None:
