@@ -35,13 +35,19 @@ def is_candidate(code: PyCode, module: Scope, value: Node) -> bool:
 
 
 def candidate_locals(code: PyCode, function: Scope) -> frozenset[str]:
-    """The locals of a function that may be for people."""
+    """The locals of a function that may be for people: none that models declare."""
     return frozenset(
         name
         for name, bindings in function.names.items()
         if all(b.how in ("value", "augmented", "loop") for b in bindings)
         and all(_is_computed(code, function.module, b.value) for b in bindings)
+        and not any(_is_declared(b.value) for b in bindings)
     )
+
+
+def _is_declared(value: Node) -> bool:
+    """Whether a local gets its type where it gets a value, as generated code declares each."""
+    return value.parent is not None and value.parent.child_by_field_name("type") is not None
 
 
 def _is_computed(code: PyCode, module: Scope, value: Node) -> bool:
