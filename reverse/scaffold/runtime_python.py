@@ -45,6 +45,8 @@ def first_difference(base: Source, source: Source, own: frozenset[str]) -> Span 
     if SERVES in base.text:
         is_script = not source.path.endswith(".py")
         old, new = (plain_program(each, is_script) for each in (old, new))
+        if (early := next(_too_early(new.body), None)) is not None:
+            return span_of(source, early)
     old, new = without_types(old), without_types(new)
     last = len(source.text.rstrip())
     for one, other in zip_longest(_parts(old.body, own), _parts(new.body, own)):
@@ -150,6 +152,16 @@ def _head(statement: ast.stmt) -> str:
     empty = {name: list[ast.stmt]() for name in fields if name in ("orelse", "finalbody")}
     copied = type(statement)(**{**fields, **empty, "body": [ast.Pass()]})
     return ast.unparse(ast.fix_missing_locations(copied))
+
+
+def _too_early(body: list[ast.stmt]) -> Iterator[ast.stmt]:
+    """The statements that name a rebec before the one that makes it: they fail, logs as well."""
+    made = next((i for i, statement in enumerate(body) if _makes_rebec(statement)), 0)
+    for statement in body[:made]:
+        if any(isinstance(n, ast.Name) and n.id == "rebec" for n in ast.walk(statement)):
+            yield statement
+    for function in (s for s in body if isinstance(s, ast.FunctionDef)):
+        yield from _too_early(function.body)
 
 
 def _makes_rebec(statement: ast.stmt) -> bool:
