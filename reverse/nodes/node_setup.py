@@ -294,6 +294,7 @@ class Setup:
         return None
 
     # --- loops and waiting ----------------------------------------------------------------------
+
     def _loops(self) -> None:
         rates = [f for f in self.facts if isinstance(f, RateFact)]
         for function in self.first:

@@ -27,7 +27,7 @@ from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
 _NEVER = "this program never lets messages be served: the model serves them"
 _OTHER = "this program lets only the messages of other nodes be served"
 _REMOVED = "the node may be taken out of its executor here"
-_ENDED = "no member is known to keep this group: it ends, and what it has is never called"
+_NO_OWNER = "no member is known to keep this group: it ends, and what it has is never called"
 _GROUP = "no executor is known to get this group: what it has may never be called"
 _ENDED = "the node ends here, before its program lets messages be served"
 _NAMES = ("identifier", "field_identifier", "type_identifier")
@@ -132,7 +132,7 @@ class _Spun:
         for call, function in within:
             is_made = call.name == "create_callback_group"
             if is_made and function.name != "main" and is_local_group(call.node, function.body):
-                return call.node, _ENDED
+                return call.node, _NO_OWNER
         if not any(c.name == "add_callback_group" for c in calls):
             for call in calls:
                 apart = len(call.arguments) > 1 and text_of(call.arguments[1]) != "true"
