@@ -29,6 +29,7 @@ from rebsync.reverse.nodes.node_state import State
 from rebsync.reverse.nodes.node_units import Start, Unit
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_initialisers import hands_on
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 
 _ENTRY = "onInit"
@@ -235,7 +236,7 @@ def _constructed(
 ) -> Iterator[StartStatements | DefaultValues]:
     """The initialisers of a constructor, then its body; first another that it hands on to."""
     entries = named(function.initialisers) if function.initialisers is not None else []
-    own = next((e for e in entries if _is_own(owner, e)), None)
+    own = next((e for e in entries if hands_on(owner, e)), None)
     if own is not None:
         yield from _handed_on(owner, function, own, state, defaults, arguments)
         entries = []
@@ -256,13 +257,6 @@ def _constructed(
             instead[entry.id] = state.zeros(meaning)
     yield StartStatements(function, tuple(nodes), instead, arguments)
     yield StartStatements(function, _statements(function), {}, arguments)
-
-
-def _is_own(owner: CppClass, entry: Node) -> bool:
-    """Whether an initialiser is another constructor of the class: a base may have its name."""
-    bases = {b.rpartition("::")[2] for b in (*owner.bases, *owner.roots)}
-    is_base = "::" in text_of(named(entry)[0]) and owner.name in bases
-    return base_of(entry) == owner.name and not is_base
 
 
 def _handed_on(

@@ -7,8 +7,8 @@ from functools import partial
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.syntax.cpp_index import CppFunction
-from rebsync.reverse.syntax.cpp_tree import text_of
+from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_initialisers import hands_on
 from rebsync.reverse.values.cpp_assignments import CppAssignments
 from rebsync.reverse.values.cpp_flow_types import Variable
 from rebsync.reverse.values.cpp_flow_writes import Key, key_of
@@ -78,7 +78,7 @@ class Afterwards:
         calls = self.variables.values.calls
         own = {w.node.id for w in writers}
         found = calls.bodies(variable.owner, variable.owner.name)
-        found = [f for f in found if f.node.id in own or not _delegates(f)] or found
+        found = [f for f in found if f.node.id in own or not _delegates(variable.owner, f)] or found
         return [f for f in found if calls.uses(f)] or found
 
     def _after(
@@ -111,10 +111,8 @@ class Afterwards:
         )
 
 
-def _delegates(constructor: CppFunction) -> bool:
-    """Whether a constructor calls another one of its class first, and no base of its name."""
+def _delegates(owner: CppClass, constructor: CppFunction) -> bool:
+    """Whether a constructor calls another one of its class first."""
     listed = constructor.initialisers
-    if listed is None:
-        return False
-    given = [n for n in listed.named_children if n.type == "field_initializer"]
-    return any(text_of(n.named_children[0]) == constructor.owner for n in given)
+    given = listed.named_children if listed is not None else ()
+    return any(hands_on(owner, n) for n in given if n.type == "field_initializer")
