@@ -67,14 +67,16 @@ _PROGRAMS, _SHARED = "${CATKIN_PACKAGE_BIN_DESTINATION}", "${CATKIN_PACKAGE_SHAR
 
 def facts_of_build(source: Source) -> Iterator[Fact]:
     """The facts of a file; values say under which conditions the commands are."""
-    commands = list(_commands(read_cmake(source).items))
+    items = read_cmake(source).items
+    as_written = list(_commands(items))
+    commands = list(_commands(items, ConstantLists(as_written, _sets_what_it_names)))
     names = dict(filter(None, (_named(command) for command, _ in commands)))
     adding = (c for c, _ in commands if c.name == "add_library" and c.arguments)
     libraries = frozenset(command.arguments[0].text for command in adding)
     own = {argument.text for command, _ in commands for argument in command.arguments}
     projects = (c.arguments[0].text for c, _ in commands if c.name == "project" and c.arguments)
     project = next(projects, "")
-    lists = ConstantLists(commands, _sets_what_it_names)
+    lists = ConstantLists(as_written, _sets_what_it_names)
     caches = {*_CACHES, *_found_caches(commands)}
     for command, condition in commands:
         lists.passed(command, condition)
@@ -93,19 +95,29 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
 _Told = tuple[str, str, str, str, Span]
 
 
-def _commands(items: Iterable[Item], condition: str = "") -> Iterator[tuple[Command, str]]:
-    """The commands, each with the blocks around it."""
+def _commands(
+    items: Iterable[Item], lists: ConstantLists | None = None, condition: str = ""
+) -> Iterator[tuple[Command, str]]:
+    """The commands, each with the blocks around it; with `lists` those of loops in each round."""
     for item in items:
+        if lists is not None:
+            lists.passed(item.head if isinstance(item, CommandBlock) else item, condition)
         match item:
             case CommandBlock(head, body, others):
                 yield head, condition
-                inside = _commands(body, condition + _condition(head))
+                rounds = lists.rounds(item) if lists is not None else None
+                if rounds is not None:
+                    for commands in rounds:
+                        yield from _commands(commands, lists, condition)
+                    continue
+                inside = _commands(body, lists, condition + _condition(head))
                 is_function = head.name == "function"
                 yield from (c for c in inside if not is_function or c[0].name != "return")
                 for branch, other in others:
                     yield branch, condition
                     beside = f"{_condition(head)}, {branch.name}" if branch.name == "else" else ""
-                    yield from _commands(other, condition + (beside or _condition(branch)))
+                    said = condition + (beside or _condition(branch))
+                    yield from _commands(other, lists, said)
             case Command():
                 yield item, condition
 
