@@ -170,7 +170,7 @@ class _DeadStores:
                     return False
                 operator = text_of(part(node, "operator"))
                 is_cut = operator in ("/=", "%=") and _root(node) not in self._floating
-                return not is_cut and (self._is_pure(value) or _is_own_parameter(value))
+                return not is_cut and (self._is_pure(value) or is_own_parameter(value))
             case "call_expression":
                 call = call_of(node)
                 if call is None or call.target is None or not self._is_dead(call.target):
@@ -242,7 +242,7 @@ def _is_pure_call(call: CppCall) -> bool:
     return (call.name.startswith("std::") and is_known(call)) or call.name.startswith("static_cast")
 
 
-def _is_own_parameter(value: Node) -> bool:
+def is_own_parameter(value: Node) -> bool:
     """Whether a value is that of a parameter that is none of the model."""
     call = call_of(value)
     if call is None or call.name not in READS or not call.arguments:
