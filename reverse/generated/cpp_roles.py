@@ -166,8 +166,8 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     roles.own = {n: p for n, p in roles.own.items() if n not in roles.silent}
     for constructor in (*owner.functions, *functions):
         if constructor.name == owner.name:
-            for statement in named(constructor.body) if constructor.body is not None else ():
-                told = deciding_parameter(code, constructor, statement)
+            for asking in named(constructor.body) if constructor.body is not None else ():
+                told = deciding_parameter(code, constructor, asking)
                 roles.told += [told] if told is not None else []
             roles.queue_length = queue_length(code, constructor) or roles.queue_length
     for function in functions:

@@ -55,7 +55,8 @@ def _variables(code: Code, log: Node) -> dict[str, str]:
     found: dict[str, str] = {}
     around = climb(log, lambda above: above.type == "function_definition")
     for cpp in code.files if names else ():
-        outside, locals_ = [], []
+        outside: dict[str, str] = {}
+        locals_: dict[str, str] = {}
         for name in code.named(cpp, cpp.root, sorted(names)):
             declared = climb(name, lambda above: above.type not in _DECLARATORS)
             function = climb(name, lambda above: above.type == "function_definition")
@@ -63,8 +64,8 @@ def _variables(code: Code, log: Node) -> dict[str, str]:
                 continue
             if function is None or function == around:
                 kept = outside if function is None else locals_
-                kept.append((text_of(name), squeezed(declared)))
-        found |= dict(outside) | dict(locals_)
+                kept[text_of(name)] = squeezed(declared)
+        found |= outside | locals_
     return found
 
 
