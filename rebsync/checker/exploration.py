@@ -39,11 +39,11 @@ class Faults:
 class Limits:
     """Bounds of a search; None is no bound, of memory what the machine has.
 
-    `seconds` is by the wall clock, `until` model time.
-    `until` bounds the time since the start: steps that would pass it are left out, and the search
-    is then incomplete. `memory` is in bytes, of the whole process. `instructions` are those of one
-    run of a body. With `first` a search ends at the first of the `faults`. `began` is the moment by
-    time.perf_counter from which the seconds count, else they count from the search.
+    `seconds` is by the wall clock. `until` bounds the model time since the start: steps that would
+    pass it are left out, and the search is then incomplete. `memory` is in bytes, of the whole
+    process. `instructions` are those of one run of a body. With `first` a search ends at the first
+    of the `faults`. `began` is the moment by time.perf_counter from which the seconds count, else
+    they count from the search.
     """
 
     states: int | None = None
