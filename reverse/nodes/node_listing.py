@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import field
+from typing import TypeAlias
 
 from tree_sitter import Node
 
@@ -22,7 +23,13 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.nodes.failing_parameters import declared_again, never_declared
-from rebsync.reverse.nodes.kept_objects import called_by_listeners, is_kept
+from rebsync.reverse.nodes.kept_objects import (
+    called_by_listeners,
+    is_kept,
+    odd_uses,
+    replacing,
+    weak_pointers,
+)
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit, bodies
 from rebsync.reverse.nodes.node_unmodelled import shared_state
@@ -48,6 +55,9 @@ _ENTRIES = frozenset(
 _CHOOSING = frozenset({"ignore_local_publications", "content_filter_options"})
 _TEXTS = frozenset({"string_literal", "concatenated_string", "raw_string_literal"})
 _NO_NUMBER = re.compile(r"string|char\b|chrono|Duration|Node[A-Z]\w*|Node\b|Ptr|_ptr")
+_Served: TypeAlias = SubscriptionFact | TimerFact | ServiceFact
+_REPLACING = "the variable has another one already, which ends here: the model keeps both"
+_OTHER_NAME = "this may end a timer, subscription or service, by another name than its first"
 _SEVERAL = "its callbacks may run at the same time as others: the model has one at a time"
 
 
@@ -66,11 +76,16 @@ class FindingList:
     def unit(self, unit: Unit, servers: Iterable[Server]) -> None:
         """What a unit has that its reactive class has not."""
         served = {id(f) for s in servers for f in (*s.subscriptions, *s.timers, s.service)}
+        weak = weak_pointers(unit)
         for fact in unit.facts:
             self._fact(unit, fact, id(fact) in served)
-            if isinstance(fact, SubscriptionFact | TimerFact) and _is_lost(fact):
+            if isinstance(fact, _Served) and _is_lost(fact, weak):
                 why = "nothing keeps what this gives: ROS ends it at once, the model does not"
                 self._unread(fact.site.place, why, unit.name, "keep it in a member")
+        for fact in replacing(unit.facts):
+            self._unread(fact.site.place, _REPLACING, unit.name)
+        for cpp, node in odd_uses(unit):
+            self._unread(Place(cpp.source, cpp.span(node)), _OTHER_NAME, unit.name)
         for fact, why in (*declared_again(unit.facts), *never_declared(unit.facts)):
             self._unread(fact.site.place, why, unit.name)
         for server in servers:
@@ -297,21 +312,21 @@ def _numbers(unit: Unit, arguments: Sequence[Node]) -> list[str]:
     ]
 
 
-def _is_lost(fact: SubscriptionFact | TimerFact) -> bool:
+def _is_lost(fact: _Served, weak: Collection[str]) -> bool:
     above = fact.site.call.parent
     if above is None or (isinstance(fact, SubscriptionFact) and fact.single):
         return False
-    return above.type == "expression_statement" or _is_dropped(fact, above)
+    return above.type == "expression_statement" or _is_dropped(fact, above, weak)
 
 
-def _is_dropped(fact: SubscriptionFact | TimerFact, above: Node) -> bool:
+def _is_dropped(fact: _Served, above: Node, weak: Collection[str]) -> bool:
     """Whether only a local of a function other than `main` has it, which nothing else keeps."""
     function, name = fact.site.function, above.child_by_field_name("declarator")
     if function is None or function.name == "main" or function.body is None:
         return False
     if above.type != "init_declarator" or name is None or name.type != "identifier":
         return False
-    return not is_kept(function.body, above, text_of(name))
+    return not is_kept(function.body, above, text_of(name), weak)
 
 
 def _uses(unit: Unit, name: str) -> bool:
