@@ -32,7 +32,7 @@ from rebsync.reverse.nodes.kept_objects import (
 )
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit, bodies
-from rebsync.reverse.nodes.node_unmodelled import shared_state
+from rebsync.reverse.nodes.node_unmodelled import shared_state, statics
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_wiring import (
     Wiring,
@@ -41,7 +41,8 @@ from rebsync.reverse.nodes.node_wiring import (
     unfed,
     unheard,
 )
-from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+from rebsync.reverse.syntax.cpp_index import Code, CppField
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Span
 
@@ -53,6 +54,10 @@ _ENTRIES = frozenset(
 )
 # Options of subscriptions by which the middleware leaves messages out.
 _CHOOSING = frozenset({"ignore_local_publications", "content_filter_options"})
+_NAMING = ("preproc_def", "alias_declaration", "type_definition", "base_class_clause")
+_WORD = re.compile(r"\w+")
+# What makes callbacks that a container may run at the same time as others.
+_GROUPS = frozenset({"create_callback_group"})
 _TEXTS = frozenset({"string_literal", "concatenated_string", "raw_string_literal"})
 _NO_NUMBER = re.compile(r"string|char\b|chrono|Duration|Node[A-Z]\w*|Node\b|Ptr|_ptr")
 _Served: TypeAlias = SubscriptionFact | TimerFact | ServiceFact
@@ -92,6 +97,8 @@ class FindingList:
             self._wide(unit, server)
         for cpp, body in bodies(unit):
             self._words(unit, cpp, body)
+        for cpp in unit.code.files:
+            self._renamed(unit, cpp)
         for member in (f for c in unit.lineage for f in (*c.fields, *c.others)):
             self._words(unit, member.cpp, member.type)
 
@@ -140,6 +147,13 @@ class FindingList:
                 self._unread(place, why, unit.name)
             else:
                 self._unread(place, f'"{name}": {_SEVERAL}', unit.name)
+
+    def _renamed(self, unit: Unit, cpp: Cpp) -> None:
+        """Other names of what runs callbacks beside each other: a macro, an alias, a class below."""
+        listed = self._listed(cpp) & libraries.threaded()
+        for node in inside(cpp.root, *_NAMING) if listed else ():
+            if not listed.isdisjoint(_WORD.findall(text_of(node))):
+                self._unread(Place(cpp.source, cpp.span(node)), _SEVERAL, unit.name)
 
     def _listed(self, cpp: Cpp) -> frozenset[str]:
         """The words of a file that are listed wherever the code names them."""
@@ -194,6 +208,12 @@ class FindingList:
 
     def _shared(self, instances: list[Instance]) -> None:
         """Objects of one program that share its thread, and nodes that may not be there."""
+        loaded = [i for i in instances if i.start.program is None]  # into one process, or several
+        self._common_variables(list({i.start.unit.name: i.start.unit for i in loaded}.values()))
+        for unit in (i.start.unit for i in loaded):
+            for cpp, body in bodies(unit):
+                for node in unit.code.named(cpp, body, _GROUPS):
+                    self._unread(Place(cpp.source, cpp.span(node)), _SEVERAL, unit.name)
         nodes: dict[tuple[int, int], list[Instance]] = {}
         for instance in instances:
             if instance.start.program is not None:
@@ -217,14 +237,15 @@ class FindingList:
                 self._made(together[1], why)
 
     def _common_variables(self, units: list[Unit]) -> None:
-        """Variables outside of classes that several rebecs of one program use."""
-        if len(units) < 2 or not units[0].code.variables:
+        """Variables of files, and static ones of classes, that several rebecs of one process use."""
+        if len(units) < 2:
             return
         code = units[0].code
-        for name, variables in code.variables.items():
-            constant = any((v.cpp.source.path, name) in code.constants for v in variables)
-            if not constant and sum(_uses(unit, name) for unit in units) > 1:
-                place = Place(variables[0].cpp.source, variables[0].cpp.span(variables[0].node))
+        shared = [(name, v[0], "") for name, v in code.variables.items() if not _constant(code, v)]
+        shared += [(f.name, f, c.name) for c in code.classes.values() for f in statics(c)]
+        for name, variable, owner in shared:
+            if sum(_uses(unit, name, owner) for unit in units) > 1:
+                place = Place(variable.cpp.source, variable.cpp.span(variable.node))
                 why = f'several rebecs of one program share "{name}": in the model each has its own'
                 self._unread(place, why, units[0].name)
 
@@ -329,7 +350,20 @@ def _is_dropped(fact: _Served, above: Node, weak: Collection[str]) -> bool:
     return not is_kept(function.body, above, text_of(name), weak)
 
 
-def _uses(unit: Unit, name: str) -> bool:
-    """Whether functions of a unit name something."""
+def _constant(code: Code, variables: Iterable[CppField]) -> bool:
+    return any((v.cpp.source.path, v.name) in code.constants for v in variables)
+
+
+def _uses(unit: Unit, name: str, owner: str) -> bool:
+    """Whether functions of a unit name a variable, of a class if it is of one."""
     names = frozenset({name})
-    return any(unit.code.named(cpp, body, names) for cpp, body in bodies(unit))
+    found = (node for cpp, body in bodies(unit) for node in unit.code.named(cpp, body, names))
+    return any(not owner or owner in unit.names or _is_of(node, owner) for node in found)
+
+
+def _is_of(node: Node, owner: str) -> bool:
+    """Whether a name is that of a member of a class: `Gate::level`, or by an object."""
+    above = node.parent
+    if above is None or above.type != "qualified_identifier":
+        return above is not None and above.type == "field_expression"
+    return owner in text_of(above).split("::")

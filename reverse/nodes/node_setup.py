@@ -51,7 +51,7 @@ from rebsync.reverse.nodes.node_units import UnitFacts
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import declared_name
-from rebsync.reverse.syntax.cpp_enclosing import enclosing_function, enclosing_statement
+from rebsync.reverse.syntax.cpp_enclosing import enclosing_function, enclosing_statement, in_lambda
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
 
@@ -360,7 +360,8 @@ class Setup:
             own = call.target is None and "::" not in call.name
             if statement.type != "expression_statement" or own or statement.id in self.instead:
                 continue
-            if name == "start" and "pinner" not in call.on.lower():
+            is_other = name == "start" and "pinner" not in call.on.lower()
+            if is_other or (name in libraries.named(Kind.SHUTDOWN) and in_lambda(call.node)):
                 continue
             if call.target is not None and any(f.name == name for f in self.state.unit.functions):
                 continue
@@ -379,8 +380,7 @@ class Setup:
 
 def send(server: str, after: int = 0) -> m.Statement:
     """`self.server() after(...)`."""
-    time = m.IntLiteral(after) if after else None
-    return m.ExpressionStatement(m.Call(m.Self(), server, (), time))
+    return m.ExpressionStatement(m.Call(m.Self(), server, (), m.IntLiteral(after) if after else None))
 
 
 def _is_call(statement: Node, call: Node) -> bool:
