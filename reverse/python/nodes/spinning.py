@@ -53,6 +53,8 @@ _ENDING = "the program of this node runs to its end: nothing is served from then
 class _Spin:
     """A call that serves nodes: those that it is given, or those of an `executor`."""
 
+    call: Node
+    scope: Scope
     nodes: tuple[Value, ...]
     executor: tuple[Value, ...] | None = None
 
@@ -111,7 +113,8 @@ def _may_make(unit: PyUnit, call: Node) -> bool:
 
 
 def _is_spun(values: PyValues, unit: PyUnit, running: _Running) -> bool:
-    spins = list(_spins(values, running))
+    every = list(_spins(values, running))
+    spins = [s for s in every if not any(_is_before(values, unit, o, s) for o in every)]
     if any(_is_of(values, unit, way) for spin in spins for way in spin.nodes):
         return True
     if spins and not _is_node(values, unit):
@@ -127,6 +130,15 @@ def _is_spun(values: PyValues, unit: PyUnit, running: _Running) -> bool:
         if any(_is_of(values, unit, w) for w in given) and any(_meet(to, e) for e in executors):
             return True
     return False
+
+
+def _is_before(values: PyValues, unit: PyUnit, one: _Spin, other: _Spin) -> bool:
+    """Whether a call serves only other nodes than a unit's, and does not come to another call."""
+    if one.scope is not other.scope or one.call.start_byte >= other.call.start_byte:
+        return False
+    spins = last_name(field(one.call, "function")) in libraries.spinning()
+    known = (isinstance(w, Instance) and not _is_of(values, unit, w) for w in one.nodes)
+    return spins and one.executor is None and bool(one.nodes) and all(known)
 
 
 def _is_node(values: PyValues, unit: PyUnit) -> bool:
@@ -164,10 +176,10 @@ def _spin(values: PyValues, function: Node, call: Node, scope: Scope) -> Iterato
         for w in values.ways(node, scope)
     )
     if any(isinstance(w, External) for w in ways):
-        yield _Spin(given)
+        yield _Spin(call, scope, given)
     elif function.type == "attribute":
         on = values.ways(field(function, "object"), scope)
-        yield _Spin(on, on)  # of a library whose nodes spin themselves, or of an executor
+        yield _Spin(call, scope, on, on)  # of a library whose nodes spin themselves, or of an executor
 
 
 def _goes_round(values: PyValues, call: Node, scope: Scope) -> bool:
