@@ -44,6 +44,7 @@ _LIVING = frozenset(
     {"mainloop", "exec_", "exec", "pause", "join", "serve_forever", "input", "raw_input"}
     | {"run", "run_forever", "app_run", "show", "start"}
 )
+_LATE = "this publishes when nothing is served any more: the model ends before"
 _UNSPUN = "nothing spins this node: it is not known to serve anything"
 _REMOVED = "a node is taken out of its executor: this one is not known to serve anything"
 _ENDING = "the program of this node runs to its end: nothing is served from then on"
@@ -73,6 +74,9 @@ def list_unserved(
     if not units:
         return
     running = _Running(values, entries)
+    if any(unit.library.flat for unit in units):  # of others nothing comes once they are shut down
+        for scope, node in _published_late(values, running):
+            findings.unreadable(scope.py.source, Unread(scope.py.span(node), _LATE), scope.name)
     for unit in units:
         made = list(_making(values, unit))
         if unit.lineage and not made:
@@ -180,6 +184,40 @@ def _spin(values: PyValues, function: Node, call: Node, scope: Scope) -> Iterato
     elif function.type == "attribute":
         on = values.ways(field(function, "object"), scope)
         yield _Spin(call, scope, on, on)  # of a library whose nodes spin themselves, or of an executor
+
+
+def _published_late(values: PyValues, running: _Running) -> Iterator[tuple[Scope, Node]]:
+    """The calls behind `spin`, in its function, that publish: the context may be valid still."""
+    found: dict[int, tuple[Scope, Node]] = {}
+    for name in sorted(libraries.spinning()):
+        for call, scope in values.code.by_callee.get(name, ()):
+            around = [call, *ancestors(call, lambda n: n.type in SCOPES)]
+            late = (n for at in around for n in _behind(at) for n in nodes_in(n))
+            calls = [n for n in late if n.type == "call"] if running.reaches(scope) else []
+            senders = _senders(values) if calls else frozenset()
+            for node in calls:
+                if last_name(field(node, "function")) in senders:
+                    found[node.id] = scope, node
+    yield from found.values()
+
+
+def _behind(node: Node) -> Iterator[Node]:
+    """The statements and clauses that follow a node in its block."""
+    behind = node.next_named_sibling if node.type != "argument_list" else None
+    while behind is not None:
+        yield behind
+        behind = behind.next_named_sibling
+
+
+def _senders(values: PyValues) -> frozenset[str]:
+    """What publishes, by names: methods of publishers, and functions that lead to these."""
+    found = set(libraries.publishing())
+    while True:
+        more = {s.name for call, s in values.code.calls if last_name(field(call, "function")) in found}
+        more.discard("")
+        if more <= found:
+            return frozenset(found)
+        found |= more
 
 
 def _goes_round(values: PyValues, call: Node, scope: Scope) -> bool:
