@@ -16,7 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.asking import TopicVocabulary
-from rebsync.reverse.environment.assumptions import assumed, parameters_changed
+from rebsync.reverse.environment.assumptions import assumed, others_reach, parameters_changed
 from rebsync.reverse.environment.closing import ClosedModel, closed, without_open
 from rebsync.reverse.environment.fragment_wiring import (
     constructor_publishes,
@@ -119,6 +119,7 @@ def closed_package(
     assumptions = (*assumptions, *_time(unit, around), *_rounded(properties))
     gaps = (*around.gaps, *_overwritten(model, wanted, observed), *_unheard(model, heard))
     gaps = (*gaps, *dict.fromkeys(parameters_changed(extracted)))
+    gaps = (*gaps, *dict.fromkeys(others_reach(extracted)))
     gaps = (*gaps, *dict.fromkeys(_waiting(model, wanted, properties)))
     findings = tuple(different(extracted.findings))
     texts = extracted.texts, frozenset(_texts(extracted, wanted))

@@ -103,7 +103,10 @@ def _is_local(fact: Fact) -> bool:
 def _excludes(node: Node, other: Node) -> bool:
     """Whether a node stands in a branch that does not run if that of another one did."""
     return any(
-        n.type in _BRANCHES and not holds(n, other) and n.parent is not None and holds(n.parent, other)
+        n.type in _BRANCHES
+        and not holds(n, other)
+        and n.parent is not None
+        and holds(n.parent, other)
         for n in ancestors(node)
     )
 

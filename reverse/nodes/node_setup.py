@@ -380,7 +380,9 @@ class Setup:
 
 def send(server: str, after: int = 0) -> m.Statement:
     """`self.server() after(...)`."""
-    return m.ExpressionStatement(m.Call(m.Self(), server, (), m.IntLiteral(after) if after else None))
+    return m.ExpressionStatement(
+        m.Call(m.Self(), server, (), m.IntLiteral(after) if after else None)
+    )
 
 
 def _is_call(statement: Node, call: Node) -> bool:

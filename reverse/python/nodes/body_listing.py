@@ -33,6 +33,7 @@ from rebsync.reverse.python.nodes.object_model import list_object_model
 from rebsync.reverse.python.values.py_lookup import scope_at
 from rebsync.reverse.python.values.py_worth import Instance as Object
 from rebsync.reverse.python.values.py_worth import Value
+from rebsync.reverse.syntax.ancestors import holds
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding
 from rebsync.reverse.syntax.py_index import MODULE, Scope
@@ -46,6 +47,7 @@ _SAME_OBJECT = "another callback of this topic gets the object that is changed h
 _COROUTINE = "this client library never runs the coroutine that the callback gives"
 _NO_ANSWER = "the client library raises an exception where a service gives no response"
 _ANSWERS = frozenset({"identifier", "call", "await", "attribute", "conditional_expression"})
+_LEFT = "in Python 2 this sets a variable of the function around"
 _OPEN = "add the package that has the receivers, if they matter"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
 _CALLS = "add a class to the model that calls it, or message servers that send to it"
@@ -205,6 +207,10 @@ def list_shared(
             why = "this sets what is state of a rebec, in code that is not read"
             span = scope.py.span(binding.node)
             findings.unreadable(scope.py.source, Unread(span, why), unit.name)
+        for scope, node in _left_variables(unit, readings[unit.name]):
+            if not findings.has_unreadable(scope.py.source, scope.py.span(node)):
+                unread = Unread(scope.py.span(node), _LEFT)
+                findings.unreadable(scope.py.source, unread, unit.name)
     _note_turns(units, findings)
 
 
@@ -223,6 +229,24 @@ def list_endless(
         for source, span, why in (*endless, *hanging, *locks):
             if not findings.has_unreadable(source, span):
                 findings.unreadable(source, Unread(span, why), unit.name)
+
+
+def _left_variables(unit: PyUnit, reading: Reading) -> Iterator[tuple[Scope, Node]]:
+    """Lists made by a comprehension that set, in Python 2, a variable of the function around."""
+    for scope in reading.code.scopes.values() if not unit.library.flat else ():
+        if scope.node.id not in reading.bodies or "python3" in scope.py.source.text[:80]:
+            continue
+        for made in (n for n in nodes_in(scope.node) if n.type == "list_comprehension"):
+            clauses = (n for n in made.named_children if n.type == "for_in_clause")
+            names = (n for c in clauses for n in nodes_in(field(c, "left")))
+            if any(_is_variable(scope, n, made) for n in names):
+                yield scope, made
+
+
+def _is_variable(scope: Scope, name: Node, made: Node) -> bool:
+    """Whether a name is that of a variable which a function sets elsewhere too."""
+    bindings = scope.names.get(text_of(name), ()) if name.type == "identifier" else ()
+    return any(not holds(made, b.node) for b in bindings)
 
 
 def _set_elsewhere(

@@ -183,7 +183,9 @@ def _spin(values: PyValues, function: Node, call: Node, scope: Scope) -> Iterato
         yield _Spin(call, scope, given)
     elif function.type == "attribute":
         on = values.ways(field(function, "object"), scope)
-        yield _Spin(call, scope, on, on)  # of a library whose nodes spin themselves, or of an executor
+        yield _Spin(
+            call, scope, on, on
+        )  # of a library whose nodes spin themselves, or of an executor
 
 
 def _published_late(values: PyValues, running: _Running) -> Iterator[tuple[Scope, Node]]:
@@ -213,7 +215,9 @@ def _senders(values: PyValues) -> frozenset[str]:
     """What publishes, by names: methods of publishers, and functions that lead to these."""
     found = set(libraries.publishing())
     while True:
-        more = {s.name for call, s in values.code.calls if last_name(field(call, "function")) in found}
+        more = {
+            s.name for call, s in values.code.calls if last_name(field(call, "function")) in found
+        }
         more.discard("")
         if more <= found:
             return frozenset(found)
