@@ -269,7 +269,7 @@ def _waiting(
     calls = {c.name: [n for n in m.walk(c) if isinstance(n, m.Call)] for c in model.classes}
     for seen in wanted:
         if seen.server and any(c.name == "delay" for c in calls.get(seen.owner, ())):
-            yield f"a message of {seen.topic} may wait for a callback of {seen.owner} that takes time"
+            yield f"a message of {seen.topic} may wait while a callback of {seen.owner} takes time"
 
 
 def _rounded(properties: Properties) -> Iterator[str]:

@@ -149,7 +149,7 @@ class FindingList:
                 self._unread(place, f'"{name}": {_SEVERAL}', unit.name)
 
     def _renamed(self, unit: Unit, cpp: Cpp) -> None:
-        """Other names of what runs callbacks beside each other: a macro, an alias, a class below."""
+        """Other names of what runs callbacks beside each other: macros, aliases, classes below."""
         listed = self._listed(cpp) & libraries.threaded()
         for node in inside(cpp.root, *_NAMING) if listed else ():
             if not listed.isdisjoint(_WORD.findall(text_of(node))):
@@ -237,7 +237,7 @@ class FindingList:
                 self._made(together[1], why)
 
     def _common_variables(self, units: list[Unit]) -> None:
-        """Variables of files, and static ones of classes, that several rebecs of one process use."""
+        """Variables of files, and static ones of classes, that several rebecs of a process use."""
         if len(units) < 2:
             return
         code = units[0].code

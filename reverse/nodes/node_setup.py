@@ -348,10 +348,8 @@ class Setup:
         waits = function.body is not None and _may_wait(function.body)
         for call in self.code.calls_of(function) if waits else ():
             name = call.name.rpartition("::")[2]
-            if (
-                name in libraries.named(Kind.AUDIENCE)
-                and (loop := loop_around(call.node)) is not None
-            ):
+            is_asked = name in libraries.named(Kind.AUDIENCE)
+            if is_asked and (loop := loop_around(call.node)) is not None:
                 self.instead[loop.id] = ()
                 continue
             statement = enclosing_statement(call.node) if name in libraries.waiting() else None
