@@ -19,6 +19,7 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, inside, part, text_of
 _NUMBERS = frozenset({"true", "false", "number_literal"})
 _WRITTEN = _NUMBERS | {"identifier"}  # where it is known to be whether it latches
 _JOINING = re.compile(r"\bcreate_\w+(<.*>)?\Z", re.DOTALL)
+_PART = re.compile(r"\.|->")
 _SERVED = (SubscriptionFact, TimerFact, ServiceFact)
 _BRANCHES = frozenset({"else_clause", "case_statement"})
 _LATCHED = 2  # the place where `advertise` takes whether it latches, or else functions
@@ -147,18 +148,19 @@ def odd_uses(unit: Unit) -> Iterator[tuple[Cpp, Node]]:
 
 def _first_names(unit: Unit) -> Iterator[_Handle]:
     for fact in unit.facts:
-        name, _, index = fact.site.kept.removeprefix("this->").partition("[")
+        place, _, index = fact.site.kept.removeprefix("this->").partition("[")
+        name = _PART.split(place)[-1]  # of a part of another object, the part
         if isinstance(fact, _SERVED) and name.isidentifier():
             function = fact.site.function
             body = function.body if function is not None and _is_local(fact) else None
-            yield _Handle(name, body, container=bool(index) or is_appended(fact))
+            yield _Handle(name, body, name != place, bool(index) or is_appended(fact))
 
 
 def _use(node: Node, handle: _Handle, body: Node) -> _Handle | bool:
     """The name that something gets at a place, or whether it may be ended there."""
     at, above = node, node.parent
-    if above is not None and text_of(above) == f"this->{handle.name}":
-        at, above = above, above.parent
+    if above is not None and above.type == "field_expression" and part(above, "field") == node:
+        at, above = above, above.parent  # a part of the own object, or of another one
     if above is None:
         return False
     match above.type:

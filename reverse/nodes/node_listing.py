@@ -58,6 +58,8 @@ _NAMING = ("preproc_def", "alias_declaration", "type_definition", "base_class_cl
 _WORD = re.compile(r"\w+")
 # What makes callbacks that a container may run at the same time as others.
 _GROUPS = frozenset({"create_callback_group"})
+# What gives all timers, subscriptions and services of a node, or of a group of it.
+_REACHING = frozenset({"for_each_callback_group", "collect_all_ptrs", "find_timer_ptrs_if"})
 _TEXTS = frozenset({"string_literal", "concatenated_string", "raw_string_literal"})
 _NO_NUMBER = re.compile(r"string|char\b|chrono|Duration|Node[A-Z]\w*|Node\b|Ptr|_ptr")
 _Served: TypeAlias = SubscriptionFact | TimerFact | ServiceFact
@@ -142,6 +144,8 @@ class FindingList:
             place = Place(cpp.source, cpp.span(node))
             if name in _CHOOSING:
                 self._unread(place, f'"{name}": some messages may not come to the node', unit.name)
+            elif name in _REACHING:
+                self._unread(place, _OTHER_NAME, unit.name)
             elif name in _ENTRIES:
                 why = f'"{name}" calls functions of the node in ways that the model does not have'
                 self._unread(place, why, unit.name)
@@ -158,7 +162,7 @@ class FindingList:
     def _listed(self, cpp: Cpp) -> frozenset[str]:
         """The words of a file that are listed wherever the code names them."""
         if id(cpp) not in self._odd:
-            known = _CHOOSING | _ENTRIES | libraries.threaded()
+            known = _CHOOSING | _ENTRIES | _REACHING | libraries.threaded()
             words = {n for n in known if n.encode() in cpp.words}
             self._odd[id(cpp)] = frozenset(words)
         return self._odd[id(cpp)]

@@ -30,6 +30,7 @@ from rebsync.reverse.nodes.node_wiring import (
 from rebsync.reverse.python.bodies.body_reading import Reading
 from rebsync.reverse.python.bodies.body_scope import Key, PyUnit
 from rebsync.reverse.python.nodes.object_model import list_object_model
+from rebsync.reverse.python.nodes.refused_callbacks import odd_callback
 from rebsync.reverse.python.values.py_lookup import scope_at
 from rebsync.reverse.python.values.py_worth import Instance as Object
 from rebsync.reverse.python.values.py_worth import Value
@@ -37,16 +38,13 @@ from rebsync.reverse.syntax.ancestors import holds
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding
 from rebsync.reverse.syntax.py_index import MODULE, Scope
-from rebsync.reverse.syntax.py_tree import SCOPES, field, text_of
+from rebsync.reverse.syntax.py_tree import field, text_of
 from rebsync.reverse.unknowns import Open
 
 ENDLESS = "what this goes through may have no end"
 _HANGS = "it is not known whether this loop ends"
 _WAITS = "this may wait for ever for a lock that is held"
 _SAME_OBJECT = "another callback of this topic gets the object that is changed here"
-_COROUTINE = "this client library never runs the coroutine that the callback gives"
-_NO_ANSWER = "the client library raises an exception where a service gives no response"
-_ANSWERS = frozenset({"identifier", "call", "await", "attribute", "conditional_expression"})
 _LEFT = "in Python 2 this sets a variable of the function around"
 _OPEN = "add the package that has the receivers, if they matter"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
@@ -67,7 +65,7 @@ def list_unit(
     if unit.library.threads:
         _changed(unit, servers, findings)
     for number, server in servers.items():
-        if (odd := _odd_callback(unit, unit.unit.facts[number], server)) is not None:
+        if (odd := odd_callback(unit.unit.facts[number], server, unit.library)) is not None:
             source, span = unit.module.py.source, unit.module.py.span(odd[0])
             findings.unreadable(source, Unread(span, odd[1]), unit.name)
     for asked, why in declared_again(unit.unit.facts):
@@ -80,60 +78,6 @@ def list_unit(
         place = served[-1].site.place
         why = unit.library.name + _THREADS
         findings.assumed(place.source, place.span, why, within=unit.name)
-
-
-def _odd_callback(unit: PyUnit, fact: Fact, server: Server) -> tuple[Node, str] | None:
-    """What of a callback the client library refuses, or never runs."""
-    function = server.body if server.body.type in SCOPES else server.body.parent
-    is_answer = isinstance(fact, ServiceFact) and unit.library.flat
-    if function is not None and function.type == "lambda" and is_answer:
-        given = field(function, "body")
-        return (given, _NO_ANSWER) if not _may_be_answer(given) else None
-    if function is None or function.type != "function_definition":
-        return None
-    if any(c.type == "async" for c in function.children) and not unit.library.flat:
-        return function, _COROUTINE
-    if is_answer:
-        body = field(function, "body")
-        if not _returns(body):
-            return function, _NO_ANSWER
-        returned = (n for n in nodes_in(body, *SCOPES) if n.type == "return_statement")
-        return next(((n, _NO_ANSWER) for n in returned if not _may_answer(n)), None)
-    return None
-
-
-def _may_answer(returned: Node) -> bool:
-    """Whether a statement may return an object of a message's class."""
-    values = [n for n in returned.named_children if n.type != "comment"]
-    return len(values) == 1 and _may_be_answer(values[0])
-
-
-def _may_be_answer(value: Node) -> bool:
-    """Whether an expression may be an object of a class; the class itself is none."""
-    return value.type in _ANSWERS and not text_of(value).endswith(".Response")
-
-
-def _returns(node: Node) -> bool:
-    """Whether a statement, or the last one of a block, always returns, or ends by an exception."""
-    parts = [n for n in node.named_children if n.type != "comment"]
-    match node.type:
-        case "return_statement" | "raise_statement":
-            return True
-        case "block":
-            return any(map(_returns, parts))
-        case "with_statement" | "else_clause" | "elif_clause" | "except_clause":
-            return _returns(parts[-1])
-        case "if_statement":
-            blocks = [n for n in parts if n.type in ("block", "elif_clause", "else_clause")]
-            return parts[-1].type == "else_clause" and all(map(_returns, blocks))
-        case "try_statement":
-            if parts[-1].type == "finally_clause" and _returns(parts[-1].named_children[-1]):
-                return True
-            after = any(n.type == "else_clause" and _returns(n) for n in parts)
-            caught = all(_returns(n) for n in parts if n.type == "except_clause")
-            return caught and (after or _returns(parts[0]))
-        case _:
-            return False
 
 
 def _changed(unit: PyUnit, servers: Mapping[int, Server], findings: Findings) -> None:
