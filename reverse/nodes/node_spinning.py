@@ -235,11 +235,13 @@ class _Spun:
         words = libraries.named(Kind.SPIN)
         if not self.variable or any(in_lambda(n) for n in self._spinning()):
             return None
-        spun = (c for c in calls_in(self.body) if c.name.rpartition("::")[2] in words)
-        first = next(spun, None)
-        if first is None or not first.arguments or self._may_be(first.arguments[0], owner):
+        calls = list(calls_in(self.body))
+        first = next((c for c in calls if c.name.rpartition("::")[2] in words), None)
+        if first is None:
             return None
-        return first.node
+        added = [c for c in calls if c.name == "add_node" and c.on and c.on == first.on]
+        served = [c.arguments[0] for c in (*added, first) if c.arguments]
+        return first.node if served and not any(self._may_be(n, owner) for n in served) else None
 
     def _spinning(self) -> Iterator[Node]:
         return (n for n in inside(self.body, *_NAMES) if "spin" in text_of(n).lower())
