@@ -14,6 +14,7 @@ from rebsync.reverse.nodes.node_kept import FILLS, LOOKS, is_appended
 from rebsync.reverse.nodes.node_units import Unit, bodies
 from rebsync.reverse.syntax.ancestors import ancestors, holds
 from rebsync.reverse.syntax.cpp_calls import call_of
+from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, part, text_of
 
 _NUMBERS = frozenset({"true", "false", "number_literal"})
@@ -148,12 +149,47 @@ def odd_uses(unit: Unit) -> Iterator[tuple[Cpp, Node]]:
 
 def _first_names(unit: Unit) -> Iterator[_Handle]:
     for fact in unit.facts:
+        if not isinstance(fact, _SERVED):
+            continue
         place, _, index = fact.site.kept.removeprefix("this->").partition("[")
         name = _PART.split(place)[-1]  # of a part of another object, the part
-        if isinstance(fact, _SERVED) and name.isidentifier():
-            function = fact.site.function
-            body = function.body if function is not None and _is_local(fact) else None
-            yield _Handle(name, body, name != place, bool(index) or is_appended(fact))
+        function = fact.site.function
+        if name.isidentifier():
+            given = function is not None and any(p.name == name for p in function.parameters)
+            is_local = function is not None and (given or _is_local(fact))
+            body = function.body if function is not None and is_local else None
+            copy = given or name != place
+            yield _Handle(name, body, copy, bool(index) or is_appended(fact))
+            yield from _handed(unit, function, name) if function is not None and given else ()
+        elif (whole := _whole(fact.site.call)) is not None:
+            yield _Handle(whole, None, container=True)
+
+
+def _handed(unit: Unit, function: CppFunction, name: str) -> Iterator[_Handle]:
+    """What calls of a function give for a parameter in which it stores what it makes."""
+    at = next(n for n, p in enumerate(function.parameters) if p.name == name)
+    for cpp, body in bodies(unit):
+        for node in unit.code.named(cpp, body, frozenset({function.name})):
+            call = call_of(node.parent) if node.parent is not None else None
+            if call is not None and len(call.arguments) > at:
+                given = _PART.split(text_of(call.arguments[at]))[-1]
+                if given.isidentifier():
+                    yield _Handle(given, None, copy=True)
+
+
+def _whole(call: Node) -> str | None:
+    """The variable of which an object is a part that stands among the arguments of a call."""
+    if call.parent is None or call.parent.type != "argument_list":
+        return None
+    for above in ancestors(call, lambda n: n.type.endswith(("_statement", "definition"))):
+        outer = call_of(above)
+        if outer is not None and outer.name in FILLS and outer.on:
+            return outer.on.removeprefix("this->")
+        for field in ("left", "declarator"):
+            kept = above.child_by_field_name(field)
+            if above.type in ("assignment_expression", "init_declarator") and kept is not None:
+                return text_of(kept).removeprefix("this->")
+    return None
 
 
 def _use(node: Node, handle: _Handle, body: Node) -> _Handle | bool:
