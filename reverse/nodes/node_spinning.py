@@ -23,7 +23,7 @@ from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_enclosing import in_lambda
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
-from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 
 _NEVER = "this program never lets messages be served: the model serves them"
 _OTHER = "this program lets only the messages of other nodes be served"
@@ -48,13 +48,15 @@ def note_spinning(bodies: Bodies, start: Start | None) -> None:
     if start is None or main is None or main.body is None or not serves:
         return
     program = _Spun(bodies.code, main, main.body, start.made.variable if start.made else "")
-    if (found := _unserved(program, start)) is not None:
+    if (ended := program.cancelled()) is not None:
+        bodies.unread(*ended, _ENDS)
+    elif (found := _unserved(program, start)) is not None:
         bodies.unread(main.cpp, *found)
 
 
 def _unserved(program: _Spun, start: Start) -> tuple[Node, str] | None:
     """The place in `main` that keeps a node from being served, and why."""
-    if (removed := program.taken_out() or program.cancelled()) is not None:
+    if (removed := program.taken_out()) is not None:
         return removed
     serving = list(program.serving())
     if not any(map(program.counts, serving)):
@@ -146,15 +148,20 @@ class _Spun:
                     return call.node, _GROUP
         return next(((c.node, _REMOVED) for c in calls if c.name == "remove_node"), None)
 
-    def cancelled(self) -> tuple[Node, str] | None:
+    def cancelled(self) -> tuple[Cpp, Node] | None:
         """What ends an executor, but for timers and goals, which are cancelled too."""
-        for cpp in self.code.files:
-            if not {b"cancel", b"add_node"} <= cpp.words:
-                continue
-            names = {text_of(n) for d in inside(cpp.root, *_DECLARING) for n in _executors(d)}
-            for call in calls_in(cpp.root):
-                if call.name == "cancel" and call.on.removeprefix("this->") in names:
-                    return call.node, _ENDS
+        mains = {f.cpp.source.path for f in all_functions(self.code) if f.name == "main"}
+        others = mains - {self.main.cpp.source.path}  # those of other programs
+        files = [cpp for cpp in self.code.files if cpp.source.path not in others]
+        ending = [cpp for cpp in files if b"cancel" in cpp.words]
+        if not ending:
+            return None
+        declared = (d for cpp in files for d in inside(cpp.root, *_DECLARING))
+        names = {text_of(n) for d in declared for n in _executors(d)}
+        calls = ((cpp, call) for cpp in ending for call in calls_in(cpp.root))
+        for cpp, call in calls:
+            if call.name == "cancel" and call.on.removeprefix("this->") in names:
+                return cpp, call.node
         return None
 
     def shut_down(self, serving: list[Node]) -> Node | None:
