@@ -160,6 +160,13 @@ def operands(formula: Formula) -> tuple[Formula, ...]:
             return ()
 
 
+def subformulas(formula: Formula) -> Iterator[Formula]:
+    """A formula and all in it, state expressions as a whole."""
+    yield formula
+    for below in operands(formula):
+        yield from subformulas(below)
+
+
 def state_expressions(formula: Formula) -> Iterator[Expression]:
     """The largest state expressions of a formula, in source order."""
     below = operands(formula)

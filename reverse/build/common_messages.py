@@ -108,4 +108,13 @@ COMMON: dict[str, str] = {
     "ackermann_msgs/AckermannDriveStamped": (
         "header std_msgs/Header, drive ackermann_msgs/AckermannDrive"
     ),
+    # What services get and give.
+    **dict.fromkeys(("std_srvs/Empty_Request", "std_srvs/Empty_Response"), ""),
+    "std_srvs/Trigger_Request": "",
+    "std_srvs/SetBool_Request": "data bool",
+    **dict.fromkeys(
+        ("std_srvs/Trigger_Response", "std_srvs/SetBool_Response"), "success bool, message string"
+    ),
+    "example_interfaces/AddTwoInts_Request": "a int64, b int64",
+    "example_interfaces/AddTwoInts_Response": "sum int64",
 }

@@ -13,11 +13,13 @@ from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_wiring import nobody_publishes, nobody_subscribes
 from rebsync.reverse.recovery import Extracted
 from rebsync.reverse.report import different
+from rebsync.reverse.scaffold.others import handed
 from rebsync.reverse.unknowns import Open
 
 _READ = (Access.GET, Access.DECLARE)
 _PLAIN_CHAR = re.compile(r"(?<!signed )\bchar[ \t]+\w+[ \t]*[=;{]")
 _CHANGED = (Access.SET, Access.DELETE)
+_NAMES = re.compile(r"[\w/]+")
 # What says in a launch file that whoever starts it may choose.
 _ARGUMENTS = ("<arg", "DeclareLaunchArgument", "$(env", "$(optenv", "EnvironmentVariable")
 
@@ -111,6 +113,21 @@ def parameters_changed(extracted: Extracted) -> Iterator[str]:
                 place = fact.site.place
                 where = f"{place.source.path}:{place.line}"
                 yield f"{where} sets a parameter that {instance.node} reads"
+
+
+def others_reach(extracted: Extracted) -> Iterator[str]:
+    """Nodes of other packages that launch files hand a topic by which started nodes are joined."""
+    joined = extracted.joined
+    topics = _topics_inside(joined)
+    launches = {id(i.launch): i.launch for i in joined.wiring.instances if i.launched is not None}
+    own = [i.launched for i in joined.wiring.instances if i.launched is not None]
+    for launch in filter(None, launches.values()) if topics else ():
+        for fact in handed(launch, own):
+            place = f"{fact.source.path}:{fact.source.position(fact.span.start).line}"
+            for name in _NAMES.findall(fact.value):
+                end = name if name.startswith("/") else f"/{name}"
+                for topic in (t for t in topics if t == name or t.endswith(end)):
+                    yield f"{place} hands {topic} to a node that may publish to it"
 
 
 def _last_part(name: Resolved) -> str | None:

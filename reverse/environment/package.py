@@ -10,13 +10,13 @@ from typing import Literal, TypeAlias
 
 from rebsync import model as m
 from rebsync.config import FILE_NAME
-from rebsync.properties import Formula, Properties, state_expressions
+from rebsync.properties import Formula, Properties, Tctl, state_expressions, subformulas
 from rebsync.questions import LeadsTo, Question, texts_in
 from rebsync.records import dataclass
 from rebsync.reverse.build.manifests import package_name
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.environment.asking import TopicVocabulary
-from rebsync.reverse.environment.assumptions import assumed, parameters_changed
+from rebsync.reverse.environment.assumptions import assumed, others_reach, parameters_changed
 from rebsync.reverse.environment.closing import ClosedModel, closed, without_open
 from rebsync.reverse.environment.fragment_wiring import (
     constructor_publishes,
@@ -45,6 +45,7 @@ from rebsync.reverse.nodes.open_ends import OpenEnd, open_ends, receivers
 from rebsync.reverse.recovery import Extracted, extract
 from rebsync.reverse.report import different
 from rebsync.source import Source
+from rebsync.static.constants import single
 
 _ROUNDS = 4
 
@@ -114,9 +115,12 @@ def closed_package(
     unit = unit_of_time(files)
     simulated = any("use_sim_time" in source.text for source in files.values())
     clock = ("a simulation publishes /clock as time passes",) if simulated else ()
-    assumptions = (*assumed(extracted), *clock, *around.assumptions, *_time(unit, around))
+    assumptions = (*assumed(extracted), *clock, *around.assumptions)
+    assumptions = (*assumptions, *_time(unit, around), *_rounded(properties))
     gaps = (*around.gaps, *_overwritten(model, wanted, observed), *_unheard(model, heard))
     gaps = (*gaps, *dict.fromkeys(parameters_changed(extracted)))
+    gaps = (*gaps, *dict.fromkeys(others_reach(extracted)))
+    gaps = (*gaps, *dict.fromkeys(_waiting(model, wanted, properties)))
     findings = tuple(different(extracted.findings))
     texts = extracted.texts, frozenset(_texts(extracted, wanted))
     return ClosedPackage(around.model, findings, unit, assumptions, gaps, texts)
@@ -253,6 +257,29 @@ def _overwritten(
     for owner, topic in overwritten(model, observed):
         if (owner, topic) in asked:
             yield f"{owner} may publish to {topic} twice in one step: only the last is seen"
+
+
+def _waiting(
+    model: m.Model, wanted: Collection[Observation], properties: Properties
+) -> Iterator[str]:
+    """Messages that may wait while a callback takes time, where properties say how long at most."""
+    formulas = (each for p in properties.tctl for each in subformulas(p.formula))
+    if not any(isinstance(each, Tctl) and each.bound is not None for each in formulas):
+        return
+    calls = {c.name: [n for n in m.walk(c) if isinstance(n, m.Call)] for c in model.classes}
+    for seen in wanted:
+        if seen.server and any(c.name == "delay" for c in calls.get(seen.owner, ())):
+            yield f"a message of {seen.topic} may wait while a callback of {seen.owner} takes time"
+
+
+def _rounded(properties: Properties) -> Iterator[str]:
+    """Numbers of properties that are not those which are written: a float is near to them."""
+    formulas = (*(d.value for d in properties.defines), *(p.formula for p in properties.all))
+    parts = (n for f in formulas for e in state_expressions(f) for n in m.walk(e))
+    for text in dict.fromkeys(n.text for n in parts if isinstance(n, m.FloatLiteral)):
+        value = float(text.rstrip("dDfF"))
+        if text[-1] not in "dD" and single(value) != value:
+            yield f"{text} is the nearest number that 32 bits hold, as in a field of float32"
 
 
 def _texts(extracted: Extracted, wanted: Collection[Observation]) -> Iterator[tuple[str, str, str]]:

@@ -110,7 +110,7 @@ def node_classes() -> frozenset[str]:
 
 def sends_while_active(name: str) -> bool:
     """Whether a method makes a publisher that sends only while the life cycle is active."""
-    return name == "create_lifecycle_publisher"
+    return any(name in library.managed_senders for library in _libraries())
 
 
 @derived

@@ -245,7 +245,8 @@ class Library:
     object is meant.
 
     `nodes` are the classes whose objects are nodes, those of `managed` nodes whose state others
-    change; `handles` those of handles under whose namespace names are looked up; `plain` other
+    change, and `managed_senders` methods that make publishers which send only while that is active;
+    `handles` those of handles under whose namespace names are looked up; `plain` other
     classes that hold a value they are made of. `copying` are outermost namespaces, of the library
     and of what comes with it, whose constructors only copy. `entries` are methods that programs
     call which are not in the files.
@@ -275,6 +276,7 @@ class Library:
     methods: Mapping[str, Mapping[str, Routine]] = field(default_factory=dict)
     nodes: frozenset[str] = frozenset()
     managed: frozenset[str] = frozenset()
+    managed_senders: frozenset[str] = frozenset()
     handles: frozenset[str] = frozenset()
     plain: frozenset[str] = frozenset()
     copying: tuple[str, ...] = ()

@@ -7,13 +7,16 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.effects.cpp_effects import touching
-from rebsync.reverse.bodies.scope import Called, Inline, Scope
+from rebsync.reverse.bodies.effects.cpp_roots import declared_in, root
+from rebsync.reverse.bodies.scope import Called, Inline, Record, Scope, Variable
 from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_programs import NodeObject
 from rebsync.reverse.nodes.node_starts import used_in_main
 from rebsync.reverse.nodes.node_units import Start
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
+
+_SETS = "this sets what the model has, in code that is not read"
 
 
 def note_entry(bodies: Bodies, start: Start | None) -> None:
@@ -31,10 +34,13 @@ def note_entry(bodies: Bodies, start: Start | None) -> None:
     scope = bodies.scope(entry.cpp, entry)
     for call in bodies.code.calls_in(entry.cpp, entry.body):
         at = call.node.start_byte
-        if at < made.end_byte or any(each.start_byte <= at < each.end_byte for each in read):
+        if any(each.start_byte <= at < each.end_byte for each in read):
             continue
-        for why in _acts(entry.cpp, scope, call):
+        for why in _acts(entry.cpp, scope, call, at < made.end_byte):
             bodies.unread(entry.cpp, call.node, why)
+    for node in _stores(bodies, entry.body, scope):
+        if not any(each.start_byte <= node.start_byte < each.end_byte for each in read):
+            bodies.unread(entry.cpp, node, _SETS)
     for node in inside(entry.body, "declaration"):
         is_late = node.start_byte >= made.end_byte
         if is_late and (_hands_on(bodies, start, node) or _keeps_function(start.made, node)):
@@ -70,9 +76,27 @@ def _hands_on(bodies: Bodies, start: Start, declaration: Node) -> bool:
     return not taken.isdisjoint({above.name for above in bodies.unit.lineage})
 
 
-def _acts(cpp: Cpp, scope: Scope, call: CppCall) -> Iterator[str]:
+def _stores(bodies: Bodies, body: Node, scope: Scope) -> Iterator[Node]:
+    """Where a body stores in a variable of a file, or a static one, or takes its address."""
+    declarators = (
+        d.child_by_field_name("declarator") or d
+        for n in inside(body, "declaration")
+        for d in n.children_by_field_name("declarator")
+    )
+    own = {name for each in declarators for name in declared_in(each)}
+    for node in inside(body, "assignment_expression", "update_expression", "pointer_expression"):
+        if node.type == "pointer_expression" and not text_of(node).startswith("&"):
+            continue
+        target = node.child_by_field_name("left") or node.child_by_field_name("argument")
+        name, meaning = root(scope, own, target) if target is not None else ("", None)
+        is_shared = name in bodies.code.variables or "::" in text_of(target or node)
+        if is_shared and isinstance(meaning, Variable | Record):
+            yield node
+
+
+def _acts(cpp: Cpp, scope: Scope, call: CppCall, is_before: bool) -> Iterator[str]:
     form = scope.form
-    why = form.unread_calls.of_call(cpp, call) if form is not None else None
+    why = form.unread_calls.of_call(cpp, call) if form is not None and not is_before else None
     if why is not None:
         yield f'what "{_function(call.node)}" does is not known: {why}'
     elif (

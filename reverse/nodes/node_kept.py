@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.graph import PublisherFact
+from rebsync.reverse.graph import Fact, PublisherFact
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
@@ -15,7 +15,8 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 
 _ELEMENT = re.compile(r'(?:this->)?(\w+)\s*\[\s*("[^"]*"|\d+)\s*\]\Z')
 _APPENDS = frozenset({"push_back", "emplace_back"})
-_LOOKS = frozenset({"size", "empty", "reserve", "at", "count", "find", "end"})
+FILLS = _APPENDS | {"insert", "emplace", "try_emplace", "insert_or_assign"}
+LOOKS = frozenset({"size", "empty", "reserve", "at", "count", "find", "end"})
 _KEYS = frozenset({"string_literal", "number_literal"})
 _FLAT = frozenset({"argument_list", "call_expression", "expression_statement"})
 
@@ -36,7 +37,7 @@ def elements(facts: Mapping[int, PublisherFact], files: Sequence[Cpp]) -> dict[s
             key = f"{name}[{match[2]}]"
             several |= {name} if key in known else set()
             known[key] = number
-        elif _is_appended(fact):
+        elif is_appended(fact):
             known[f"{name}[{len(known)}]"] = number
     return {
         key: number
@@ -46,8 +47,8 @@ def elements(facts: Mapping[int, PublisherFact], files: Sequence[Cpp]) -> dict[s
     }
 
 
-def _is_appended(fact: PublisherFact) -> bool:
-    """Whether a publisher is put at the end of a vector, whenever its function runs."""
+def is_appended(fact: Fact) -> bool:
+    """Whether what is asked for is put at the end of a vector, whenever its function runs."""
     at, appends = fact.site.call.parent, False
     while at is not None and at.type in _FLAT:
         appends = appends or _called_on(at) in _APPENDS
@@ -71,7 +72,7 @@ def _is_filled_once(
     name: str, keys: Mapping[str, int], facts: Mapping[int, PublisherFact], files: Sequence[Cpp]
 ) -> bool:
     functions = {_place_of(facts[n].site.function) for n in keys.values()}
-    appended = [_is_appended(facts[n]) for n in keys.values()]
+    appended = [is_appended(facts[n]) for n in keys.values()]
     if any(appended) and (not all(appended) or len(functions) != 1):
         return False
     written = 0
@@ -108,7 +109,7 @@ def _use(node: Node) -> int | None:
         case "field_expression":
             field = above.child_by_field_name("field")
             name = text_of(field) if field is not None else ""
-            return 1 if name in _APPENDS else (0 if name in _LOOKS else None)
+            return 1 if name in _APPENDS else (0 if name in LOOKS else None)
         case "subscript_expression":
             return _element(above)
         case _:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import field
+from typing import TypeAlias
 
 from tree_sitter import Node
 
@@ -22,10 +23,16 @@ from rebsync.reverse.graph import (
 )
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.nodes.failing_parameters import declared_again, never_declared
-from rebsync.reverse.nodes.kept_objects import called_by_listeners, is_kept
+from rebsync.reverse.nodes.kept_objects import (
+    called_by_listeners,
+    is_kept,
+    odd_uses,
+    replacing,
+    weak_pointers,
+)
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit, bodies
-from rebsync.reverse.nodes.node_unmodelled import shared_state
+from rebsync.reverse.nodes.node_unmodelled import shared_state, statics
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_wiring import (
     Wiring,
@@ -34,7 +41,8 @@ from rebsync.reverse.nodes.node_wiring import (
     unfed,
     unheard,
 )
-from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+from rebsync.reverse.syntax.cpp_index import Code, CppField
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
 from rebsync.reverse.unknowns import Open
 from rebsync.source import Span
 
@@ -46,8 +54,17 @@ _ENTRIES = frozenset(
 )
 # Options of subscriptions by which the middleware leaves messages out.
 _CHOOSING = frozenset({"ignore_local_publications", "content_filter_options"})
+_NAMING = ("preproc_def", "alias_declaration", "type_definition", "base_class_clause")
+_WORD = re.compile(r"\w+")
+# What makes callbacks that a container may run at the same time as others.
+_GROUPS = frozenset({"create_callback_group"})
+# What gives all timers, subscriptions and services of a node, or of a group of it.
+_REACHING = frozenset({"for_each_callback_group", "collect_all_ptrs", "find_timer_ptrs_if"})
 _TEXTS = frozenset({"string_literal", "concatenated_string", "raw_string_literal"})
 _NO_NUMBER = re.compile(r"string|char\b|chrono|Duration|Node[A-Z]\w*|Node\b|Ptr|_ptr")
+_Served: TypeAlias = SubscriptionFact | TimerFact | ServiceFact
+_REPLACING = "the variable has another one already, which ends here: the model keeps both"
+_OTHER_NAME = "this may end a timer, subscription or service, by another name than its first"
 _SEVERAL = "its callbacks may run at the same time as others: the model has one at a time"
 
 
@@ -66,17 +83,24 @@ class FindingList:
     def unit(self, unit: Unit, servers: Iterable[Server]) -> None:
         """What a unit has that its reactive class has not."""
         served = {id(f) for s in servers for f in (*s.subscriptions, *s.timers, s.service)}
+        weak = weak_pointers(unit)
         for fact in unit.facts:
             self._fact(unit, fact, id(fact) in served)
-            if isinstance(fact, SubscriptionFact | TimerFact) and _is_lost(fact):
+            if isinstance(fact, _Served) and _is_lost(fact, weak):
                 why = "nothing keeps what this gives: ROS ends it at once, the model does not"
                 self._unread(fact.site.place, why, unit.name, "keep it in a member")
+        for fact in replacing(unit.facts):
+            self._unread(fact.site.place, _REPLACING, unit.name)
+        for cpp, node in odd_uses(unit):
+            self._unread(Place(cpp.source, cpp.span(node)), _OTHER_NAME, unit.name)
         for fact, why in (*declared_again(unit.facts), *never_declared(unit.facts)):
             self._unread(fact.site.place, why, unit.name)
         for server in servers:
             self._wide(unit, server)
         for cpp, body in bodies(unit):
             self._words(unit, cpp, body)
+        for cpp in unit.code.files:
+            self._renamed(unit, cpp)
         for member in (f for c in unit.lineage for f in (*c.fields, *c.others)):
             self._words(unit, member.cpp, member.type)
 
@@ -120,16 +144,25 @@ class FindingList:
             place = Place(cpp.source, cpp.span(node))
             if name in _CHOOSING:
                 self._unread(place, f'"{name}": some messages may not come to the node', unit.name)
+            elif name in _REACHING:
+                self._unread(place, _OTHER_NAME, unit.name)
             elif name in _ENTRIES:
                 why = f'"{name}" calls functions of the node in ways that the model does not have'
                 self._unread(place, why, unit.name)
             else:
                 self._unread(place, f'"{name}": {_SEVERAL}', unit.name)
 
+    def _renamed(self, unit: Unit, cpp: Cpp) -> None:
+        """Other names of what runs callbacks beside each other: macros, aliases, classes below."""
+        listed = self._listed(cpp) & libraries.threaded()
+        for node in inside(cpp.root, *_NAMING) if listed else ():
+            if not listed.isdisjoint(_WORD.findall(text_of(node))):
+                self._unread(Place(cpp.source, cpp.span(node)), _SEVERAL, unit.name)
+
     def _listed(self, cpp: Cpp) -> frozenset[str]:
         """The words of a file that are listed wherever the code names them."""
         if id(cpp) not in self._odd:
-            known = _CHOOSING | _ENTRIES | libraries.threaded()
+            known = _CHOOSING | _ENTRIES | _REACHING | libraries.threaded()
             words = {n for n in known if n.encode() in cpp.words}
             self._odd[id(cpp)] = frozenset(words)
         return self._odd[id(cpp)]
@@ -179,6 +212,12 @@ class FindingList:
 
     def _shared(self, instances: list[Instance]) -> None:
         """Objects of one program that share its thread, and nodes that may not be there."""
+        loaded = [i for i in instances if i.start.program is None]  # into one process, or several
+        self._common_variables(list({i.start.unit.name: i.start.unit for i in loaded}.values()))
+        for unit in (i.start.unit for i in loaded):
+            for cpp, body in bodies(unit):
+                for node in unit.code.named(cpp, body, _GROUPS):
+                    self._unread(Place(cpp.source, cpp.span(node)), _SEVERAL, unit.name)
         nodes: dict[tuple[int, int], list[Instance]] = {}
         for instance in instances:
             if instance.start.program is not None:
@@ -202,14 +241,15 @@ class FindingList:
                 self._made(together[1], why)
 
     def _common_variables(self, units: list[Unit]) -> None:
-        """Variables outside of classes that several rebecs of one program use."""
-        if len(units) < 2 or not units[0].code.variables:
+        """Variables of files, and static ones of classes, that several rebecs of a process use."""
+        if len(units) < 2:
             return
         code = units[0].code
-        for name, variables in code.variables.items():
-            constant = any((v.cpp.source.path, name) in code.constants for v in variables)
-            if not constant and sum(_uses(unit, name) for unit in units) > 1:
-                place = Place(variables[0].cpp.source, variables[0].cpp.span(variables[0].node))
+        shared = [(name, v[0], "") for name, v in code.variables.items() if not _constant(code, v)]
+        shared += [(f.name, f, c.name) for c in code.classes.values() for f in statics(c)]
+        for name, variable, owner in shared:
+            if sum(_uses(unit, name, owner) for unit in units) > 1:
+                place = Place(variable.cpp.source, variable.cpp.span(variable.node))
                 why = f'several rebecs of one program share "{name}": in the model each has its own'
                 self._unread(place, why, units[0].name)
 
@@ -297,24 +337,37 @@ def _numbers(unit: Unit, arguments: Sequence[Node]) -> list[str]:
     ]
 
 
-def _is_lost(fact: SubscriptionFact | TimerFact) -> bool:
+def _is_lost(fact: _Served, weak: Collection[str]) -> bool:
     above = fact.site.call.parent
     if above is None or (isinstance(fact, SubscriptionFact) and fact.single):
         return False
-    return above.type == "expression_statement" or _is_dropped(fact, above)
+    return above.type == "expression_statement" or _is_dropped(fact, above, weak)
 
 
-def _is_dropped(fact: SubscriptionFact | TimerFact, above: Node) -> bool:
+def _is_dropped(fact: _Served, above: Node, weak: Collection[str]) -> bool:
     """Whether only a local of a function other than `main` has it, which nothing else keeps."""
     function, name = fact.site.function, above.child_by_field_name("declarator")
     if function is None or function.name == "main" or function.body is None:
         return False
     if above.type != "init_declarator" or name is None or name.type != "identifier":
         return False
-    return not is_kept(function.body, above, text_of(name))
+    return not is_kept(function.body, above, text_of(name), weak)
 
 
-def _uses(unit: Unit, name: str) -> bool:
-    """Whether functions of a unit name something."""
+def _constant(code: Code, variables: Iterable[CppField]) -> bool:
+    return any((v.cpp.source.path, v.name) in code.constants for v in variables)
+
+
+def _uses(unit: Unit, name: str, owner: str) -> bool:
+    """Whether functions of a unit name a variable, of a class if it is of one."""
     names = frozenset({name})
-    return any(unit.code.named(cpp, body, names) for cpp, body in bodies(unit))
+    found = (node for cpp, body in bodies(unit) for node in unit.code.named(cpp, body, names))
+    return any(not owner or owner in unit.names or _is_of(node, owner) for node in found)
+
+
+def _is_of(node: Node, owner: str) -> bool:
+    """Whether a name is that of a member of a class: `Gate::level`, or by an object."""
+    above = node.parent
+    if above is None or above.type != "qualified_identifier":
+        return above is not None and above.type == "field_expression"
+    return owner in text_of(above).split("::")

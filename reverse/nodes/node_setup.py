@@ -51,7 +51,7 @@ from rebsync.reverse.nodes.node_units import UnitFacts
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import declared_name
-from rebsync.reverse.syntax.cpp_enclosing import enclosing_function, enclosing_statement
+from rebsync.reverse.syntax.cpp_enclosing import enclosing_function, enclosing_statement, in_lambda
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
 
@@ -348,10 +348,8 @@ class Setup:
         waits = function.body is not None and _may_wait(function.body)
         for call in self.code.calls_of(function) if waits else ():
             name = call.name.rpartition("::")[2]
-            if (
-                name in libraries.named(Kind.AUDIENCE)
-                and (loop := loop_around(call.node)) is not None
-            ):
+            is_asked = name in libraries.named(Kind.AUDIENCE)
+            if is_asked and (loop := loop_around(call.node)) is not None:
                 self.instead[loop.id] = ()
                 continue
             statement = enclosing_statement(call.node) if name in libraries.waiting() else None
@@ -360,7 +358,8 @@ class Setup:
             own = call.target is None and "::" not in call.name
             if statement.type != "expression_statement" or own or statement.id in self.instead:
                 continue
-            if name == "start" and "pinner" not in call.on.lower():
+            is_other = name == "start" and "pinner" not in call.on.lower()
+            if is_other or (name in libraries.named(Kind.SHUTDOWN) and in_lambda(call.node)):
                 continue
             if call.target is not None and any(f.name == name for f in self.state.unit.functions):
                 continue
@@ -379,8 +378,9 @@ class Setup:
 
 def send(server: str, after: int = 0) -> m.Statement:
     """`self.server() after(...)`."""
-    time = m.IntLiteral(after) if after else None
-    return m.ExpressionStatement(m.Call(m.Self(), server, (), time))
+    return m.ExpressionStatement(
+        m.Call(m.Self(), server, (), m.IntLiteral(after) if after else None)
+    )
 
 
 def _is_call(statement: Node, call: Node) -> bool:

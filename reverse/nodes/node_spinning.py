@@ -21,17 +21,20 @@ from rebsync.reverse.nodes.node_reach import all_functions
 from rebsync.reverse.nodes.node_units import Start
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
+from rebsync.reverse.syntax.cpp_enclosing import in_lambda
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
-from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 
 _NEVER = "this program never lets messages be served: the model serves them"
 _OTHER = "this program lets only the messages of other nodes be served"
+_ENDS = "the executor of the node may be ended here"
 _REMOVED = "the node may be taken out of its executor here"
 _NO_OWNER = "no member is known to keep this group: it ends, and what it has is never called"
 _GROUP = "no executor is known to get this group: what it has may never be called"
 _ENDED = "the node ends here, before its program lets messages be served"
 _NAMES = ("identifier", "field_identifier", "type_identifier")
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement", "for_range_loop"})
+_DECLARING = ("declaration", "field_declaration", "parameter_declaration")
 _SCOPES = frozenset({"std", "boost"})
 _POINTER = ("make_shared", "make_unique", "shared_ptr", "unique_ptr", "Ptr", "new ")
 _SERVED = (SubscriptionFact, TimerFact, ServiceFact)
@@ -45,7 +48,9 @@ def note_spinning(bodies: Bodies, start: Start | None) -> None:
     if start is None or main is None or main.body is None or not serves:
         return
     program = _Spun(bodies.code, main, main.body, start.made.variable if start.made else "")
-    if (found := _unserved(program, start)) is not None:
+    if (ended := program.cancelled()) is not None:
+        bodies.unread(*ended, _ENDS)
+    elif (found := _unserved(program, start)) is not None:
         bodies.unread(main.cpp, *found)
 
 
@@ -64,8 +69,11 @@ def _unserved(program: _Spun, start: Start) -> tuple[Node, str] | None:
         return shut, _ENDED
     if len(own) == len(serving) and (ended := program.ended(made, own)) is not None:
         return ended, _ENDED
-    is_node = any(c.roots for c in start.unit.lineage)  # others are served by a node that they get
-    return (program.body, _OTHER) if is_node and program.spins_others(start.made.owner) else None
+    if not any(c.roots for c in start.unit.lineage):
+        return None  # it is served by a node that it gets
+    if (first := program.spins_first(start.made.owner)) is not None:
+        return first, _OTHER
+    return (program.body, _OTHER) if program.spins_others(start.made.owner) else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +148,22 @@ class _Spun:
                     return call.node, _GROUP
         return next(((c.node, _REMOVED) for c in calls if c.name == "remove_node"), None)
 
+    def cancelled(self) -> tuple[Cpp, Node] | None:
+        """What ends an executor, but for timers and goals, which are cancelled too."""
+        mains = {f.cpp.source.path for f in all_functions(self.code) if f.name == "main"}
+        others = mains - {self.main.cpp.source.path}  # those of other programs
+        files = [cpp for cpp in self.code.files if cpp.source.path not in others]
+        ending = [cpp for cpp in files if b"cancel" in cpp.words]
+        if not ending:
+            return None
+        declared = (d for cpp in files for d in inside(cpp.root, *_DECLARING))
+        names = {text_of(n) for d in declared for n in _executors(d)}
+        calls = ((cpp, call) for cpp in ending for call in calls_in(cpp.root))
+        for cpp, call in calls:
+            if call.name == "cancel" and call.on.removeprefix("this->") in names:
+                return cpp, call.node
+        return None
+
     def shut_down(self, serving: list[Node]) -> Node | None:
         """What shuts the client library down before all places that serve messages."""
         first = min(node.start_byte for node in serving)
@@ -158,7 +182,7 @@ class _Spun:
 
     def is_handed_on(self) -> bool:
         """Whether something that is not known may let messages be served."""
-        known = {f.name for f in all_functions(self.code)}
+        known = {f.name for f in all_functions(self.code)} | libraries.waiting()
         return any(
             (call.on == self.variable or any(self._has(a) for a in call.arguments))
             if call.target is not None
@@ -213,6 +237,22 @@ class _Spun:
 
     # --- executors --------------------------------------------------------------------------------
 
+    def spins_first(self, owner: str) -> Node | None:
+        """What in `main` serves only another node before anything serves this one."""
+        words = libraries.named(Kind.SPIN)
+        if not self.variable or any(in_lambda(n) for n in self._spinning()):
+            return None
+        calls = list(calls_in(self.body))
+        first = next((c for c in calls if c.name.rpartition("::")[2] in words), None)
+        if first is None:
+            return None
+        added = [c for c in calls if c.name == "add_node" and c.on and c.on == first.on]
+        served = [c.arguments[0] for c in (*added, first) if c.arguments]
+        return first.node if served and not any(self._may_be(n, owner) for n in served) else None
+
+    def _spinning(self) -> Iterator[Node]:
+        return (n for n in inside(self.body, *_NAMES) if "spin" in text_of(n).lower())
+
     def spins_others(self, owner: str) -> bool:
         """Whether all that `main` spins, or adds to executors, is certainly not the node."""
         if not self.variable:
@@ -260,6 +300,14 @@ def _leaves(block: Node, call: Node) -> bool:
     return block.type == "compound_statement" and any(
         n.type in ("return_statement", "throw_statement") for n in behind
     )
+
+
+def _executors(declaration: Node) -> Iterator[Node]:
+    """The names that a declaration gives to executors."""
+    type_ = declaration.child_by_field_name("type")
+    if type_ is not None and "xecutor" in text_of(type_):
+        for declarator in declaration.children_by_field_name("declarator"):
+            yield from inside(declarator, "identifier", "field_identifier")
 
 
 def _is_spinning(call: CppCall) -> bool:

@@ -16,7 +16,7 @@ from rebsync.reverse.nodes.node_bodies import Bodies
 from rebsync.reverse.nodes.node_namespaces import note_namespaces
 from rebsync.reverse.nodes.node_units import Unit
 from rebsync.reverse.syntax.cpp_calls import calls_in
-from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_index import CppClass, CppField, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 from rebsync.reverse.syntax.descendants import nodes_in
 
@@ -188,13 +188,17 @@ def _through_pointer(change: Node) -> Node | None:
 def shared_state(unit: Unit) -> Iterator[tuple[Cpp, Node]]:
     """Static members and static locals, of which all objects of a class have the same."""
     for owner in unit.lineage:
-        for member in (*owner.fields, *owner.others):
-            if _is_static(member.node):
-                yield member.cpp, member.node
+        for member in statics(owner):
+            yield member.cpp, member.node
     for function in unit.functions:
         for node in inside(function.body, "declaration"):
             if _is_static(node):
                 yield function.cpp, node
+
+
+def statics(owner: CppClass) -> Iterator[CppField]:
+    """The static variables of a class that are no constants."""
+    return (f for f in (*owner.fields, *owner.others) if _is_static(f.node))
 
 
 def _is_static(node: Node) -> bool:

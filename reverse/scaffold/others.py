@@ -6,7 +6,7 @@ Nobody knows what such a node does with a text: it may publish under it.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 
 from rebsync.reverse.launch.launch_files import read_launch
 from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch, speaks_ros_2
@@ -74,6 +74,15 @@ def is_quiet(node: LaunchedNode) -> bool:
     return f"{node.package}/{node.type}" in _QUIET
 
 
+def handed(launch: Launch, own: Collection[LaunchedNode]) -> Iterator[Fact]:
+    """What a launch file hands to nodes that are not among some, and to commands."""
+    for node in (n for n in launch.nodes if n not in own and not is_quiet(n)):
+        yield from _of_node(node)
+        if node.source.path.endswith(_READ_ALONE):
+            yield from _of_remaps(node)
+    yield from _of_commands(launch)
+
+
 def _read(source: Source, load: Load, package: str) -> Launch:
     if speaks_ros_2(source):
         return read_ros2_launch(source, load, package, load, any_way=True)
@@ -90,13 +99,17 @@ def _facts(launch: Launch, package: str) -> Iterator[Fact]:
     others = [n for n in launch.nodes if n.package != package and not is_quiet(n)]
     for node in others:
         yield from _of_node(node)
+    yield from _of_commands(launch)
+    for given in launch.parameters if others else ():
+        if not is_of_runtime(given.name.strip("/").partition("/")[0]):
+            yield from _parameter("", given.name, given.value, given.source, given.span)
+
+
+def _of_commands(launch: Launch) -> Iterator[Fact]:
     for command in launch.commands:
         told = _text(command.arguments)
         if not _LOOKING.match(told):
             yield Fact(HANDED, "", "command", told, command.source, command.span)
-    for given in launch.parameters if others else ():
-        if not is_of_runtime(given.name.strip("/").partition("/")[0]):
-            yield from _parameter("", given.name, given.value, given.source, given.span)
 
 
 def _missing(launch: Launch, package: str) -> Iterator[Fact]:
@@ -118,9 +131,13 @@ def _of_node(node: LaunchedNode) -> Iterator[Fact]:
     if not node.source.path.endswith(_READ_ALONE):
         space = _text(node.namespace)
         yield Fact(HANDED, name, "namespace", space, node.source, node.span)
-        for remap in node.remaps:
-            told = _text(remap.target)
-            yield Fact(HANDED, name, f"remap of {remap.private}", told, remap.source, remap.span)
+        yield from _of_remaps(node)
+
+
+def _of_remaps(node: LaunchedNode) -> Iterator[Fact]:
+    for remap in node.remaps:
+        told, name = _text(remap.target), str(node.name)
+        yield Fact(HANDED, name, f"remap of {remap.private}", told, remap.source, remap.span)
 
 
 def _parameter(

@@ -24,3 +24,8 @@ def enclosing_statement(node: Node) -> Node | None:
         if at.type in ("function_definition", "lambda_expression"):
             return None
     return None
+
+
+def in_lambda(node: Node) -> bool:
+    """Whether a node is in a function without a name, which others call."""
+    return any(n.type == "lambda_expression" for n in ancestors(node))

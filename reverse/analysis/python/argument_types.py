@@ -11,7 +11,11 @@ from functools import cached_property
 
 from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origins
 from rebsync.reverse.analysis.python.call_binding import bound
-from rebsync.reverse.analysis.python.message_values import callback_functions, first_parameter
+from rebsync.reverse.analysis.python.message_values import (
+    callback_functions,
+    first_parameter,
+    own_parameters,
+)
 from rebsync.reverse.analysis.stores import ElementOf, Source
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -21,13 +25,20 @@ from rebsync.reverse.libraries import python
 from rebsync.reverse.libraries.routines import Kind, Routine
 
 _FOR_EACH = frozenset({"builtins.map", "builtins.filter"})
-_MESSAGE = re.compile(r"(\w+)\.msg(?:\._\w+)?\.(\w+)")
+_MESSAGE = re.compile(r"(\w+)\.(?:msg|srv)(?:\._\w+)?\.(\w+?)(?:\.?(Request|Response))?")
+_PARTS = ("Request", "Response")  # what the callback of a service gets, in this order
 
 
 def message_name(name: str) -> str | None:
-    """`std_msgs/Int32` for the class `std_msgs.msg.Int32`; None for any other name."""
+    """`std_msgs/Int32` for the class `std_msgs.msg.Int32`; None for any other name.
+
+    The parts of services are messages too: `std_srvs/Trigger_Response`.
+    """
     found = _MESSAGE.fullmatch(name)
-    return f"{found[1]}/{found[2]}" if found is not None else None
+    if found is None:
+        return None
+    plain = f"{found[1]}/{found[2]}"
+    return f"{plain}_{found[3]}" if found[3] else plain
 
 
 class ArgumentTypes:
@@ -106,11 +117,17 @@ class ArgumentTypes:
         found: dict[tuple[str, str], list[str]] = {}
         for name in self._program.functions:
             for node in walk(self._program.function(name)):
-                for type_, callback in _subscriptions(node):
+                for type_, callback in _asked(node, Kind.SUBSCRIPTION):
                     for called in callback_functions(self._graph, callback, name):
                         for parameter in first_parameter(self._program.function(called)):
                             known = found.setdefault((called, parameter), [])
                             known += self._messages(type_, name)
+                for type_, callback in _asked(node, Kind.SERVICE):
+                    for called in callback_functions(self._graph, callback, name):
+                        of_call = own_parameters(self._program.function(called))
+                        for parameter, part in zip(of_call, _PARTS, strict=False):
+                            known = found.setdefault((called, parameter), [])
+                            known += [f"{each}_{part}" for each in self._messages(type_, name)]
         return found
 
     def _messages(self, type_: e.Expression, function: str) -> Iterator[str]:
@@ -121,8 +138,8 @@ class ArgumentTypes:
                     yield name
 
 
-def _subscriptions(node: object) -> Iterator[tuple[e.Expression, e.Expression]]:
-    """The types and callbacks of the subscriptions that a call asks for."""
+def _asked(node: object, kind: Kind) -> Iterator[tuple[e.Expression, e.Expression]]:
+    """The types and callbacks of the subscriptions, or services, that a call asks for."""
     match node:
         case s.Call(_, s.LibraryCallee(name), arguments):
             routine = python.function(name, len(arguments))
@@ -130,7 +147,7 @@ def _subscriptions(node: object) -> Iterator[tuple[e.Expression, e.Expression]]:
             routine = python.node_method(name)
         case _:
             return
-    if routine is not None and routine.kind is Kind.SUBSCRIPTION:
+    if routine is not None and routine.kind is kind:
         type_, callback = (_argument(node, routine, role) for role in ("type", "callback"))
         if type_ is not None and callback is not None:
             yield type_, callback

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
+from itertools import islice
 
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.stores import CapturedVariable, Key, TemporaryVariable, key_of
@@ -159,8 +160,12 @@ def callback_functions(graph: CallGraph, callback: e.Expression, function: str) 
 
 def first_parameter(function: Function) -> Iterator[str]:
     """The parameter of a callback that takes the message."""
-    parameters = [p for p in function.parameters if p.name != function.receiver]
-    for parameter in parameters[:1]:
+    return islice(own_parameters(function), 1)
+
+
+def own_parameters(function: Function) -> Iterator[str]:
+    """The parameters of a function that get what stands at a place, but for the object."""
+    for parameter in (p for p in function.parameters if p.name != function.receiver):
         if parameter.kind in (ParameterKind.PLAIN, ParameterKind.BY_PLACE):
             yield parameter.name
 

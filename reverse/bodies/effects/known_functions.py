@@ -49,6 +49,7 @@ _SHARED = re.compile(
 )
 # What makes an object of a type.
 _MAKES = re.compile(r"(?:std|boost)::make_(?:shared|unique)<\s*(?:const\s+)?([\w:]+)")
+_TEMPLATE = re.compile(r"<.*>", re.DOTALL)  # what may stand behind it is a function of the class
 # Types whose objects, when they are called, give an element of themselves.
 _MATRIX = re.compile(
     r"(?:const\s+)?(?:::)?Eigen::(?:Matrix|(?:Row)?Vector|Array)(?:X?\d?X?[dfi]|<.*>)\Z", re.DOTALL
@@ -149,7 +150,7 @@ def _parameters(function: Node) -> list[Node]:
 @lru_cache(maxsize=1024)  # the same few names are called again and again
 def _takes_values(called: str, of_object: bool) -> bool:
     made = _MAKES.match(called)
-    name = made[1] if made is not None else called.partition("<")[0]
+    name = made[1] if made is not None else _TEMPLATE.sub("", called)
     plain = name.rpartition("::")[2]
     if called.startswith(libraries.logging()) or _CONVERSION.match(called):
         return True

@@ -130,7 +130,12 @@ _METHODS = {
     },
     "rclcpp::Clock": {"now": Routine(Kind.CLOCK)},
     "rclcpp::Rate": {"sleep": Routine(Kind.SLEEP)},
-    "rclcpp::Executor": {"add_node": Routine(Kind.START), "spin": Routine(Kind.SPIN)},
+    "rclcpp::Executor": {
+        "add_node": Routine(Kind.START),
+        "spin": Routine(Kind.SPIN),
+        "spin_some": Routine(Kind.SERVE),
+        **dict.fromkeys(("spin_all", "spin_once"), Routine(Kind.SERVE, ("timeout",))),
+    },
     "rclcpp::Time": _does(Effect.NONE, "nanoseconds", "seconds"),
     "rclcpp::QoS": {
         # Those that change what is read of a quality of service, and those that leave it alone.

@@ -210,6 +210,7 @@ LIBRARIES = (
         },
         nodes=frozenset(_NODES),
         managed=frozenset(n for n in _NODES if n.startswith("rclpy.lifecycle.")),
+        managed_senders=frozenset({"create_lifecycle_publisher"}),
         own_arguments={
             **dict.fromkeys(("cli_args", "parameter_overrides"), "None"),
             **{"use_global_arguments": "True", "ignore_override": "False"},

@@ -138,7 +138,9 @@ ACTING_WORDS = (
         "join",
         "get_key",
         "import_module",
-        "__(import|call|setattr|delattr|enter|exit)",
+        "deserialize",
+        "f(set|del)$",
+        "__(import|call|set|del|enter|exit)",
         "globals",
     ),
 )

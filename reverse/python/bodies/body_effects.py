@@ -80,6 +80,8 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
         return False
     if waits_alone(node) or _may_be_full(reading, node, frame.scope):
         return False
+    if makes_again(node, frame.scope.self_name):
+        return False
     return name in libraries.harmless() or (
         bool(name) and libraries.acting().match(name) is None and _ends(name)
     )
@@ -96,6 +98,16 @@ def waits_alone(call: Node) -> bool:
     values = [a for a in named(field(call, "arguments")) if a.type != "keyword_argument"]
     is_method = function.type == "attribute" and last_name(function) in WAITING_ALONE
     return is_method and (not values or values[0].type in ("true", "false"))
+
+
+def makes_again(call: Node, self_name: str | None) -> bool:
+    """Whether a constructor is called by its name, on another object than that of the function."""
+    function = field(call, "function")
+    if last_name(function) != "__init__" or function.type != "attribute":
+        return False
+    plain, _ = arguments_of(call)
+    own = bool(plain) and text_of(plain[0]) == self_name
+    return not own and not text_of(field(function, "object")).startswith("super(")
 
 
 def _may_be_full(reading: Reading, call: Node, scope: Scope) -> bool:
@@ -235,6 +247,7 @@ def _is_quiet_node(reading: Reading, node: Node, scope: Scope, depth: int) -> bo
     if (
         not name
         or waits_alone(node)
+        or makes_again(node, scope.self_name)
         or _may_be_full(reading, node, scope)
         or (libraries.acting().match(name) is not None and name not in libraries.harmless())
         or not _ends(name)

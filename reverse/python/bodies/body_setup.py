@@ -27,7 +27,7 @@ from rebsync.reverse.python.bodies import (
     body_switches,
     body_timers,
 )
-from rebsync.reverse.python.bodies.body_effects import is_harmless
+from rebsync.reverse.python.bodies.body_effects import is_harmless, makes_again
 from rebsync.reverse.python.bodies.body_expressions import short
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.bodies.body_units import wakes
@@ -136,6 +136,8 @@ def _started(reader: BodyStatementReader, call: Node, name: str) -> Iterator[m.S
     if kind is Kind.START or (last in libraries.starting() and not name):
         return iter(())
     lineage = reader.reading.unit.lineage
+    if makes_again(call, reader.frame.scope.self_name):
+        return None
     if last == "__init__":
         above = reader.reading.method("__init__", 1)
         running = above is not None and above.node.id not in reader.running

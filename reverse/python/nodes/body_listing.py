@@ -30,9 +30,11 @@ from rebsync.reverse.nodes.node_wiring import (
 from rebsync.reverse.python.bodies.body_reading import Reading
 from rebsync.reverse.python.bodies.body_scope import Key, PyUnit
 from rebsync.reverse.python.nodes.object_model import list_object_model
+from rebsync.reverse.python.nodes.refused_callbacks import odd_callback
 from rebsync.reverse.python.values.py_lookup import scope_at
 from rebsync.reverse.python.values.py_worth import Instance as Object
 from rebsync.reverse.python.values.py_worth import Value
+from rebsync.reverse.syntax.ancestors import holds
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding
 from rebsync.reverse.syntax.py_index import MODULE, Scope
@@ -43,6 +45,7 @@ ENDLESS = "what this goes through may have no end"
 _HANGS = "it is not known whether this loop ends"
 _WAITS = "this may wait for ever for a lock that is held"
 _SAME_OBJECT = "another callback of this topic gets the object that is changed here"
+_LEFT = "in Python 2 this sets a variable of the function around"
 _OPEN = "add the package that has the receivers, if they matter"
 _CLOSE = "add the package that publishes it, or a class to the model that sends what may come"
 _CALLS = "add a class to the model that calls it, or message servers that send to it"
@@ -61,6 +64,10 @@ def list_unit(
         _fact(unit, fact, number in servers, findings)
     if unit.library.threads:
         _changed(unit, servers, findings)
+    for number, server in servers.items():
+        if (odd := odd_callback(unit.unit.facts[number], server, unit.library)) is not None:
+            source, span = unit.module.py.source, unit.module.py.span(odd[0])
+            findings.unreadable(source, Unread(span, odd[1]), unit.name)
     for asked, why in declared_again(unit.unit.facts):
         place = asked.site.place
         findings.unreadable(place.source, Unread(place.span, why), unit.name)
@@ -144,6 +151,10 @@ def list_shared(
             why = "this sets what is state of a rebec, in code that is not read"
             span = scope.py.span(binding.node)
             findings.unreadable(scope.py.source, Unread(span, why), unit.name)
+        for scope, node in _left_variables(unit, readings[unit.name]):
+            if not findings.has_unreadable(scope.py.source, scope.py.span(node)):
+                unread = Unread(scope.py.span(node), _LEFT)
+                findings.unreadable(scope.py.source, unread, unit.name)
     _note_turns(units, findings)
 
 
@@ -162,6 +173,24 @@ def list_endless(
         for source, span, why in (*endless, *hanging, *locks):
             if not findings.has_unreadable(source, span):
                 findings.unreadable(source, Unread(span, why), unit.name)
+
+
+def _left_variables(unit: PyUnit, reading: Reading) -> Iterator[tuple[Scope, Node]]:
+    """Lists made by a comprehension that set, in Python 2, a variable of the function around."""
+    for scope in reading.code.scopes.values() if not unit.library.flat else ():
+        if scope.node.id not in reading.bodies or "python3" in scope.py.source.text[:80]:
+            continue
+        for made in (n for n in nodes_in(scope.node) if n.type == "list_comprehension"):
+            clauses = (n for n in made.named_children if n.type == "for_in_clause")
+            names = (n for c in clauses for n in nodes_in(field(c, "left")))
+            if any(_is_variable(scope, n, made) for n in names):
+                yield scope, made
+
+
+def _is_variable(scope: Scope, name: Node, made: Node) -> bool:
+    """Whether a name is that of a variable which a function sets elsewhere too."""
+    bindings = scope.names.get(text_of(name), ()) if name.type == "identifier" else ()
+    return any(not holds(made, b.node) for b in bindings)
 
 
 def _set_elsewhere(

@@ -44,6 +44,7 @@ _LIVING = frozenset(
     {"mainloop", "exec_", "exec", "pause", "join", "serve_forever", "input", "raw_input"}
     | {"run", "run_forever", "app_run", "show", "start"}
 )
+_LATE = "this publishes when nothing is served any more: the model ends before"
 _UNSPUN = "nothing spins this node: it is not known to serve anything"
 _REMOVED = "a node is taken out of its executor: this one is not known to serve anything"
 _ENDING = "the program of this node runs to its end: nothing is served from then on"
@@ -53,6 +54,8 @@ _ENDING = "the program of this node runs to its end: nothing is served from then
 class _Spin:
     """A call that serves nodes: those that it is given, or those of an `executor`."""
 
+    call: Node
+    scope: Scope
     nodes: tuple[Value, ...]
     executor: tuple[Value, ...] | None = None
 
@@ -71,6 +74,9 @@ def list_unserved(
     if not units:
         return
     running = _Running(values, entries)
+    if any(unit.library.flat for unit in units):  # of others nothing comes once they are shut down
+        for scope, node in _published_late(values, running):
+            findings.unreadable(scope.py.source, Unread(scope.py.span(node), _LATE), scope.name)
     for unit in units:
         made = list(_making(values, unit))
         if unit.lineage and not made:
@@ -111,7 +117,8 @@ def _may_make(unit: PyUnit, call: Node) -> bool:
 
 
 def _is_spun(values: PyValues, unit: PyUnit, running: _Running) -> bool:
-    spins = list(_spins(values, running))
+    every = list(_spins(values, running))
+    spins = [s for s in every if not any(_is_before(values, unit, o, s) for o in every)]
     if any(_is_of(values, unit, way) for spin in spins for way in spin.nodes):
         return True
     if spins and not _is_node(values, unit):
@@ -127,6 +134,15 @@ def _is_spun(values: PyValues, unit: PyUnit, running: _Running) -> bool:
         if any(_is_of(values, unit, w) for w in given) and any(_meet(to, e) for e in executors):
             return True
     return False
+
+
+def _is_before(values: PyValues, unit: PyUnit, one: _Spin, other: _Spin) -> bool:
+    """Whether a call serves only other nodes than a unit's, and does not come to another call."""
+    if one.scope is not other.scope or one.call.start_byte >= other.call.start_byte:
+        return False
+    spins = last_name(field(one.call, "function")) in libraries.spinning()
+    known = (isinstance(w, Instance) and not _is_of(values, unit, w) for w in one.nodes)
+    return spins and one.executor is None and bool(one.nodes) and all(known)
 
 
 def _is_node(values: PyValues, unit: PyUnit) -> bool:
@@ -164,10 +180,48 @@ def _spin(values: PyValues, function: Node, call: Node, scope: Scope) -> Iterato
         for w in values.ways(node, scope)
     )
     if any(isinstance(w, External) for w in ways):
-        yield _Spin(given)
+        yield _Spin(call, scope, given)
     elif function.type == "attribute":
         on = values.ways(field(function, "object"), scope)
-        yield _Spin(on, on)  # of a library whose nodes spin themselves, or of an executor
+        yield _Spin(
+            call, scope, on, on
+        )  # of a library whose nodes spin themselves, or of an executor
+
+
+def _published_late(values: PyValues, running: _Running) -> Iterator[tuple[Scope, Node]]:
+    """The calls behind `spin`, in its function, that publish: the context may be valid still."""
+    found: dict[int, tuple[Scope, Node]] = {}
+    for name in sorted(libraries.spinning()):
+        for call, scope in values.code.by_callee.get(name, ()):
+            around = [call, *ancestors(call, lambda n: n.type in SCOPES)]
+            late = (n for at in around for n in _behind(at) for n in nodes_in(n))
+            calls = [n for n in late if n.type == "call"] if running.reaches(scope) else []
+            senders = _senders(values) if calls else frozenset()
+            for node in calls:
+                if last_name(field(node, "function")) in senders:
+                    found[node.id] = scope, node
+    yield from found.values()
+
+
+def _behind(node: Node) -> Iterator[Node]:
+    """The statements and clauses that follow a node in its block."""
+    behind = node.next_named_sibling if node.type != "argument_list" else None
+    while behind is not None:
+        yield behind
+        behind = behind.next_named_sibling
+
+
+def _senders(values: PyValues) -> frozenset[str]:
+    """What publishes, by names: methods of publishers, and functions that lead to these."""
+    found = set(libraries.publishing())
+    while True:
+        more = {
+            s.name for call, s in values.code.calls if last_name(field(call, "function")) in found
+        }
+        more.discard("")
+        if more <= found:
+            return frozenset(found)
+        found |= more
 
 
 def _goes_round(values: PyValues, call: Node, scope: Scope) -> bool:
