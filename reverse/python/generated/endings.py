@@ -9,7 +9,8 @@ from itertools import chain, count
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.python.generated import py_builtins as builtins
+from rebsync.reverse.python.expressions.elements import known_range
+from rebsync.reverse.python.generated.arrays import array_elements
 from rebsync.reverse.python.generated.failing import may_fail
 from rebsync.reverse.python.generated.py_types import call_parts
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
@@ -127,10 +128,10 @@ def _first(reader: ModelStatementReader, node: Node) -> m.Expression | None:
     right = field(node, "right")
     called, arguments = call_parts(right) or ("", [])
     if called == "range":
-        first = next(iter(builtins.known_range(arguments) or ()), None)
+        first = next(iter(known_range(arguments) or ()), None)
         return m.IntLiteral(first) if first is not None and first >= 0 else None
     if right.type in ("identifier", "attribute"):
-        elements = builtins.array_elements(reader.expressions, right)
+        elements = array_elements(reader.expressions, right)
         return elements[0] if elements else None
     return None
 

@@ -8,14 +8,13 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own
-from rebsync.reverse.models.building import binary, is_calm, located
+from rebsync.reverse.models.building import located
 from rebsync.reverse.python.generated.cuts import other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import calls_in, field, is_asked, named, text_of
 
-_COMPARED = frozenset({"<", "<=", ">", ">=", "==", "!="})
 _PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})
 _AROUND = frozenset(
     {
@@ -23,6 +22,7 @@ _AROUND = frozenset(
         *("unary_operator", "conditional_expression"),
     }
 )
+_CALM = frozenset({"abs", "min", "max", "bool", "int8", "int16", "int32", "divide", "remainder"})
 _GROWING = frozenset({"+", "-", "*", "<<", ">>", "&", "|", "^"})
 # Functions for which only the truth of what they are given matters.
 _ASKING = frozenset({"bool", "boolean", "to_boolean", "assertion", "any", "all"})
@@ -37,51 +37,6 @@ _QUIET = frozenset(
         *("to_rebec", "Array", "array", "copied", "rounds", "put", "put_item", "before"),
     }
 )
-
-
-def comparison(reader: ModelExpressionReader, node: Node) -> m.Expression:
-    """`a <= b < c`, `a in (1, 2)` and `a not in (1, 2)`. Unread: the model has no such thing."""
-    operands = named(node)
-    operators = [" ".join(text_of(c).split()) for c in node.children_by_field_name("operators")]
-    if operators in (["in"], ["not in"]) and (ends := _ends_of_range(reader, operands)):
-        low, high = ends
-        is_in, one = operators == ["in"], operands[0]
-        pairs = [(one, ">=" if is_in else "<", low), (one, "<" if is_in else ">=", high)]
-        word, repeated = "&&" if is_in else "||", [one]
-        if reader.kind(reader.read(one)) != m.Type("int"):
-            raise reader.unread(node, "only whole numbers are in a range")
-    elif operators in (["in"], ["not in"]) and operands[1].type in ("tuple", "list", "set"):
-        is_in, one = operators == ["in"], operands[0]
-        others = named(operands[1])
-        pairs = [(one, "==" if is_in else "!=", other) for other in others]
-        word = "||" if is_in else "&&"
-        repeated = [one] * (len(others) > 1)
-    elif len(operands) > 2 and set(operators) <= _COMPARED:
-        pairs = list(zip(operands, operators, operands[1:], strict=False))
-        word, repeated = "&&", operands[1:-1]
-    else:
-        raise reader.unread(node, "the model has no such comparison")
-    if not pairs or not all(map(is_plain, repeated)):
-        raise reader.unread(node, "what this compares more than once is to be in a variable first")
-    found = None
-    for left, operator, right in pairs:
-        read = reader.read(left), reader.read(right)
-        if not all(is_calm(r) for n, r in zip((left, right), read, strict=True) if n in repeated):
-            raise reader.unread(node, "a property may do something each time that it is asked")
-        assert_alike(reader, node, operator, read)
-        each = binary(operator, *read, reader.py.span(node))
-        found = each if found is None else m.Binary(word, found, each, reader.py.span(node))
-    assert found is not None
-    return found if len(pairs) == 1 else grouped(node, found)
-
-
-def _ends_of_range(reader: ModelExpressionReader, operands: list[Node]) -> list[Node] | None:
-    """The first number of a range and that behind its last; None for what is no such range."""
-    called = text_of(field(operands[1], "function")) if operands[1].type == "call" else ""
-    given = named(field(operands[1], "arguments")) if called == "range" else []
-    is_rebound = reader.names.constants.binds("range") or "range" in reader.locals
-    is_plain_range = len(given) == 2 and all(g.type == "integer" for g in given)
-    return given if is_plain_range and not is_rebound else None
 
 
 def assert_alike(
@@ -118,6 +73,15 @@ def is_plain(node: Node) -> bool:
     return node.type in _PLAIN
 
 
+def is_quiet(node: Node) -> bool:
+    """Whether evaluating it changes nothing: it calls nothing but what is of Python or cuts."""
+    if node.type == "named_expression":
+        return False
+    if node.type == "call" and text_of(field(node, "function")) not in _CALM:
+        return False
+    return all(map(is_quiet, named(node)))
+
+
 def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Binary:
     """`a / b` of numbers with a point, and `a // b` and `a % b` of integers that must turn out to
     be ones of which the model has the same. Unread: all else, which the model divides otherwise.
@@ -132,19 +96,11 @@ def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Bina
     raise reader.unread(node, other_division(operator))
 
 
-def truth(reader: ModelExpressionReader, read: m.Expression) -> m.Expression:
-    """What an integer says as a condition."""
-    kind = reader.kind(read)
-    if kind is None or kind.name != "int":
-        return read
-    return binary("!=", read, m.IntLiteral(0))
-
-
 def sides(
     reader: ModelExpressionReader, node: Node, left: m.Expression, right: m.Expression
 ) -> tuple[m.Expression, m.Expression]:
     """The sides of `and` and `or` as conditions. Unread: Python gives an integer, not its truth."""
-    asked = truth(reader, left), truth(reader, right)
+    asked = reader.truth(left, node), reader.truth(right, node)
     if asked != (left, right) and not is_asked(node, _ASKING):
         raise reader.unread(node, "this is one of the two numbers in Python, in the model a truth")
     return asked

@@ -14,6 +14,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, cell
 from rebsync.reverse.python.generated import (
     aliases,
+    arrays,
     counts,
     endings,
     going_on,
@@ -25,7 +26,6 @@ from rebsync.reverse.python.generated import (
     users,
 )
 from rebsync.reverse.python.generated import inner as inner_functions
-from rebsync.reverse.python.generated import py_builtins as builtins
 from rebsync.reverse.python.generated.decorators import context_of
 from rebsync.reverse.python.generated.failing import told_people
 from rebsync.reverse.python.generated.filled import filled
@@ -294,7 +294,7 @@ class Statements(ModelStatementReader):
     def _through(self, node: Node, called: str, arguments: list[Node]) -> m.Statement:
         """A loop of Python through numbers or values."""
         name = text_of(field(node, "left"))
-        builtins.assert_of_python(self.expressions, node, called)
+        arrays.assert_of_python(self.expressions, node, called)
         if called == "range":
             return loops.counted(self, node, name)
         found = loops.through(self, node, called, arguments)
