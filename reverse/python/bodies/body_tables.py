@@ -9,8 +9,9 @@ from tree_sitter import Node
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.bodies.body_reading import Reading
 from rebsync.reverse.python.bodies.body_scope import STRING, TRUTH, WHOLE, Value, unknown
+from rebsync.reverse.python.bodies.body_units import scope_around
 from rebsync.reverse.python.expressions.tables import pairs_of, selected
-from rebsync.reverse.python.values.py_worth import Items, Table
+from rebsync.reverse.python.values.py_worth import External, Items, Table
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, text_of
 
@@ -21,6 +22,11 @@ _CHANGES = frozenset(
     | {"pattern_list", "list_pattern", "tuple_pattern"}
 )
 _LOOKS = frozenset({"get", "keys", "values", "items"})
+# Functions that only go through what they are given.
+_READERS = tuple(
+    (External(f"builtins.{name}"),)
+    for name in ("all", "any", "enumerate", "len", "max", "min", "sum", "zip")
+)
 _MOST = 32
 _KEYS = frozenset({STRING, WHOLE})
 
@@ -92,14 +98,14 @@ def _is_constant(reading: Reading, node: Node) -> bool:
     for module in reading.code.modules.values():
         for each in nodes_in(module.node):
             if each.type == "identifier" and text_of(each) == name:
-                use = _use(each)
+                use = _use(reading, each, module.py.source.path)
                 if use is None:
                     return False
                 made += use
     return made == 1
 
 
-def _use(name: Node) -> int | None:
+def _use(reading: Reading, name: Node, path: str) -> int | None:
     """How often a place in the code binds a name; None where it may do more than to look."""
     at = name
     above = at.parent
@@ -116,6 +122,10 @@ def _use(name: Node) -> int | None:
             return 0
         case "for_in_clause" if above is not None and field(above, "right") == at:
             return 0  # its elements are constants
+        case "argument_list" if above is not None and above.parent is not None:
+            function = field(above.parent, "function")
+            ways = reading.values.ways(function, scope_around(reading.code, name, path))
+            return 0 if ways in _READERS else None
         case _:
             return None
 
