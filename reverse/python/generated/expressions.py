@@ -384,5 +384,8 @@ _SAME = {"is": "==", "is not": "!="}
 
 
 def _is_argument(node: Node) -> bool:
-    """Whether an expression is an argument of a call by its place, as what an assertion says."""
-    return node.parent is not None and node.parent.type == "argument_list"
+    """Whether an expression is an argument of a call by its place, or what an assertion says."""
+    above = node.parent
+    if above is not None and above.type == "assert_statement":
+        return named(above)[0] != node
+    return above is not None and above.type == "argument_list"

@@ -7,13 +7,14 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own
+from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own, written
 from rebsync.reverse.models.building import located
 from rebsync.reverse.python.generated.cuts import other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
 from rebsync.reverse.syntax.ancestors import climb
-from rebsync.reverse.syntax.py_tree import calls_in, field, is_asked, named, text_of
+from rebsync.reverse.syntax.py_tree import field, is_asked, named, text_of
+from rebsync.static.types import INT
 
 _PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})
 _AROUND = frozenset(
@@ -27,16 +28,7 @@ _GROWING = frozenset({"+", "-", "*", "<<", ">>", "&", "|", "^"})
 # Functions for which only the truth of what they are given matters.
 _ASKING = frozenset({"bool", "boolean", "to_boolean", "assertion", "any", "all"})
 _WHOLE = {"//": "divide", "/": "divide", "%": "remainder"}
-# Functions of Python and of the run-time part that store nothing.
-_QUIET = frozenset(
-    {
-        *("int8", "int16", "int32", "boolean", "divide", "remainder", "abs", "min", "max", "bool"),
-        *("int", "range", "len", "sum", "any", "all", "When", "print", "str", "switch", "block"),
-        *("float32", "float64", "quotient", "modulus", "shift_left", "shift_right", "power"),
-        *("square_root", "to_byte", "to_short", "to_int", "to_float", "to_double", "to_boolean"),
-        *("to_rebec", "Array", "array", "copied", "rounds", "put", "put_item", "before"),
-    }
-)
+_CHANGES = "how often this is done may change: say it with numbers or locals"
 
 
 def assert_alike(
@@ -282,17 +274,32 @@ def _values(reader: ModelExpressionReader, pattern: Node) -> Iterator[m.Expressi
 def rounds(
     reader: ModelExpressionReader, node: Node
 ) -> tuple[m.Expression, m.Expression, m.Expression]:
-    """Start, end and step of `range(...)`. Unread: they may change in the loop."""
+    """Start, end and step of `range(...)`."""
     arguments = named(field(field(node, "right"), "arguments"))
-    body = field(node, "body")
-    if not 1 <= len(arguments) <= 3 or not all(_is_steady(reader, a, body) for a in arguments):
-        raise reader.unread(
-            node, "how often this is done may change: say it with numbers or locals"
-        )
     read = [reader.read(a) for a in arguments]
+    if not 1 <= len(read) <= 3 or any(reader.kind(each) != INT for each in read):
+        raise reader.unread(node, _CHANGES)
     start = read[0] if len(read) > 1 else m.IntLiteral(0)
     step = read[2] if len(read) > 2 else m.IntLiteral(1)
     return start, read[1] if len(read) > 1 else read[0], step
+
+
+def check_steady(
+    reader: ModelExpressionReader, node: Node, bound: m.Expression, body: m.Block
+) -> None:
+    """Unread: a bound of a loop may change in it, where Python asks for it only once."""
+    own = {*reader.names.functions.values(), *(h.name for h in reader.names.helpers.values())}
+    calls = (n for n in m.walk(body) if isinstance(n, m.Call) and n.name in own)
+    runs = any(not isinstance(call.target, m.Self | m.Name) for call in calls)  # others send
+    stored, local = written(body), reader.locals.values()
+    for part in m.walk(bound):
+        match part:
+            case m.IntLiteral() | m.Paren() | m.Binary() | m.Unary("-" | "+" | "~") | m.Self():
+                continue
+            case m.Name(name) | m.Member(m.Self(), name) if name not in stored:
+                if not runs or (name in local and not is_own(part)):
+                    continue
+        raise reader.unread(node, _CHANGES)
 
 
 def is_literal(reader: ModelExpressionReader, node: Node) -> bool:
@@ -301,27 +308,6 @@ def is_literal(reader: ModelExpressionReader, node: Node) -> bool:
         return is_literal(reader, field(node, "argument"))
     return node.type in ("integer", "float", "true", "false") or (
         text_of(node) in reader.names.constants and text_of(node) not in reader.locals
-    )
-
-
-def _is_steady(reader: ModelExpressionReader, node: Node, body: Node) -> bool:
-    """Whether a bound of a loop stays the same: a number, or a local that the loop leaves alone."""
-    if node.type in ("unary_operator", "binary_operator", "parenthesized_expression"):
-        return all(_is_steady(reader, n, body) for n in named(node))
-    if node.type == "identifier":
-        return text_of(node) not in stored_in(body)
-    if node.type == "attribute" and text_of(field(node, "object")) == reader.own:
-        return text_of(node) not in stored_in(body) and not _calls_own(reader, body)
-    return node.type == "integer" or text_of(node) in reader.names.constants
-
-
-def _calls_own(reader: ModelExpressionReader, node: Node) -> bool:
-    """Whether a block calls functions of the object that are no sends, and may store something."""
-    parts = (text_of(field(call, "function")).rpartition(".") for call in calls_in(node))
-    return any(
-        name not in (reader.names.sends if holder in (reader.own, "super()") else _QUIET)
-        for holder, _, name in parts
-        if not holder or holder in (reader.own, "super()")
     )
 
 

@@ -257,6 +257,7 @@ def _for(
     by = step.operand if isinstance(step, m.Unary) else step
     if not isinstance(by, m.IntLiteral) or by.value == 0:
         raise reader.expressions.unread(node, "the step of this loop is to be a number")
+    idioms.check_steady(reader.expressions, node, end, body)
     operator = "-" if is_down else "+"
     update: m.Expression = m.Postfix(operator * 2, place)
     if by.value != 1:
