@@ -134,7 +134,7 @@ class Statements(ModelStatementReader):
             case "return_statement":
                 return self._return(node)
             case "break_statement":
-                return [*endings.noted(self), m.Break(span=span)]
+                return [m.Break(span=span)]
             case "continue_statement":
                 return [m.Continue(span=span)]
             case _:
@@ -286,10 +286,9 @@ class Statements(ModelStatementReader):
             return endings.with_else(self, node, lambda: endings.with_last(self, node, through))
         if node.child_by_field_name("alternative") is not None:  # which what ends it would skip
             raise self.expressions.unread(node, "the model has no such loop")
-        with endings.leaving(self):
-            if is_switch:
-                return [self._switch(node, name, arguments[0])]
-            return [self._rounds(node, name, before)]
+        if is_switch:
+            return [self._switch(node, name, arguments[0])]
+        return [self._rounds(node, name, before)]
 
     def _through(self, node: Node, called: str, arguments: list[Node]) -> m.Statement:
         """A loop of Python through numbers or values."""
