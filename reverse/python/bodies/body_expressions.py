@@ -40,10 +40,9 @@ from rebsync.reverse.python.bodies.body_scope import (
     Var,
     unknown,
 )
-from rebsync.reverse.python.expressions.comparisons import comparison, signs_of
+from rebsync.reverse.python.expressions.conditions import comparison, connected, signs_of
 from rebsync.reverse.syntax.py_tree import (
     field,
-    is_asked,
     named,
     number_of,
     text_in,
@@ -88,8 +87,10 @@ class PyExpressions(BodyExpressionReader):
                     self.read(field(node, "right")),
                     node,
                 )
-            case "comparison_operator" | "boolean_operator":
-                return self._logic(node)
+            case "comparison_operator":
+                return Value(self._compared(node), TRUTH)
+            case "boolean_operator":
+                return connected(self, node)
             case "conditional_expression" if len(named(node)) == 3:
                 return self._conditional(node)
             case "subscript":
@@ -288,23 +289,6 @@ class PyExpressions(BodyExpressionReader):
             )
 
     # --- conditions -----------------------------------------------------------------------------
-
-    def _logic(self, node: Node) -> Value:
-        if node.type == "comparison_operator":
-            return Value(self._compared(node), TRUTH)
-        sign = "&&" if text_of(field(node, "operator")) == "and" else "||"
-        left, right = field(node, "left"), field(node, "right")
-        if is_asked(node):
-            sides = self.condition(left), self.condition(right)
-            return Value(binary(sign, *sides, self.span(node)), TRUTH)
-        one, other = self.read(left), self.read(right)
-        if one.kind == other.kind == TRUTH:
-            sides = bare(one.expression), bare(other.expression)
-            return Value(binary(sign, *sides, self.span(node)), TRUTH)
-        if not is_calm(one.expression):
-            raise Unread(self.span(node), '"and" and "or" of such values')
-        ways = (other, one) if sign == "&&" else (one, other)
-        return self.joined(self.truth(one, left), *ways, node)
 
     def _compared(self, node: Node) -> m.Expression:
         operands = named(node)

@@ -175,4 +175,6 @@ def _one_of(reader: OperandReader[V], values: Sequence[V], node: Node) -> V | No
     if len(kinds) != 1 or (type_ := kinds.pop()) is None:
         return None
     options = tuple(reader.shown(value) for value in values)
+    if any(isinstance(n, m.Name | m.Index) for each in options for n in m.walk(each)):
+        raise reader.refused(node, "what is drawn here is to be written out")
     return reader.made(m.Choice(options, reader.span(node)), type_)

@@ -21,10 +21,14 @@ V = TypeVar("V")
 
 
 class OperandReader(ABC, Generic[V]):
-    """Reads operands; `mixes` says whether it compares whole numbers with others as Python does."""
+    """Reads operands; `mixes` says whether it compares whole numbers with others as Python does.
+
+    `asking` are functions for which only the truth of what they are given matters.
+    """
 
     __slots__ = ()
     mixes: ClassVar[bool]
+    asking: ClassVar[frozenset[str]] = frozenset()
 
     @abstractmethod
     def read(self, node: Node) -> V:

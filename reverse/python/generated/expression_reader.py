@@ -20,6 +20,8 @@ from rebsync.reverse.python.generated.names import Closure, ModelNames
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
 
+_ASKING = frozenset({"bool", "boolean", "to_boolean", "assertion", "any", "all"})
+
 
 @dataclass(eq=False, slots=True)
 class ModelExpressionReader(OperandReader[m.Expression]):
@@ -46,6 +48,7 @@ class ModelExpressionReader(OperandReader[m.Expression]):
     cuts: Cuts = with_default(default_factory=Cuts)
 
     mixes: ClassVar[bool] = False
+    asking: ClassVar[frozenset[str]] = _ASKING
 
     def unread(self, node: Node, why: str) -> Unread:
         return Unread(self.py.span(node), why)

@@ -12,7 +12,7 @@ from rebsync.names import original
 from rebsync.records import dataclass
 from rebsync.reverse.models.building import binary, chosen, located
 from rebsync.reverse.python.expressions import functions
-from rebsync.reverse.python.expressions.comparisons import comparison, signs_of
+from rebsync.reverse.python.expressions.conditions import comparison, connected, signs_of
 from rebsync.reverse.python.expressions.tables import looked_up, pairs_of
 from rebsync.reverse.python.generated import arrays, closures, formats, idioms, places, tuples
 from rebsync.reverse.python.generated.decorators import is_cast
@@ -48,8 +48,7 @@ _OPERATIONS = {
     "shift_left": "<<",
     "shift_right": ">>",
 }
-_WORDS = {"and": "&&", "or": "||"}
-_LEVELS = {"or": 2, "and": 3, "|": 6, "^": 7, "&": 8, "<<": 9, ">>": 9, "+": 10, "-": 10}
+_LEVELS = {"|": 6, "^": 7, "&": 8, "<<": 9, ">>": 9, "+": 10, "-": 10}
 _LEVELS |= dict.fromkeys(("*", "/", "%", "//"), 11)
 _NOT, _COMPARISON, _PRODUCT, _UNARY = 4, 5, 11, 12
 
@@ -103,16 +102,16 @@ class Expressions(ModelExpressionReader):
             case "unary_operator":
                 operator = text_of(field(node, "operator"))
                 return m.Unary(operator, self._operand(field(node, "argument"), _UNARY), span)
-            case "boolean_operator" | "binary_operator":
+            case "boolean_operator":
+                return connected(self, node)
+            case "binary_operator":
                 operator = text_of(field(node, "operator"))
                 level = _LEVELS.get(operator)
                 if level is None:
                     raise self.unread(node, f'the model has no operator "{operator}"')
                 left = self._operand(field(node, "left"), level)
                 right = self._operand(field(node, "right"), level + 1)
-                if operator in _WORDS:
-                    left, right = idioms.sides(self, node, left, right)
-                read = m.Binary(_WORDS.get(operator, operator), left, right, span)
+                read = m.Binary(operator, left, right, span)
                 return (
                     idioms.divided(self, node, read)
                     if level == _PRODUCT and operator != "*"

@@ -13,7 +13,7 @@ from rebsync.reverse.python.generated.cuts import other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
 from rebsync.reverse.syntax.ancestors import climb
-from rebsync.reverse.syntax.py_tree import field, is_asked, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.static.types import INT
 
 _PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})
@@ -25,8 +25,6 @@ _AROUND = frozenset(
 )
 _CALM = frozenset({"abs", "min", "max", "bool", "int8", "int16", "int32", "divide", "remainder"})
 _GROWING = frozenset({"+", "-", "*", "<<", ">>", "&", "|", "^"})
-# Functions for which only the truth of what they are given matters.
-_ASKING = frozenset({"bool", "boolean", "to_boolean", "assertion", "any", "all"})
 _WHOLE = {"//": "divide", "/": "divide", "%": "remainder"}
 _CHANGES = "how often this is done may change: say it with numbers or locals"
 
@@ -86,16 +84,6 @@ def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Bina
         whole = m.Binary(operator[0], read.left, read.right, read.span)
         return reader.cuts.divided(whole)
     raise reader.unread(node, other_division(operator))
-
-
-def sides(
-    reader: ModelExpressionReader, node: Node, left: m.Expression, right: m.Expression
-) -> tuple[m.Expression, m.Expression]:
-    """The sides of `and` and `or` as conditions. Unread: Python gives an integer, not its truth."""
-    asked = reader.truth(left, node), reader.truth(right, node)
-    if asked != (left, right) and not is_asked(node, _ASKING):
-        raise reader.unread(node, "this is one of the two numbers in Python, in the model a truth")
-    return asked
 
 
 def kind_at(reader: ModelExpressionReader, node: Node) -> m.Type | None:

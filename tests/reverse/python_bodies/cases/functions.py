@@ -15,7 +15,7 @@ class Functions:
         self.a = 1
         self.b = 2
         self.on = self.d = False
-        self.c = self.e = self.f = self.turns = 0
+        self.c = self.e = self.f = self.g = self.h = self.turns = 0
         self.speed = 0.5
         rospy.Subscriber("number", Int32, self.on_number)
         rospy.Subscriber("more", Int32, self.on_more)
@@ -39,15 +39,17 @@ class Functions:
     def on_more(self, msg):
         self.b = {0: self.a, 1: 7, 0: 8}.get(self.a, self.b)
         self.a = SPEEDS.get(self.b, 0)
-        self.b = random.choice((1, self.a))
+        self.b = random.choice((1, 4))
         self.b = len([self.a, self.b])
 
     def on_lost(self, msg):
         self.c = min(self.turn(), 3)
         self.d = any([self.turn() > 0, self.c > 3])
-        self.e = sum((self.speed, 1))
-        self.f = 1 + sum({self.a, self.b})
-        if self.d or self.e > 2 or self.f == 1:
+        self.e = random.choice((1, self.a))
+        self.f = sum((self.speed, 1))
+        self.g = self.b or 4
+        self.h = 1 + sum({self.a, self.b})
+        if self.d or self.e > 2 or self.f == 1 or self.h == self.g:
             self.pub.publish(self.c)
 
     def turn(self):

@@ -1,4 +1,4 @@
-"""Comparisons of Python: chains of them, and whether something is in a range or container."""
+"""Conditions of Python: `and` and `or`, chains of comparisons, and what is in a container."""
 
 from __future__ import annotations
 
@@ -6,13 +6,32 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.models.building import binary, number_literal
+from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.python.expressions.elements import certain, known_range
 from rebsync.reverse.python.expressions.operands import OperandReader, V
-from rebsync.reverse.syntax.py_tree import field, named, text_of
-from rebsync.static.types import INT
+from rebsync.reverse.syntax.py_tree import field, is_asked, named, text_of
+from rebsync.static.types import BOOLEAN, DOUBLE, INT
 
 _SIGNS = frozenset({"<", ">", "<=", ">=", "==", "!=", "<>"})
 _RANGES = ("builtins.range", "builtins.xrange")
+
+
+def connected(reader: OperandReader[V], node: Node) -> V:
+    """`a and b`, `a or b`: a truth where only that is asked for, else one of the two values."""
+    word = "&&" if text_of(field(node, "operator")) == "and" else "||"
+    left, right = field(node, "left"), field(node, "right")
+    if is_asked(node, reader.asking):
+        sides = reader.condition(left), reader.condition(right)
+        return reader.made(binary(word, *sides, reader.span(node)), BOOLEAN)
+    one, other = reader.read(left), reader.read(right)
+    kinds = {reader.kind(one), reader.kind(other)}
+    if not kinds & {INT, DOUBLE, TEXT}:
+        sides = reader.truth(one, left), reader.truth(other, right)
+        return reader.made(binary(word, *sides, reader.span(node)), BOOLEAN)
+    if not reader.is_calm(one) or (len(kinds) > 1 and not reader.mixes):
+        raise reader.refused(node, "this is one of two values, which are to be in variables")
+    ways = (other, one) if word == "&&" else (one, other)
+    return reader.joined(reader.truth(one, left), *ways, node)
 
 
 def signs_of(node: Node) -> list[str]:
