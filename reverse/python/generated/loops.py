@@ -71,9 +71,9 @@ def through(
         case (("enumerate" | "zip"), _) if any(a.type in ("tuple", "list") for a in arguments):
             return _unrolled(reader, node, names)
         case "enumerate", [values] if len(names) == 2:
-            return _numbered(reader, node, names[0], names[1:], [values])
+            return numbered(reader, node, names[0], names[1:], [values])
         case "zip", _ if len(names) == len(arguments) > 0:
-            return _numbered(reader, node, "", names, arguments)
+            return numbered(reader, node, "", names, arguments)
         case "reversed", [inner] if len(names) == 1:
             return _backwards(reader, node, names[0], inner)
         case "", _ if right.type in ("tuple", "list") and len(names) == 1:
@@ -82,7 +82,7 @@ def through(
             return None
 
 
-def _numbered(
+def numbered(
     reader: ModelStatementReader, node: Node, number: str, names: list[str], arrays: list[Node]
 ) -> m.For:
     """A loop through several arrays at once; the variable `number` counts, if it has a name."""
@@ -193,21 +193,6 @@ def _round(
             del known[name]
     del known[f"index of {names[0][0]}"]
     return replace(found, statements=(*declared, *found.statements))
-
-
-def each(reader: ModelStatementReader, node: Node, name: str) -> m.For:
-    """`for x in self._values` goes through an array of one dimension."""
-    values = reader.expressions.read(field(node, "right"))
-    is_whole = isinstance(values, m.Name | m.Member)
-    type_ = idioms.type_of(reader.expressions, values) if is_whole else None
-    if type_ is None or len(type_.dimensions) != 1:
-        raise reader.expressions.unread(node, "the model has no such loop")
-    _assert_kept(reader, node, field(node, "right"))
-    index = _free(reader, node, name)
-    read = m.Index(values, m.Name(index))
-    element = reader.expressions.kind(read) or m.Type(type_.name)
-    body = _round(reader, node, [], index, [(name, element, read)])
-    return _times(reader, node, index, type_.dimensions[0], body)
 
 
 def _assert_kept(reader: ModelStatementReader, node: Node, array: Node) -> None:

@@ -297,7 +297,9 @@ class Statements(ModelStatementReader):
         if called == "range":
             return loops.counted(self, node, name)
         found = loops.through(self, node, called, arguments)
-        return found if found is not None else loops.each(self, node, name)
+        if found is not None:
+            return found
+        return loops.numbered(self, node, "", [name], [field(node, "right")])
 
     def _while(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         condition = self.expressions.condition(field(node, "condition"))
