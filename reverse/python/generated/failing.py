@@ -16,12 +16,12 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.logs import only_logs, own_method
-from rebsync.reverse.python.generated.py_types import call_parts
 from rebsync.reverse.python.generated.told_exceptions import ToldExceptions
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of
 
 _DIVIDING = frozenset({"/", "//", "%"})
+_DIVIDING_BY_NAME = frozenset({"divide", "remainder"})
 _TEXTS = frozenset({"string", "concatenated_string"})
 _LATER = frozenset({"generator_expression", "lambda", "list_comprehension", "set_comprehension"})
 
@@ -142,12 +142,14 @@ def _quotient(divisor: m.Expression) -> m.Expression:
 
 def _divisor(node: Node) -> Node | None:
     """What an operator or the run-time part divides by; None where that is a number, not zero."""
-    called, arguments = call_parts(node) or ("", [])
-    by = None
-    if node.type == "call" and called.rpartition(".")[2] in ("divide", "remainder"):
-        by = arguments[1] if len(arguments) == 2 else None
-    elif node.type == "binary_operator" and text_of(field(node, "operator")) in _DIVIDING:
-        by = field(node, "right") if field(node, "left").type not in _TEXTS else None
+    match node.type:
+        case "binary_operator" if text_of(field(node, "operator")) in _DIVIDING:
+            by = field(node, "right") if field(node, "left").type not in _TEXTS else None
+        case "call" if text_of(field(node, "function")).rpartition(".")[2] in _DIVIDING_BY_NAME:
+            arguments = named(field(node, "arguments"))
+            by = arguments[1] if len(arguments) == 2 else None
+        case _:
+            return None
     return None if by is None or _is_other_than_zero(by) else by
 
 
