@@ -26,7 +26,7 @@ from rebsync.reverse.python.bodies import (
     body_tables,
     body_texts,
 )
-from rebsync.reverse.python.bodies.body_effects import is_harmless
+from rebsync.reverse.python.bodies.body_effects import is_harmless, stores_around
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.bodies.body_floats import as_number, doubled, is_zero
 from rebsync.reverse.python.bodies.body_scope import (
@@ -309,6 +309,10 @@ class PyExpressions(BodyExpressionReader):
             return body_texts.compared(self, sign, left, right, node)
         pair = self._pair(left, right, node, number)
         return binary("!=" if sign == "<>" else sign, *pair, self.span(node))
+
+    def hides(self, comprehension: Node) -> bool:
+        clauses = (c for c in named(comprehension) if c.type == "for_in_clause")
+        return not any(stores_around(self.reading, c, self.frame) for c in clauses)
 
     def container(self, node: Node, ordered: bool) -> Sequence[Value] | None:
         return body_tables.container(self, node, ordered)

@@ -77,7 +77,8 @@ def _comprehended(reader: OperandReader[V], node: Node) -> Iterator[Element[V]]:
     body, *clauses = named(node)
     loops = [c for c in clauses if c.type == "for_in_clause"]
     tests = [named(c)[0] for c in clauses if c.type == "if_clause"]
-    if len(loops) != 1 or len(tests) > 1 or len(loops) + len(tests) != len(clauses):
+    is_plain = len(loops) == 1 and len(tests) <= 1 and len(loops) + len(tests) == len(clauses)
+    if not is_plain or not reader.hides(node):
         raise reader.refused(node, "the model has no such expression")
     left, right = field(loops[0], "left"), field(loops[0], "right")
     names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]

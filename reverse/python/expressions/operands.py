@@ -89,6 +89,10 @@ class OperandReader(ABC, Generic[V]):
         """Whether the model has it that evaluating an expression may fail."""
 
     @abstractmethod
+    def hides(self, comprehension: Node) -> bool:
+        """Whether the variable of a comprehension is none of the function around it."""
+
+    @abstractmethod
     def span(self, node: Node) -> Span:
         """The place of a node."""
 

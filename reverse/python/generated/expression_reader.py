@@ -59,6 +59,9 @@ class ModelExpressionReader(OperandReader[m.Expression]):
     def span(self, node: Node) -> Span:
         return self.py.span(node)
 
+    def hides(self, comprehension: Node) -> bool:
+        return True
+
     def made(self, expression: m.Expression, type_: m.Type) -> m.Expression:
         return expression
 
