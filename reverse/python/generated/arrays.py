@@ -38,10 +38,3 @@ def _array(reader: ModelExpressionReader, node: Node) -> tuple[m.Expression, int
     read = reader.read(node)
     type_ = type_of(reader, read)
     return None if type_ is None or len(type_.dimensions) != 1 else (read, type_.dimensions[0])
-
-
-def assert_of_python(reader: ModelExpressionReader, node: Node, called: str) -> None:
-    """Unread: the name of a function of Python that makes what is gone through is bound again."""
-    is_python = called in ("range", "enumerate", "zip", "reversed")
-    if is_python and (reader.names.constants.binds(called) or called in reader.locals):
-        raise reader.unread(node, f'"{called}" is not the one of Python here')

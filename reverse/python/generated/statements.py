@@ -14,7 +14,6 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, cell
 from rebsync.reverse.python.generated import (
     aliases,
-    arrays,
     counts,
     endings,
     going_on,
@@ -282,7 +281,7 @@ class Statements(ModelStatementReader):
         name = text_of(field(node, "left"))
         is_switch = called == "switch" and len(arguments) == 1
         if not is_switch and called != "rounds":
-            through = partial(self._through, node, called, arguments)
+            through = partial(self._through, node, arguments)
             return endings.with_else(self, node, lambda: endings.with_last(self, node, through))
         if node.child_by_field_name("alternative") is not None:  # which what ends it would skip
             raise self.expressions.unread(node, "the model has no such loop")
@@ -290,16 +289,17 @@ class Statements(ModelStatementReader):
             return [self._switch(node, name, arguments[0])]
         return [self._rounds(node, name, before)]
 
-    def _through(self, node: Node, called: str, arguments: list[Node]) -> m.Statement:
+    def _through(self, node: Node, arguments: list[Node]) -> m.Statement:
         """A loop of Python through numbers or values."""
-        name = text_of(field(node, "left"))
-        arrays.assert_of_python(self.expressions, node, called)
+        name, right = text_of(field(node, "left")), field(node, "right")
+        library = self.expressions.library(field(right, "function")) if right.type == "call" else ""
+        called = library.removeprefix("builtins.")
         if called == "range":
             return loops.counted(self, node, name)
         found = loops.through(self, node, called, arguments)
         if found is not None:
             return found
-        return loops.numbered(self, node, "", [name], [field(node, "right")])
+        return loops.numbered(self, node, "", [name], [right])
 
     def _while(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         condition = self.expressions.condition(field(node, "condition"))
