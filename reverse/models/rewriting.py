@@ -49,3 +49,19 @@ def renamed(node: m.Statement, old: str, new: str) -> m.Statement:
         return replace(part, name=new) if isinstance(part, m.Name) and part.name == old else part
 
     return rewritten(node, change)
+
+
+def before_breaks(body: m.Statement, first: m.Statement) -> m.Statement:
+    """The body of a loop, where a statement stands before each `break` that ends this loop."""
+    match body:
+        case m.Block(statements):
+            found: list[m.Statement] = []
+            for inner in statements:
+                found += [first] if isinstance(inner, m.Break) else []
+                found.append(before_breaks(inner, first))
+            return replace(body, statements=tuple(found))
+        case m.If(_, then, otherwise):
+            last = before_breaks(otherwise, first) if otherwise is not None else None
+            return replace(body, then=before_breaks(then, first), otherwise=last)
+        case _:
+            return body

@@ -9,17 +9,13 @@ from fractions import Fraction
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync import precedence
 from rebsync.intervals import unsigned
-from rebsync.literals import exact_literal_of
 from rebsync.reverse.findings import NotWhole, Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.models.building import bare, binary, chosen, is_calm, tight, whole_number
 from rebsync.reverse.python.bodies import body_functions, body_timers
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.bodies.body_floats import as_number
-from rebsync.reverse.python.bodies.body_quantified import quantified
 from rebsync.reverse.python.bodies.body_scope import (
     REAL,
     STRING,
@@ -28,11 +24,11 @@ from rebsync.reverse.python.bodies.body_scope import (
     Value,
     unknown,
 )
+from rebsync.reverse.python.expressions import functions
+from rebsync.reverse.python.expressions.tables import looked_up
 from rebsync.reverse.syntax.py_index import arguments_of, last_name
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, text_of
 from rebsync.reverse.unknowns import Open
-
-_MOST = 64
 
 
 def called(reader: BodyExpressionReader, node: Node) -> Value:
@@ -44,8 +40,9 @@ def called(reader: BodyExpressionReader, node: Node) -> Value:
     stopped = body_timers.is_stopped(reader.reading, node, reader.frame)
     if stopped is not None:
         return Value(stopped, TRUTH)
-    if (truth := quantified(reader, node)) is not None:
-        return truth
+    found = functions.called(reader, node) or looked_up(reader, node)
+    if found is not None:
+        return found
     name = reader.reading.external(function, reader.frame)
     plain, keywords = arguments_of(node)
     if name.startswith("builtins.") and not keywords:
@@ -57,10 +54,6 @@ def called(reader: BodyExpressionReader, node: Node) -> Value:
     asked = libraries.function(name)
     if asked is not None and asked.kind is Kind.RUNNING:
         return Value(m.BoolLiteral(asked.result == "bool"), TRUTH)
-    if name.startswith("random."):
-        found = _random(reader, name.removeprefix("random."), plain, node)
-        if found is not None:
-            return found
     return parameter(reader, node)
 
 
@@ -91,12 +84,7 @@ def _builtin(
     reader: BodyExpressionReader, name: str, arguments: list[Node], node: Node
 ) -> Value | None:
     match name, arguments:
-        case "bool", [only]:
-            return Value(reader.condition(only), TRUTH)
         case "int", [only]:
-            value = reader.read(only)
-            if value.kind in (WHOLE, TRUTH):
-                return as_number(value)
             known = _rounded(reader, only, int)
             if known is None:
                 raise unknown(reader.frame, node, "whether its int holds this number")
@@ -109,21 +97,6 @@ def _builtin(
             return value if value.kind == STRING and not value.mixed else None
         case "float", [only]:
             return Value(reader.real(as_number(reader.read(only)), node), REAL)
-        case "abs", [only]:
-            value = reader.read(only)
-            if value.kind in (TRUTH, STRING) or not is_calm(value.expression):
-                return None
-            zero = exact_literal_of(0 if value.kind == WHOLE else 0.0)
-            if value.kind == WHOLE:
-                reader.need(value, node, "abs")
-            less = binary("<", value.expression, zero)
-            minus = m.Unary("-", tight(value.expression, precedence.PREFIX))
-            return Value(chosen(less, minus, value.expression), value.kind, value.single)
-        case (("min" | "max"), [first, *others]) if others:
-            best = reader.read(first)
-            for other in others:
-                best = _better(reader, name, best, reader.read(other), node)
-            return best
         case _:
             return None
 
@@ -135,48 +108,6 @@ def _rounded(
     match reader.reading.values.ways(node, reader.frame.scope):
         case (float() as number,) if math.isfinite(number):
             return reader.reading.constant((to_whole(number),))
-        case _:
-            return None
-
-
-def _better(
-    reader: BodyExpressionReader, name: str, best: Value, other: Value, node: Node
-) -> Value:
-    """Of two numbers the lesser or greater; of equal ones Python takes the first."""
-    calm = is_calm(best.expression) and is_calm(other.expression)
-    if STRING in (best.kind, other.kind):
-        raise unknown(reader.frame, node, "which text comes first")
-    if not calm or TRUTH in (best.kind, other.kind):
-        raise Unread(reader.frame.span(node), f'"{name}" of these is not read')
-    kind = best.kind if best.kind == other.kind else REAL
-    mixed = kind == REAL and (best.mixed or other.mixed or WHOLE in (best.kind, other.kind))
-    if kind == REAL:
-        one, two = reader.real(best, node), reader.real(other, node)
-    else:
-        one, two = reader.need(best, node, "one"), reader.need(other, node, "other")
-    sign = "<" if name == "min" else ">"
-    return Value(chosen(binary(sign, two, one), two, one), kind, mixed=mixed)
-
-
-def _random(
-    reader: BodyExpressionReader, name: str, arguments: list[Node], node: Node
-) -> Value | None:
-    """A number drawn from some that are known."""
-    span = reader.frame.span(node)
-    match name, arguments:
-        case "randint", [low, high]:
-            bounds = [bare(reader.read(n).expression) for n in (low, high)]
-            first, last = (whole_number(b) for b in bounds)
-            if first is None or last is None or not first <= last < first + _MOST:
-                return None
-            options = tuple(exact_literal_of(n) for n in range(first, last + 1))
-            return Value(m.Choice(options, span) if len(options) > 1 else options[0], WHOLE)
-        case "choice", [listed] if listed.type in ("list", "tuple"):
-            values = [reader.read(n) for n in named(listed)]
-            kinds = {v.kind for v in values}
-            if len(kinds) != 1:
-                return None
-            return Value(m.Choice(tuple(v.expression for v in values), span), kinds.pop())
         case _:
             return None
 

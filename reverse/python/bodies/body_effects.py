@@ -59,7 +59,7 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     if node.type in _WORDS:
         return node.id in reading.stored
     if node.type == "for_in_clause":
-        return _has_names(field(node, "left"))
+        return _has_names(field(node, "left")) and not stores_around(reading, node, frame)
     if node.type in ("binary_operator", "augmented_assignment"):
         return not _may_divide_by_zero(reading, node, frame)
     if node.type != "call":
@@ -85,6 +85,16 @@ def _is_one(reading: Reading, node: Node, frame: Frame) -> bool:
     return name in libraries.harmless() or (
         bool(name) and libraries.acting().match(name) is None and _ends(name)
     )
+
+
+def stores_around(reading: Reading, clause: Node, frame: Frame) -> bool:
+    """Whether what makes a list stores in another variable of the function, as in Python 2."""
+    above = clause.parent
+    if reading.unit.version == 3 or above is None or above.type != "list_comprehension":
+        return False
+    names = (text_of(n) for n in nodes_in(field(clause, "left")))
+    bindings = (b for name in names for b in frame.scope.names.get(name, ()))
+    return any(b.node.type != "for_in_clause" for b in bindings)
 
 
 def _has_names(target: Node) -> bool:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import ClassVar
 
 from tree_sitter import Node
 
@@ -11,12 +14,14 @@ from rebsync.intervals import INT32, Interval
 from rebsync.literals import exact_literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.intervals.needs import Need
+from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, cast
 from rebsync.reverse.models.texts import text_literal
 from rebsync.reverse.python.bodies.body_reading import Reading
 from rebsync.reverse.python.bodies.body_scope import (
     STRING,
+    TYPES,
     WHOLE,
     Frame,
     Meaning,
@@ -26,6 +31,7 @@ from rebsync.reverse.python.bodies.body_scope import (
     Value,
     unknown,
 )
+from rebsync.reverse.python.expressions.operands import OperandReader
 from rebsync.reverse.python.values.interfaces import interface_of
 from rebsync.reverse.syntax.py_tree import field, text_of
 from rebsync.source import Span
@@ -33,13 +39,14 @@ from rebsync.static.types import DOUBLE
 
 
 @dataclass(eq=False, slots=True)
-class BodyExpressionReader(ABC):
+class BodyExpressionReader(OperandReader[Value]):
     """Reads the expressions of one run of a function."""
 
     reading: Reading
     frame: Frame
     within: str
     running: tuple[int, ...] = ()
+    mixes: ClassVar[bool] = True
 
     def meaning(self, node: Node) -> tuple[Meaning, str]:
         """What a name or attribute stands for, and the path of fields behind it."""
@@ -91,7 +98,7 @@ class BodyExpressionReader(ABC):
         """The value, of which the model must have the same number."""
         if self._is_refused(node, what):
             if strict:
-                raise Unread(self._span(node), strict)
+                raise Unread(self.span(node), strict)
             raise unknown(self.frame, node, "a number that may be beyond its int")
         self._noted(value.expression, node, what, within)
         return value.expression
@@ -105,34 +112,41 @@ class BodyExpressionReader(ABC):
         mark = (self.frame.py.source.path, node.start_byte, node.end_byte, what)
         return self.reading.learnt.is_refused(mark)
 
-    def _span(self, node: Node) -> Span:
+    def span(self, node: Node) -> Span:
         return self.frame.span(node)
 
-    @abstractmethod
-    def read(self, node: Node) -> Value:
-        """An expression; `Unknown` is raised where nobody knows its value."""
+    def refused(self, node: Node, why: str) -> Unknown:
+        return Unknown(self.span(node), why, "")
+
+    def made(self, expression: m.Expression, type_: m.Type) -> Value:
+        return Value(expression, type_.name)
+
+    def shown(self, value: Value) -> m.Expression:
+        return value.expression
+
+    def kind(self, value: Value) -> m.Type | None:
+        return TYPES.get(value.kind)
+
+    def library(self, function: Node) -> str:
+        return self.reading.external(function, self.frame)
+
+    def may_fail(self, node: Node) -> bool:
+        return False  # what may raise is asked of whole statements: `body_raising`
+
+    @contextmanager
+    def standing_for(self, names: Sequence[str], values: Sequence[Value]) -> Iterator[None]:
+        bound = self.frame.bound
+        outer = dict(bound)
+        bound.update(zip(names, values, strict=True))
+        try:
+            yield
+        finally:
+            bound.clear()
+            bound.update(outer)
 
     @abstractmethod
     def note(self, node: Node, why: str) -> None:
         """Lists a place of which the model allows more than the code."""
-
-    @abstractmethod
-    def compared(
-        self, sign: str, left: Value, right: Value, node: Node, number: int
-    ) -> m.Expression:
-        """The comparison with a number in `node`."""
-
-    @abstractmethod
-    def joined(self, asked: m.Expression, one: Value, other: Value, node: Node) -> Value:
-        """One of two values, as a condition says."""
-
-    @abstractmethod
-    def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
-        """An operation on two numbers."""
-
-    @abstractmethod
-    def condition(self, node: Node) -> m.Expression:
-        """A condition; one that nobody knows may be true or false, and is listed."""
 
 
 def _constant(value: int | str) -> Value:

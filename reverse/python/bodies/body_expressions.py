@@ -26,7 +26,7 @@ from rebsync.reverse.python.bodies import (
     body_tables,
     body_texts,
 )
-from rebsync.reverse.python.bodies.body_effects import is_harmless
+from rebsync.reverse.python.bodies.body_effects import is_harmless, stores_around
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.bodies.body_floats import as_number, doubled, is_zero
 from rebsync.reverse.python.bodies.body_scope import (
@@ -40,9 +40,9 @@ from rebsync.reverse.python.bodies.body_scope import (
     Var,
     unknown,
 )
+from rebsync.reverse.python.expressions.conditions import comparison, connected, signs_of
 from rebsync.reverse.syntax.py_tree import (
     field,
-    is_asked,
     named,
     number_of,
     text_in,
@@ -50,7 +50,6 @@ from rebsync.reverse.syntax.py_tree import (
 )
 
 _POSITIVE = Interval(1, INT32.high)
-_COMPARES = frozenset({"<", ">", "<=", ">=", "==", "!=", "<>"})
 _DIVISOR = "a divisor that may be 0 or negative"
 _RING = frozenset({"+", "-", "*"})
 _HUGE = 1e300
@@ -67,7 +66,7 @@ class PyExpressions(BodyExpressionReader):
             case "integer" | "float":
                 return self._number(node)
             case "true" | "false":
-                return Value(m.BoolLiteral(node.type == "true", self._span(node)), TRUTH)
+                return Value(m.BoolLiteral(node.type == "true", self.span(node)), TRUTH)
             case "parenthesized_expression" if len(named(node)) == 1:
                 inner = self.read(named(node)[0])
                 plain = isinstance(inner.expression, (m.Name, m.Paren, m.Call))
@@ -80,7 +79,7 @@ class PyExpressions(BodyExpressionReader):
             case "unary_operator" | "not_operator":
                 return self._unary(node)
             case "string" | "concatenated_string" if (text := text_in(node)) is not None:
-                return Value(text_literal(text, self._span(node)), STRING)
+                return Value(text_literal(text, self.span(node)), STRING)
             case "binary_operator" if body_texts.is_operation(node):
                 return self.operation(
                     text_of(field(node, "operator")),
@@ -88,14 +87,16 @@ class PyExpressions(BodyExpressionReader):
                     self.read(field(node, "right")),
                     node,
                 )
-            case "comparison_operator" | "boolean_operator":
-                return self._logic(node)
+            case "comparison_operator":
+                return Value(self._compared(node), TRUTH)
+            case "boolean_operator":
+                return connected(self, node)
             case "conditional_expression" if len(named(node)) == 3:
                 return self._conditional(node)
             case "subscript":
                 return body_tables.element(self, node)
             case "call":
-                found = body_tables.get_call(self, node) or body_calls.called(self, node)
+                found = body_calls.called(self, node)
                 self._is_exact(node)
                 return found
             case _:
@@ -103,7 +104,7 @@ class PyExpressions(BodyExpressionReader):
 
     def _is_exact(self, node: Node) -> None:
         """Notes that the model has a value or operation: it is shown to raise nothing."""
-        self.reading.exact.add((self.frame.py.source.path, self._span(node)))
+        self.reading.exact.add((self.frame.py.source.path, self.span(node)))
 
     def condition(self, node: Node) -> m.Expression:
         """A condition; one that nobody knows may be true or false, and is listed."""
@@ -116,12 +117,12 @@ class PyExpressions(BodyExpressionReader):
             if not is_harmless(self.reading, node, self.frame):
                 raise Unread(open_.span, open_.why, open_.hint) from open_
             self.note(node, open_.why)
-            return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), self._span(node))
+            return m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)), self.span(node))
 
     def note(self, node: Node, why: str) -> None:
         """Lists a place of which the model allows more than the code."""
         source = self.frame.py.source
-        self.reading.findings.approximated(source, self._span(node), why, "", self.within)
+        self.reading.findings.approximated(source, self.span(node), why, "", self.within)
 
     def truth(self, value: Value, node: Node) -> m.Expression:
         """What Python takes for true."""
@@ -132,7 +133,7 @@ class PyExpressions(BodyExpressionReader):
         zero = exact_literal_of(0 if value.kind == WHOLE else 0.0)
         if value.kind == WHOLE:
             self.need(value, node)
-        return binary("!=", value.expression, zero, self._span(node))
+        return binary("!=", value.expression, zero, self.span(node))
 
     # --- names ----------------------------------------------------------------------------------
 
@@ -157,15 +158,15 @@ class PyExpressions(BodyExpressionReader):
         kind = self.reading.learnt.kind(variable.key)
         if kind is None:
             self.reading.learnt.pending.add(variable.key)
-            raise Pending(self._span(node), f'nothing that is read gives "{short(node)}" a value')
+            raise Pending(self.span(node), f'nothing that is read gives "{short(node)}" a value')
         owner = self.frame.owner_of(variable.key) or self.frame
         if not variable.is_state and text_of(node) not in owner.assigned:
             if kind == STRING:
                 raise unknown(self.frame, node, f'"{short(node)}"')
-            raise Unread(self._span(node), f'"{short(node)}" may have no value yet')
+            raise Unread(self.span(node), f'"{short(node)}" may have no value yet')
         self._is_exact(node)
         mixed = self.reading.learnt.is_mixed(variable.key)
-        return Value(m.Name(variable.name, self._span(node)), kind, mixed=mixed)
+        return Value(m.Name(variable.name, self.span(node)), kind, mixed=mixed)
 
     # --- operators ------------------------------------------------------------------------------
 
@@ -174,7 +175,7 @@ class PyExpressions(BodyExpressionReader):
         if isinstance(number, int) and number > INT32.high:
             raise unknown(self.frame, node, "a number beyond its int")
         if number is None or abs(number) > _HUGE:
-            raise Unread(self._span(node), "this number is none of the model")
+            raise Unread(self.span(node), "this number is none of the model")
         return Value(exact_literal_of(number), REAL if isinstance(number, float) else WHOLE)
 
     def _unary(self, node: Node) -> Value:
@@ -186,11 +187,11 @@ class PyExpressions(BodyExpressionReader):
             raise unknown(self.frame, node, f'"{short(node)}"')
         value = as_number(value)
         if operator == "~" and value.kind != WHOLE:
-            raise Unread(self._span(node), f'"{operator}" of such a value is not read')
+            raise Unread(self.span(node), f'"{operator}" of such a value is not read')
         if operator == "+":
             return value
         operand = tight(value.expression, precedence.PREFIX)
-        found = m.Unary(operator, operand, self._span(node))
+        found = m.Unary(operator, operand, self.span(node))
         return Value(found, value.kind, value.single, value.mixed)
 
     def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
@@ -212,44 +213,44 @@ class PyExpressions(BodyExpressionReader):
                 self._is_not_zero(right, node)
                 self._is_real(left, right, node)
             sides = self.real(left, node), self.real(right, node)
-            return Value(doubled(operator, *sides, self._span(node)), REAL)
-        raise Unread(self._span(node), f'"{operator}" of floats has no like in the model')
+            return Value(doubled(operator, *sides, self.span(node)), REAL)
+        raise Unread(self.span(node), f'"{operator}" of floats has no like in the model')
 
     def _bits_of_truth(self, operator: str, left: Value, right: Value, node: Node) -> Value:
         """`|`, `&` and `^` of two truth values, both of which are looked at."""
         if not is_calm(right.expression):
-            raise Unread(self._span(node), f'"{operator}" of such values is not read')
+            raise Unread(self.span(node), f'"{operator}" of such values is not read')
         sign = {"|": "||", "&": "&&", "^": "!="}[operator]
-        return Value(binary(sign, left.expression, right.expression, self._span(node)), TRUTH)
+        return Value(binary(sign, left.expression, right.expression, self.span(node)), TRUTH)
 
     def _whole(self, operator: str, left: Value, right: Value, node: Node) -> Value:
         if operator in _RING:
             return Value(
-                binary(operator, left.expression, right.expression, self._span(node)), WHOLE
+                binary(operator, left.expression, right.expression, self.span(node)), WHOLE
             )
         if operator == "/" and self.reading.unit.version != 2:
             self._is_real(left, right, node)
             self._is_not_zero(right, node)
             sides = self.real(left, node), self.real(right, node, "right")
-            return Value(doubled("/", *sides, self._span(node)), REAL)
+            return Value(doubled("/", *sides, self.span(node)), REAL)
         if operator in ("/", "//", "%"):
             return self._divided("%" if operator == "%" else "/", left, right, node)
         if operator in _BITS or operator == ">>":
             self.need(left, node, "left")
             self.need(right, node, "right", Interval(0, 31) if operator == ">>" else INT32)
-            found = binary(operator, left.expression, right.expression, self._span(node))
+            found = binary(operator, left.expression, right.expression, self.span(node))
             return Value(found, WHOLE)
         match right.expression:
             case m.IntLiteral(places) if operator == "<<" and places < 31:
                 by = m.IntLiteral(1 << places)
-                return Value(binary("*", left.expression, by, self._span(node)), WHOLE)
-        raise Unread(self._span(node), f'"{operator}" is not read')
+                return Value(binary("*", left.expression, by, self.span(node)), WHOLE)
+        raise Unread(self.span(node), f'"{operator}" is not read')
 
     def _divided(self, operator: str, left: Value, right: Value, node: Node) -> Value:
         """Python rounds down, the model towards 0: the same where nothing is negative."""
         by = bare(right.expression)
         self.need(right, node, "by", _POSITIVE, strict=_DIVISOR)
-        span = self._span(node)
+        span = self.span(node)
         if not self._is_refused(node, "dividend"):
             self._noted(left.expression, node, "dividend", unsigned(31))
             return Value(binary(operator, left.expression, right.expression, span), WHOLE)
@@ -277,59 +278,28 @@ class PyExpressions(BodyExpressionReader):
         if value.kind == WHOLE:
             self.need(value, node, "by", _POSITIVE, strict=_DIVISOR)
             return
-        raise Unread(self._span(node), "it may divide by 0, which ends the callback in Python")
+        raise Unread(self.span(node), "it may divide by 0, which ends the callback in Python")
 
     def _is_real(self, left: Value, right: Value, node: Node) -> None:
         if self.reading.unit.version != 3 and not (_is_float(left) or _is_float(right)):
             raise Unread(
-                self._span(node),
+                self.span(node),
                 "Python 2 and 3 divide whole numbers differently, and the file may be of either",
                 "say which in its first line: #!/usr/bin/env python3",
             )
 
     # --- conditions -----------------------------------------------------------------------------
 
-    def _logic(self, node: Node) -> Value:
-        if node.type == "comparison_operator":
-            return Value(self._compared(node), TRUTH)
-        sign = "&&" if text_of(field(node, "operator")) == "and" else "||"
-        left, right = field(node, "left"), field(node, "right")
-        if is_asked(node):
-            sides = self.condition(left), self.condition(right)
-            return Value(binary(sign, *sides, self._span(node)), TRUTH)
-        one, other = self.read(left), self.read(right)
-        if one.kind == other.kind == TRUTH:
-            sides = bare(one.expression), bare(other.expression)
-            return Value(binary(sign, *sides, self._span(node)), TRUTH)
-        if not is_calm(one.expression):
-            raise Unread(self._span(node), '"and" and "or" of such values')
-        ways = (other, one) if sign == "&&" else (one, other)
-        return self.joined(self.truth(one, left), *ways, node)
-
     def _compared(self, node: Node) -> m.Expression:
         operands = named(node)
-        signs = [text_of(c) for c in node.children_by_field_name("operators")]
+        signs = signs_of(node)
         if (there := body_presence.compared_with_none(self, operands, signs)) is not None:
             return there.expression
-        if signs in (["in"], ["not in"]):
-            listed = body_tables.elements(self, operands[1])
-            if listed is not None:
-                return self._one_of(operands[0], listed, node, signs == ["in"])
         if (same := body_presence.identical(self, operands, signs, node)) is not None:
             return same
         if (same := body_texts.identical(self, operands, signs, node)) is not None:
             return same
-        if len(signs) != len(operands) - 1 or not set(signs) <= _COMPARES:
-            raise unknown(self.frame, node, f'"{short(node)}"')
-        values = [self.read(o) for o in operands]
-        found: m.Expression | None = None
-        if len(values) > 2 and not all(is_calm(v.expression) for v in values[1:-1]):
-            raise Unread(self._span(node), "what stands in the middle would run twice")
-        for number, sign in enumerate(signs):
-            one = self.compared(sign, values[number], values[number + 1], node, number)
-            found = one if found is None else binary("&&", found, one, self._span(node))
-        assert found is not None
-        return found
+        return comparison(self, node)
 
     def compared(
         self, sign: str, left: Value, right: Value, node: Node, number: int
@@ -338,19 +308,17 @@ class PyExpressions(BodyExpressionReader):
         if STRING in (left.kind, right.kind):
             return body_texts.compared(self, sign, left, right, node)
         pair = self._pair(left, right, node, number)
-        return binary("!=" if sign == "<>" else sign, *pair, self._span(node))
+        return binary("!=" if sign == "<>" else sign, *pair, self.span(node))
 
-    def _one_of(self, value: Node, of: Sequence[Value], node: Node, holds: bool) -> m.Expression:
-        """`x in (1, 2)`."""
-        read = self.read(value)
-        if not is_calm(read.expression) or not of:
-            raise unknown(self.frame, node, f'"{short(node)}"')
-        found: m.Expression | None = None
-        for number, other in enumerate(of):
-            one = self.compared("==", read, other, node, number)
-            found = one if found is None else binary("||", found, one, self._span(node))
-        assert found is not None
-        return found if holds else negated(found)
+    def hides(self, comprehension: Node) -> bool:
+        clauses = (c for c in named(comprehension) if c.type == "for_in_clause")
+        return not any(stores_around(self.reading, c, self.frame) for c in clauses)
+
+    def container(self, node: Node, ordered: bool) -> Sequence[Value] | None:
+        return body_tables.container(self, node, ordered)
+
+    def table(self, node: Node) -> Sequence[tuple[Value, Value]] | None:
+        return body_tables.table(self, node)
 
     def _pair(
         self, left: Value, right: Value, node: Node, number: int
@@ -374,7 +342,7 @@ class PyExpressions(BodyExpressionReader):
         if STRING in (one.kind, other.kind) and one.kind != other.kind:
             raise unknown(self.frame, node, f'"{short(node)}"')
         if TRUTH in (one.kind, other.kind) and one.kind != other.kind:
-            raise Unread(self._span(node), "its values are of two kinds")
+            raise Unread(self.span(node), "its values are of two kinds")
         if one.kind == other.kind == WHOLE or one.kind in (TRUTH, STRING):
             mixed = one.kind == STRING and (one.mixed or other.mixed)
             found = chosen(asked, one.expression, other.expression)

@@ -12,6 +12,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.program_ends import over
 from rebsync.reverse.libraries.routines import Kind
+from rebsync.reverse.models.rewriting import before_breaks
 from rebsync.reverse.python.bodies import body_variables
 from rebsync.reverse.python.bodies.body_effects import is_log
 from rebsync.reverse.python.bodies.body_node_loops import EndlessLoop, forever
@@ -56,7 +57,8 @@ def with_else(
         yield loop
         return
     body, name = field(otherwise, "body"), reader.reading.fresh("completed")
-    marked = _marked(loop.body, name)
+    ended = m.ExpressionStatement(m.Assign("=", m.Name(name), m.BoolLiteral(False)))
+    marked = before_breaks(loop.body, ended)
     if marked == loop.body:
         yield loop
         yield from reader.statements(named(body))
@@ -66,23 +68,6 @@ def with_else(
     before = set(reader.frame.assigned)
     yield m.If(m.Name(name), reader.block(body), None, (), reader.frame.span(otherwise))
     reader.frame.assigned = before
-
-
-def _marked(statement: m.Statement, name: str) -> m.Statement:
-    """The body of a loop where each `break` of it first says that the loop is not completed."""
-    match statement:
-        case m.Block(statements):
-            unset = m.ExpressionStatement(m.Assign("=", m.Name(name), m.BoolLiteral(False)))
-            found: list[m.Statement] = []
-            for inner in statements:
-                found += [unset] if isinstance(inner, m.Break) else []
-                found.append(_marked(inner, name))
-            return replace(statement, statements=tuple(found))
-        case m.If(_, then, otherwise):
-            last = _marked(otherwise, name) if otherwise is not None else None
-            return replace(statement, then=_marked(then, name), otherwise=last)
-        case _:
-            return statement
 
 
 def _spins(reader: BodyStatementReader, node: Node) -> bool:

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.models.building import chosen, is_calm
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.bodies.body_reading import Reading
 from rebsync.reverse.python.bodies.body_scope import STRING, TRUTH, WHOLE, Value, unknown
-from rebsync.reverse.python.values.py_worth import Items, Table
+from rebsync.reverse.python.bodies.body_units import scope_around
+from rebsync.reverse.python.expressions.tables import pairs_of, selected
+from rebsync.reverse.python.values.py_worth import External, Items, Table
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_index import arguments_of
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import field, text_of
 
 _LISTS = frozenset({"tuple", "list", "set"})
 # What may store an element, or take it out, if that is a part of it.
@@ -22,16 +22,23 @@ _CHANGES = frozenset(
     | {"pattern_list", "list_pattern", "tuple_pattern"}
 )
 _LOOKS = frozenset({"get", "keys", "values", "items"})
+# Functions that only go through what they are given.
+_READERS = tuple(
+    (External(f"builtins.{name}"),)
+    for name in ("all", "any", "enumerate", "len", "max", "min", "sum", "zip")
+)
 _MOST = 32
 _KEYS = frozenset({STRING, WHOLE})
 
 
-def elements(reader: BodyExpressionReader, node: Node) -> Sequence[Value] | None:
-    """The elements of a list, or keys of a table, of which code asks whether something is in it."""
-    if node.type in _LISTS:
-        return [reader.read(n) for n in named(node)]
-    if (pairs := _pairs(reader, node)) is not None:
-        return [key for key, _ in pairs]
+def container(reader: BodyExpressionReader, node: Node, ordered: bool) -> Sequence[Value] | None:
+    """The elements of a constant list, or the keys of a constant table.
+
+    Those of a table have no order in Python 2.
+    """
+    if (pairs := table(reader, node)) is not None:
+        is_ordered = reader.reading.unit.version == 3
+        return [key for key, _ in pairs] if is_ordered or not ordered else None
     match reader.reading.values.ways(node, reader.frame.scope):
         case (Items(each),) if _is_constant(reader.reading, node):
             values = [reader.reading.constant(ways) for ways in each]
@@ -43,10 +50,10 @@ def elements(reader: BodyExpressionReader, node: Node) -> Sequence[Value] | None
 def element(reader: BodyExpressionReader, node: Node) -> Value:
     """`TABLE[key]`."""
     keys = node.children_by_field_name("subscript")
-    pairs = _pairs(reader, field(node, "value"))
+    pairs = pairs_of(reader, field(node, "value"))
     if len(keys) != 1 or not pairs:
         raise unknown(reader.frame, node, f'"{text_of(node)}"')
-    found = _selected(reader, node, keys[0], pairs[:-1], pairs[-1][1])
+    found = selected(reader, node, reader.read(keys[0]), pairs[:-1], pairs[-1][1])
     if _has_all(reader, pairs, keys[0]):
         reader.reading.exact.add((reader.frame.py.source.path, reader.frame.span(node)))
     return found
@@ -60,36 +67,7 @@ def _has_all(reader: BodyExpressionReader, pairs: Sequence[tuple[Value, Value]],
     return bool(values) and all(v is not None and v.expression in known for v in values)
 
 
-def get_call(reader: BodyExpressionReader, node: Node) -> Value | None:
-    """`TABLE.get(key, otherwise)`; None for other calls."""
-    function, (plain, keywords) = field(node, "function"), arguments_of(node)
-    if function.type != "attribute" or text_of(field(function, "attribute")) != "get":
-        return None
-    if len(plain) != 2 or keywords:
-        return None
-    pairs = _pairs(reader, field(function, "object"))
-    return _selected(reader, node, plain[0], pairs, reader.read(plain[1])) if pairs else None
-
-
-def _selected(
-    reader: BodyExpressionReader,
-    node: Node,
-    key: Node,
-    pairs: Sequence[tuple[Value, Value]],
-    otherwise: Value,
-) -> Value:
-    asked = reader.read(key)
-    kinds = {value.kind for _, value in pairs} | {otherwise.kind}
-    if asked.kind not in _KEYS or not is_calm(asked.expression) or len(kinds) != 1:
-        raise unknown(reader.frame, node, f'"{text_of(node)}"')
-    found = otherwise.expression
-    for number, (known, value) in reversed(list(enumerate(pairs))):
-        is_it = reader.compared("==", asked, known, node, number)
-        found = chosen(is_it, value.expression, found)
-    return Value(found, kinds.pop())
-
-
-def _pairs(reader: BodyExpressionReader, node: Node) -> list[tuple[Value, Value]] | None:
+def table(reader: BodyExpressionReader, node: Node) -> list[tuple[Value, Value]] | None:
     """The keys and values of a table, all constants, no key twice; None for other expressions."""
     match reader.reading.values.ways(node, reader.frame.scope):
         case (Table(pairs),) if 0 < len(pairs) <= _MOST:
@@ -120,14 +98,14 @@ def _is_constant(reading: Reading, node: Node) -> bool:
     for module in reading.code.modules.values():
         for each in nodes_in(module.node):
             if each.type == "identifier" and text_of(each) == name:
-                use = _use(each)
+                use = _use(reading, each, module.py.source.path)
                 if use is None:
                     return False
                 made += use
     return made == 1
 
 
-def _use(name: Node) -> int | None:
+def _use(reading: Reading, name: Node, path: str) -> int | None:
     """How often a place in the code binds a name; None where it may do more than to look."""
     at = name
     above = at.parent
@@ -144,6 +122,10 @@ def _use(name: Node) -> int | None:
             return 0
         case "for_in_clause" if above is not None and field(above, "right") == at:
             return 0  # its elements are constants
+        case "argument_list" if above is not None and above.parent is not None:
+            function = field(above.parent, "function")
+            ways = reading.values.ways(function, scope_around(reading.code, name, path))
+            return 0 if ways in _READERS else None
         case _:
             return None
 

@@ -123,9 +123,10 @@ class Answering:
 
 def _is_updater(module: Scope, value: Node) -> bool:
     called, arguments = call_parts(value) or ("", [])
-    head, _, rest = called.partition(".")
-    whole = ".".join(filter(None, (imported_as(module, head), rest)))
-    return whole == _UPDATER and [text_of(a) for a in arguments] in ([], ["self"])
+    return imported_as(module, called) == _UPDATER and [text_of(a) for a in arguments] in (
+        [],
+        ["self"],
+    )
 
 
 def _only_tells(function: Scope, looks: Looks) -> bool:

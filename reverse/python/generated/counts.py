@@ -12,9 +12,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.models.building import binary
-from rebsync.reverse.python.generated import py_builtins as builtins
+from rebsync.reverse.python.generated import idioms
+from rebsync.reverse.python.generated.arrays import array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
-from rebsync.reverse.python.generated.idioms import truth
 from rebsync.reverse.python.generated.py_types import call_parts, type_of
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
@@ -82,9 +82,9 @@ def _counted(
             return None
         left, test, given = field(loops[0], "left"), tests[0], field(loops[0], "right")
         name = text_of(left)
-        if left.type != "identifier" or not builtins.is_calm(test) or name in reader.locals:
+        if left.type != "identifier" or not idioms.is_quiet(test) or name in reader.locals:
             return None
-    elements = builtins.array_elements(reader, given)
+    elements = array_elements(reader, given)
     if elements is None or len(elements) <= _FEW:
         return None
     is_truth = reader.kind(elements[0]) == m.Type("boolean")
@@ -99,7 +99,8 @@ def _loop(reader: ModelStatementReader, call: Node, name: str) -> list[m.Stateme
     assert isinstance(first, m.Index)
     element = m.Index(first.target, m.Name(index))
     with expressions.standing_for([each] if each else [], [element] if each else []):
-        holds = expressions.condition(test) if test is not None else truth(expressions, element)
+        read = expressions.read(test) if test is not None else element
+        holds = expressions.truth(read, call)
     plain = reader.local(reader.without_number(name))
     expressions.locals[name] = plain
     expressions.types[plain] = m.Type("int")

@@ -95,7 +95,7 @@ def contexts_in(code: PyCode, module: Scope) -> dict[str, Scope]:
 
 def is_context(module: Scope, function: Scope) -> bool:
     """Whether a function only makes contexts: `@contextmanager`."""
-    whole = [_whole(module, each) for each in function.decorators]
+    whole = [imported_as(module, each) for each in function.decorators]
     return whole == ["contextlib.contextmanager"]
 
 
@@ -115,7 +115,7 @@ def _only_tells(code: PyCode, module: Scope, made: Scope, exceptions: ToldExcept
     name = made.parameters[0].name
     stars = [p.star for p in function.parameters]
     passed = [f"{'*' * p.star}{p.name}" for p in function.parameters]
-    known = {f"{n}({name})" for n in _WRAPS if _whole(made.module, n) == "functools.wraps"}
+    known = {f"{n}({name})" for n in _WRAPS if imported_as(made.module, n) == "functools.wraps"}
     is_same = known.issuperset(function.decorators)
     call = f"{name}({', '.join(passed)})"
     if not is_same or stars not in ([1, 2], [1], [0, 1, 2], [0, 1], [0]):
@@ -125,15 +125,9 @@ def _only_tells(code: PyCode, module: Scope, made: Scope, exceptions: ToldExcept
     return _Around(function, call, looks, told, exceptions).gives(body_of(function))
 
 
-def _whole(module: Scope, name: str) -> str:
-    """What a name with dots is by the imports of a module."""
-    head, _, rest = name.partition(".")
-    return ".".join(filter(None, (imported_as(module, head), rest)))
-
-
 def is_cast(module: Scope, called: str) -> bool:
     """Whether a function only tells who checks types what a value is: `cast(int, x)`."""
-    return _whole(module, called) == "typing.cast"
+    return imported_as(module, called) == "typing.cast"
 
 
 def _given_back(code: PyCode, made: Scope) -> Scope | None:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from dataclasses import replace
 from itertools import chain, count
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.python.generated import py_builtins as builtins
+from rebsync.reverse.models.rewriting import before_breaks
+from rebsync.reverse.python.expressions.elements import known_range
+from rebsync.reverse.python.generated.arrays import array_elements
 from rebsync.reverse.python.generated.failing import may_fail
 from rebsync.reverse.python.generated.py_types import call_parts
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
@@ -29,35 +31,22 @@ def with_else(
     if alternative is not None and _is_silent(reader, field(alternative, "body")):
         alternative = None
     if alternative is None or not leaves(field(node, "body")):
-        with leaving(reader):
-            loop = read()
-        return [*loop, *_behind(reader, alternative)]
+        return [*read(), *_behind(reader, alternative)]
     flag = _free(reader)
     reader.expressions.locals[f"else of {node.start_byte}"] = flag
     reader.expressions.types[flag] = m.Type("boolean")
-    with leaving(reader, flag):
-        loop = read()
+    ended = m.ExpressionStatement(m.Assign("=", m.Name(flag), m.BoolLiteral(True)))
+    loop = [_before_breaks(each, ended) for each in read()]
     otherwise = reader.branch(field(alternative, "body"))
     told = m.Declarator(flag, m.BoolLiteral(False))
     declared = m.Local(m.Declaration(m.Type("boolean"), (told,)))
     return [declared, *loop, m.If(m.Unary("!", m.Name(flag)), otherwise)]
 
 
-@contextmanager
-def leaving(reader: ModelStatementReader, flag: str = "") -> Iterator[None]:
-    """Meanwhile a `break` ends a loop of which `flag` tells it, if that is asked."""
-    outer, reader.broken = reader.broken, flag
-    try:
-        yield
-    finally:
-        reader.broken = outer
-
-
-def noted(reader: ModelStatementReader) -> Iterator[m.Statement]:
-    """What tells that a `break` ended the loop."""
-    if reader.broken:
-        store = m.Assign("=", m.Name(reader.broken), m.BoolLiteral(True))
-        yield m.ExpressionStatement(store)
+def _before_breaks(loop: m.Statement, first: m.Statement) -> m.Statement:
+    if not isinstance(loop, m.For | m.While):
+        return loop
+    return replace(loop, body=before_breaks(loop.body, first))
 
 
 def with_last(
@@ -127,10 +116,10 @@ def _first(reader: ModelStatementReader, node: Node) -> m.Expression | None:
     right = field(node, "right")
     called, arguments = call_parts(right) or ("", [])
     if called == "range":
-        first = next(iter(builtins.known_range(arguments) or ()), None)
+        first = next(iter(known_range(arguments) or ()), None)
         return m.IntLiteral(first) if first is not None and first >= 0 else None
     if right.type in ("identifier", "attribute"):
-        elements = builtins.array_elements(reader.expressions, right)
+        elements = array_elements(reader.expressions, right)
         return elements[0] if elements else None
     return None
 

@@ -17,8 +17,7 @@ def is_auto(scope: Scope, value: Node) -> bool:
     """Whether a class gives a member the next number: `MOVE = auto()`."""
     if scope.kind != CLASS or value.type != "call" or named(field(value, "arguments")):
         return False
-    head, _, rest = text_of(field(value, "function")).partition(".")
-    return ".".join(filter(None, (imported_as(scope.module, head), rest))) == "enum.auto"
+    return imported_as(scope.module, text_of(field(value, "function"))) == "enum.auto"
 
 
 def names_before(owner: Scope, name: str) -> Iterator[str]:

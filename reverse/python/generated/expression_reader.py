@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import field as with_default
+from typing import ClassVar
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.python.expressions.operands import OperandReader
 from rebsync.reverse.python.generated.cuts import Cuts
 from rebsync.reverse.python.generated.kinds import kind_of
 from rebsync.reverse.python.generated.names import Closure, ModelNames
 from rebsync.reverse.syntax.py_tree import Py
+from rebsync.source import Span
+
+_ASKING = frozenset({"bool", "boolean", "to_boolean", "assertion", "any", "all"})
 
 
 @dataclass(eq=False, slots=True)
-class ModelExpressionReader(ABC):
+class ModelExpressionReader(OperandReader[m.Expression]):
     """Reads the expressions of one body; `locals` are its variables by their names in Python.
 
     `types` are those of the locals, by their names in the model; `bound` names that stand for an
@@ -42,13 +47,30 @@ class ModelExpressionReader(ABC):
     own: str = "self"
     cuts: Cuts = with_default(default_factory=Cuts)
 
+    mixes: ClassVar[bool] = False
+    asking: ClassVar[frozenset[str]] = _ASKING
+
     def unread(self, node: Node, why: str) -> Unread:
         return Unread(self.py.span(node), why)
 
-    def kind(self, read: m.Expression) -> m.Type | None:
-        """The widest type of the kind of an expression's value, if it can be told."""
+    def refused(self, node: Node, why: str) -> Unread:
+        return self.unread(node, why)
+
+    def span(self, node: Node) -> Span:
+        return self.py.span(node)
+
+    def hides(self, comprehension: Node) -> bool:
+        return True
+
+    def made(self, expression: m.Expression, type_: m.Type) -> m.Expression:
+        return expression
+
+    def shown(self, value: m.Expression) -> m.Expression:
+        return value
+
+    def kind(self, value: m.Expression) -> m.Type | None:
         return kind_of(
-            read, lambda n: self.types.get(n, self.names.types.get(n)), self.names.results
+            value, lambda n: self.types.get(n, self.names.types.get(n)), self.names.results
         )
 
     @contextmanager
@@ -61,14 +83,6 @@ class ModelExpressionReader(ABC):
         finally:
             self.bound.clear()
             self.bound.update(outer)
-
-    @abstractmethod
-    def read(self, node: Node) -> m.Expression:
-        """An expression. Unread: the model has none for it."""
-
-    @abstractmethod
-    def condition(self, node: Node) -> m.Expression:
-        """What must hold."""
 
     @abstractmethod
     def index(self, node: Node) -> m.Expression:

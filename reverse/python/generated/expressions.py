@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -9,11 +10,14 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.names import original
 from rebsync.records import dataclass
-from rebsync.reverse.models.building import binary, located
-from rebsync.reverse.python.generated import closures, formats, idioms, places, tuples
-from rebsync.reverse.python.generated import py_builtins as builtins
+from rebsync.reverse.models.building import binary, chosen, located
+from rebsync.reverse.python.expressions import functions
+from rebsync.reverse.python.expressions.conditions import comparison, connected, signs_of
+from rebsync.reverse.python.expressions.tables import looked_up, pairs_of
+from rebsync.reverse.python.generated import arrays, closures, formats, idioms, places, tuples
 from rebsync.reverse.python.generated.decorators import is_cast
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
+from rebsync.reverse.python.generated.failing import may_fail
 from rebsync.reverse.python.generated.helpers import arguments_for
 from rebsync.reverse.python.generated.kinds import float_literal
 from rebsync.reverse.python.generated.py_types import (
@@ -25,6 +29,7 @@ from rebsync.reverse.python.generated.py_types import (
 )
 from rebsync.reverse.python.generated.sends import of_mailbox, sent
 from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of, whole_number_of
+from rebsync.static.types import INT
 from rebsync.terminal import with_escapes
 
 _CASTS = {
@@ -43,8 +48,7 @@ _OPERATIONS = {
     "shift_left": "<<",
     "shift_right": ">>",
 }
-_WORDS = {"and": "&&", "or": "||"}
-_LEVELS = {"or": 2, "and": 3, "|": 6, "^": 7, "&": 8, "<<": 9, ">>": 9, "+": 10, "-": 10}
+_LEVELS = {"|": 6, "^": 7, "&": 8, "<<": 9, ">>": 9, "+": 10, "-": 10}
 _LEVELS |= dict.fromkeys(("*", "/", "%", "//"), 11)
 _NOT, _COMPARISON, _PRODUCT, _UNARY = 4, 5, 11, 12
 
@@ -84,7 +88,7 @@ class Expressions(ModelExpressionReader):
 
     def condition(self, node: Node) -> m.Expression:
         """What must hold."""
-        return idioms.truth(self, self.read(node))
+        return self.truth(self.read(node), node)
 
     def _operation(self, node: Node) -> m.Expression:
         span = self.py.span(node)
@@ -98,16 +102,16 @@ class Expressions(ModelExpressionReader):
             case "unary_operator":
                 operator = text_of(field(node, "operator"))
                 return m.Unary(operator, self._operand(field(node, "argument"), _UNARY), span)
-            case "boolean_operator" | "binary_operator":
+            case "boolean_operator":
+                return connected(self, node)
+            case "binary_operator":
                 operator = text_of(field(node, "operator"))
                 level = _LEVELS.get(operator)
                 if level is None:
                     raise self.unread(node, f'the model has no operator "{operator}"')
                 left = self._operand(field(node, "left"), level)
                 right = self._operand(field(node, "right"), level + 1)
-                if operator in _WORDS:
-                    left, right = idioms.sides(self, node, left, right)
-                read = m.Binary(_WORDS.get(operator, operator), left, right, span)
+                read = m.Binary(operator, left, right, span)
                 return (
                     idioms.divided(self, node, read)
                     if level == _PRODUCT and operator != "*"
@@ -126,18 +130,19 @@ class Expressions(ModelExpressionReader):
                 raise self.unread(node, "the model has no such expression")
 
     def _comparison(self, node: Node) -> m.Expression:
-        operands = named(node)
-        operators = [text_of(c) for c in node.children_by_field_name("operators")]
+        operands, signs = named(node), signs_of(node)
         if operands[-1].type in ("true", "false"):  # which there is one of each
-            operators = [_SAME.get(operator, operator) for operator in operators]
-        if len(operands) != 2 or operators[0] not in ("<", "<=", ">", ">=", "==", "!="):
-            return idioms.comparison(self, node)
-        if (found := tuples.compared(self, node, operators[0])) is not None:
-            return found
+            signs = [_SAME.get(sign, sign) for sign in signs]
+        if len(operands) != 2 or signs[0] not in ("<", "<=", ">", ">=", "==", "!="):
+            found = comparison(self, node)
+            is_one = isinstance(found, m.Binary) and found.operator not in ("&&", "||")
+            return found if is_one else idioms.grouped(node, found)
+        if (compared := tuples.compared(self, node, signs[0])) is not None:
+            return compared
         level = _COMPARISON + 1
         left, right = (self._operand(o, level) for o in operands)
-        idioms.assert_alike(self, node, operators[0], (left, right))
-        return m.Binary(operators[0], left, right, self.py.span(node))
+        idioms.assert_alike(self, node, signs[0], (left, right))
+        return m.Binary(signs[0], left, right, self.py.span(node))
 
     def _operand(self, node: Node, least: int) -> m.Expression:
         """An operand; parentheses that only Python needs around it are none of the model's."""
@@ -156,6 +161,46 @@ class Expressions(ModelExpressionReader):
         if inner.type == "named_expression":
             return self.read(inner)
         return m.Paren(self.read(inner), self.py.span(node))
+
+    # --- what the rules of Python ask -----------------------------------------------------------
+
+    def truth(self, value: m.Expression, node: Node) -> m.Expression:
+        """What an integer says as a condition."""
+        return binary("!=", value, m.IntLiteral(0)) if self.kind(value) == INT else value
+
+    def compared(
+        self, sign: str, left: m.Expression, right: m.Expression, node: Node, number: int
+    ) -> m.Expression:
+        idioms.assert_alike(self, node, sign, (left, right))
+        return binary("!=" if sign == "<>" else sign, left, right, self.span(node))
+
+    def operation(
+        self, operator: str, left: m.Expression, right: m.Expression, node: Node
+    ) -> m.Expression:
+        return binary(operator, left, right)
+
+    def joined(
+        self, asked: m.Expression, one: m.Expression, other: m.Expression, node: Node
+    ) -> m.Expression:
+        return chosen(asked, one, other)
+
+    def container(self, node: Node, ordered: bool) -> list[m.Expression] | None:
+        return arrays.array_elements(self, node)
+
+    def table(self, node: Node) -> Sequence[tuple[m.Expression, m.Expression]] | None:
+        table = self.kept_tables.get(text_of(node))
+        return pairs_of(self, table) if table is not None else None
+
+    def library(self, function: Node) -> str:
+        holder, _, name = text_of(function).rpartition(".")
+        if not holder:
+            is_own = self.names.constants.binds(name) or name in self.locals
+            return "" if is_own else f"builtins.{name}"
+        is_random = holder == "random" and self.names.imported.get(holder) == holder
+        return text_of(function) if is_random else ""
+
+    def may_fail(self, node: Node) -> bool:
+        return may_fail(self, node)
 
     # --- names ----------------------------------------------------------------------------------
 
@@ -307,11 +352,12 @@ class Expressions(ModelExpressionReader):
             return self.read(arguments[1])
         if len(arguments) == 1 and is_new_type(self.names.constants.module, called):
             return self.read(arguments[0])
-        drawn = builtins.drawn(self, node, called, arguments)
-        found = drawn or builtins.of_python(self, node, called, arguments)
+        if arrays.is_length(self, called, arguments):
+            raise self.unread(node, arrays.NO_LENGTH.format(called))
+        found = functions.called(self, node) or looked_up(self, node)
         if found is None:
             raise self.unread(node, f'the model has no function "{called}"')
-        return located(found, self.py.span(node))
+        return located(idioms.grouped(node, found), self.py.span(node))
 
     def _own_call(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
         if called.startswith("self._mailbox."):
@@ -337,5 +383,8 @@ _SAME = {"is": "==", "is not": "!="}
 
 
 def _is_argument(node: Node) -> bool:
-    """Whether an expression is an argument of a call by its place, as what an assertion says."""
-    return node.parent is not None and node.parent.type == "argument_list"
+    """Whether an expression is an argument of a call by its place, or what an assertion says."""
+    above = node.parent
+    if above is not None and above.type == "assert_statement":
+        return named(above)[0] != node
+    return above is not None and above.type == "argument_list"

@@ -21,6 +21,7 @@ from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of
 
 _DIVIDING = frozenset({"/", "//", "%"})
+_DIVIDING_BY_NAME = frozenset({"divide", "remainder"})
 _TEXTS = frozenset({"string", "concatenated_string"})
 _LATER = frozenset({"generator_expression", "lambda", "list_comprehension", "set_comprehension"})
 
@@ -51,7 +52,7 @@ def _logs_methods(expressions: ModelExpressionReader, node: Node) -> bool:
 
 def may_fail(expressions: ModelExpressionReader, node: Node) -> bool:
     """Whether there is something in a statement that may fail, or is a method of the model."""
-    if _is_division(node) or _is_element(expressions, node) or _is_method(expressions, node):
+    if _divisor(node) or _is_element(expressions, node) or _is_method(expressions, node):
         return True
     return any(may_fail(expressions, child) for child in node.named_children)
 
@@ -79,8 +80,8 @@ def failing(expressions: ModelExpressionReader, node: Node) -> Iterator[m.Statem
         return
     for child in node.named_children:
         yield from failing(expressions, child)
-    if _is_division(node):
-        yield _divided(expressions, field(node, "right"))
+    if (by := _divisor(node)) is not None:
+        yield _divided(expressions, by)
     elif _is_element(expressions, node):
         yield m.ExpressionStatement(expressions.read(node), span=expressions.py.span(node))
 
@@ -90,9 +91,7 @@ def unmodelled(
 ) -> Iterator[str]:
     """Why what is told may raise an exception, but for what the model has of it (`failing`)."""
     modelled = [
-        expressions.py.span(n)
-        for n in nodes_in(node)
-        if _is_division(n) or _is_element(expressions, n)
+        expressions.py.span(n) for n in nodes_in(node) if _divisor(n) or _is_element(expressions, n)
     ]
     return exceptions.reasons(node, modelled, methods_of(expressions))
 
@@ -141,11 +140,17 @@ def _quotient(divisor: m.Expression) -> m.Expression:
     return m.Binary("/", m.IntLiteral(1), divisor if is_one else m.Paren(divisor))
 
 
-def _is_division(node: Node) -> bool:
-    if node.type != "binary_operator" or text_of(field(node, "operator")) not in _DIVIDING:
-        return False
-    is_text = field(node, "left").type in _TEXTS
-    return not (is_text or _is_other_than_zero(field(node, "right")))
+def _divisor(node: Node) -> Node | None:
+    """What an operator or the run-time part divides by; None where that is a number, not zero."""
+    match node.type:
+        case "binary_operator" if text_of(field(node, "operator")) in _DIVIDING:
+            by = field(node, "right") if field(node, "left").type not in _TEXTS else None
+        case "call" if text_of(field(node, "function")).rpartition(".")[2] in _DIVIDING_BY_NAME:
+            arguments = named(field(node, "arguments"))
+            by = arguments[1] if len(arguments) == 2 else None
+        case _:
+            return None
+    return None if by is None or _is_other_than_zero(by) else by
 
 
 def _is_other_than_zero(node: Node) -> bool:

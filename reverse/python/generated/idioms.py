@@ -7,15 +7,15 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own
-from rebsync.reverse.models.building import binary, is_calm, located
+from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own, written
+from rebsync.reverse.models.building import located
 from rebsync.reverse.python.generated.cuts import other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
 from rebsync.reverse.syntax.ancestors import climb
-from rebsync.reverse.syntax.py_tree import calls_in, field, is_asked, named, text_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.static.types import INT
 
-_COMPARED = frozenset({"<", "<=", ">", ">=", "==", "!="})
 _PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})
 _AROUND = frozenset(
     {
@@ -23,65 +23,10 @@ _AROUND = frozenset(
         *("unary_operator", "conditional_expression"),
     }
 )
+_CALM = frozenset({"abs", "min", "max", "bool", "int8", "int16", "int32", "divide", "remainder"})
 _GROWING = frozenset({"+", "-", "*", "<<", ">>", "&", "|", "^"})
-# Functions for which only the truth of what they are given matters.
-_ASKING = frozenset({"bool", "boolean", "to_boolean", "assertion", "any", "all"})
 _WHOLE = {"//": "divide", "/": "divide", "%": "remainder"}
-# Functions of Python and of the run-time part that store nothing.
-_QUIET = frozenset(
-    {
-        *("int8", "int16", "int32", "boolean", "divide", "remainder", "abs", "min", "max", "bool"),
-        *("int", "range", "len", "sum", "any", "all", "When", "print", "str", "switch", "block"),
-        *("float32", "float64", "quotient", "modulus", "shift_left", "shift_right", "power"),
-        *("square_root", "to_byte", "to_short", "to_int", "to_float", "to_double", "to_boolean"),
-        *("to_rebec", "Array", "array", "copied", "rounds", "put", "put_item", "before"),
-    }
-)
-
-
-def comparison(reader: ModelExpressionReader, node: Node) -> m.Expression:
-    """`a <= b < c`, `a in (1, 2)` and `a not in (1, 2)`. Unread: the model has no such thing."""
-    operands = named(node)
-    operators = [" ".join(text_of(c).split()) for c in node.children_by_field_name("operators")]
-    if operators in (["in"], ["not in"]) and (ends := _ends_of_range(reader, operands)):
-        low, high = ends
-        is_in, one = operators == ["in"], operands[0]
-        pairs = [(one, ">=" if is_in else "<", low), (one, "<" if is_in else ">=", high)]
-        word, repeated = "&&" if is_in else "||", [one]
-        if reader.kind(reader.read(one)) != m.Type("int"):
-            raise reader.unread(node, "only whole numbers are in a range")
-    elif operators in (["in"], ["not in"]) and operands[1].type in ("tuple", "list", "set"):
-        is_in, one = operators == ["in"], operands[0]
-        others = named(operands[1])
-        pairs = [(one, "==" if is_in else "!=", other) for other in others]
-        word = "||" if is_in else "&&"
-        repeated = [one] * (len(others) > 1)
-    elif len(operands) > 2 and set(operators) <= _COMPARED:
-        pairs = list(zip(operands, operators, operands[1:], strict=False))
-        word, repeated = "&&", operands[1:-1]
-    else:
-        raise reader.unread(node, "the model has no such comparison")
-    if not pairs or not all(map(is_plain, repeated)):
-        raise reader.unread(node, "what this compares more than once is to be in a variable first")
-    found = None
-    for left, operator, right in pairs:
-        read = reader.read(left), reader.read(right)
-        if not all(is_calm(r) for n, r in zip((left, right), read, strict=True) if n in repeated):
-            raise reader.unread(node, "a property may do something each time that it is asked")
-        assert_alike(reader, node, operator, read)
-        each = binary(operator, *read, reader.py.span(node))
-        found = each if found is None else m.Binary(word, found, each, reader.py.span(node))
-    assert found is not None
-    return found if len(pairs) == 1 else grouped(node, found)
-
-
-def _ends_of_range(reader: ModelExpressionReader, operands: list[Node]) -> list[Node] | None:
-    """The first number of a range and that behind its last; None for what is no such range."""
-    called = text_of(field(operands[1], "function")) if operands[1].type == "call" else ""
-    given = named(field(operands[1], "arguments")) if called == "range" else []
-    is_rebound = reader.names.constants.binds("range") or "range" in reader.locals
-    is_plain_range = len(given) == 2 and all(g.type == "integer" for g in given)
-    return given if is_plain_range and not is_rebound else None
+_CHANGES = "how often this is done may change: say it with numbers or locals"
 
 
 def assert_alike(
@@ -118,6 +63,15 @@ def is_plain(node: Node) -> bool:
     return node.type in _PLAIN
 
 
+def is_quiet(node: Node) -> bool:
+    """Whether evaluating it changes nothing: it calls nothing but what is of Python or cuts."""
+    if node.type == "named_expression":
+        return False
+    if node.type == "call" and text_of(field(node, "function")) not in _CALM:
+        return False
+    return all(map(is_quiet, named(node)))
+
+
 def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Binary:
     """`a / b` of numbers with a point, and `a // b` and `a % b` of integers that must turn out to
     be ones of which the model has the same. Unread: all else, which the model divides otherwise.
@@ -130,24 +84,6 @@ def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Bina
         whole = m.Binary(operator[0], read.left, read.right, read.span)
         return reader.cuts.divided(whole)
     raise reader.unread(node, other_division(operator))
-
-
-def truth(reader: ModelExpressionReader, read: m.Expression) -> m.Expression:
-    """What an integer says as a condition."""
-    kind = reader.kind(read)
-    if kind is None or kind.name != "int":
-        return read
-    return binary("!=", read, m.IntLiteral(0))
-
-
-def sides(
-    reader: ModelExpressionReader, node: Node, left: m.Expression, right: m.Expression
-) -> tuple[m.Expression, m.Expression]:
-    """The sides of `and` and `or` as conditions. Unread: Python gives an integer, not its truth."""
-    asked = truth(reader, left), truth(reader, right)
-    if asked != (left, right) and not is_asked(node, _ASKING):
-        raise reader.unread(node, "this is one of the two numbers in Python, in the model a truth")
-    return asked
 
 
 def kind_at(reader: ModelExpressionReader, node: Node) -> m.Type | None:
@@ -326,17 +262,32 @@ def _values(reader: ModelExpressionReader, pattern: Node) -> Iterator[m.Expressi
 def rounds(
     reader: ModelExpressionReader, node: Node
 ) -> tuple[m.Expression, m.Expression, m.Expression]:
-    """Start, end and step of `range(...)`. Unread: they may change in the loop."""
+    """Start, end and step of `range(...)`."""
     arguments = named(field(field(node, "right"), "arguments"))
-    body = field(node, "body")
-    if not 1 <= len(arguments) <= 3 or not all(_is_steady(reader, a, body) for a in arguments):
-        raise reader.unread(
-            node, "how often this is done may change: say it with numbers or locals"
-        )
     read = [reader.read(a) for a in arguments]
+    if not 1 <= len(read) <= 3 or any(reader.kind(each) != INT for each in read):
+        raise reader.unread(node, _CHANGES)
     start = read[0] if len(read) > 1 else m.IntLiteral(0)
     step = read[2] if len(read) > 2 else m.IntLiteral(1)
     return start, read[1] if len(read) > 1 else read[0], step
+
+
+def check_steady(
+    reader: ModelExpressionReader, node: Node, bound: m.Expression, body: m.Block
+) -> None:
+    """Unread: a bound of a loop may change in it, where Python asks for it only once."""
+    own = {*reader.names.functions.values(), *(h.name for h in reader.names.helpers.values())}
+    calls = (n for n in m.walk(body) if isinstance(n, m.Call) and n.name in own)
+    runs = any(not isinstance(call.target, m.Self | m.Name) for call in calls)  # others send
+    stored, local = written(body), reader.locals.values()
+    for part in m.walk(bound):
+        match part:
+            case m.IntLiteral() | m.Paren() | m.Binary() | m.Unary("-" | "+" | "~") | m.Self():
+                continue
+            case m.Name(name) | m.Member(m.Self(), name) if name not in stored:
+                if not runs or (name in local and not is_own(part)):
+                    continue
+        raise reader.unread(node, _CHANGES)
 
 
 def is_literal(reader: ModelExpressionReader, node: Node) -> bool:
@@ -345,27 +296,6 @@ def is_literal(reader: ModelExpressionReader, node: Node) -> bool:
         return is_literal(reader, field(node, "argument"))
     return node.type in ("integer", "float", "true", "false") or (
         text_of(node) in reader.names.constants and text_of(node) not in reader.locals
-    )
-
-
-def _is_steady(reader: ModelExpressionReader, node: Node, body: Node) -> bool:
-    """Whether a bound of a loop stays the same: a number, or a local that the loop leaves alone."""
-    if node.type in ("unary_operator", "binary_operator", "parenthesized_expression"):
-        return all(_is_steady(reader, n, body) for n in named(node))
-    if node.type == "identifier":
-        return text_of(node) not in stored_in(body)
-    if node.type == "attribute" and text_of(field(node, "object")) == reader.own:
-        return text_of(node) not in stored_in(body) and not _calls_own(reader, body)
-    return node.type == "integer" or text_of(node) in reader.names.constants
-
-
-def _calls_own(reader: ModelExpressionReader, node: Node) -> bool:
-    """Whether a block calls functions of the object that are no sends, and may store something."""
-    parts = (text_of(field(call, "function")).rpartition(".") for call in calls_in(node))
-    return any(
-        name not in (reader.names.sends if holder in (reader.own, "super()") else _QUIET)
-        for holder, _, name in parts
-        if not holder or holder in (reader.own, "super()")
     )
 
 

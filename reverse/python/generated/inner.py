@@ -13,7 +13,6 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.generated import idioms
-from rebsync.reverse.python.generated import py_builtins as builtins
 from rebsync.reverse.python.generated.closures import arguments_of
 from rebsync.reverse.python.generated.names import Closure
 from rebsync.reverse.python.generated.py_types import call_parts, type_of
@@ -51,7 +50,7 @@ def named_lambda(reader: ModelStatementReader, left: Node, value: Node) -> bool:
         return False
     name, parameters = text_of(left), _parameters(value)
     body = field(value, "body")
-    if parameters is None or not builtins.is_calm(body) or not _is_bound_once(value, name):
+    if parameters is None or not idioms.is_quiet(body) or not _is_bound_once(value, name):
         return False
     reader.expressions.closures[name] = Closure(parameters, body)
     return True
@@ -196,7 +195,7 @@ def _only_value(body: Node) -> Node | None:
     match [s for s in named(body) if s.type != "comment"]:
         case [only] if only.type == "return_statement":
             values = named(only)
-            return values[0] if len(values) == 1 and builtins.is_calm(values[0]) else None
+            return values[0] if len(values) == 1 and idioms.is_quiet(values[0]) else None
         case _:
             return None
 

@@ -10,8 +10,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.models.building import binary, selected
+from rebsync.reverse.python.expressions.elements import rows
 from rebsync.reverse.python.generated import endings, idioms
-from rebsync.reverse.python.generated import py_builtins as builtins
+from rebsync.reverse.python.generated.arrays import NO_LENGTH, array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.py_types import call_parts, markers_above
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
@@ -70,9 +71,9 @@ def through(
         case (("enumerate" | "zip"), _) if any(a.type in ("tuple", "list") for a in arguments):
             return _unrolled(reader, node, names)
         case "enumerate", [values] if len(names) == 2:
-            return _numbered(reader, node, names[0], names[1:], [values])
+            return numbered(reader, node, names[0], names[1:], [values])
         case "zip", _ if len(names) == len(arguments) > 0:
-            return _numbered(reader, node, "", names, arguments)
+            return numbered(reader, node, "", names, arguments)
         case "reversed", [inner] if len(names) == 1:
             return _backwards(reader, node, names[0], inner)
         case "", _ if right.type in ("tuple", "list") and len(names) == 1:
@@ -81,11 +82,11 @@ def through(
             return None
 
 
-def _numbered(
+def numbered(
     reader: ModelStatementReader, node: Node, number: str, names: list[str], arrays: list[Node]
 ) -> m.For:
     """A loop through several arrays at once; the variable `number` counts, if it has a name."""
-    each_ = [builtins.array_elements(reader.expressions, a) for a in arrays]
+    each_ = [array_elements(reader.expressions, a) for a in arrays]
     if None in each_ or len({*names, number}) != len(names) + 1:
         raise reader.expressions.unread(node, "the model has no such loop")
     for array in arrays:
@@ -125,7 +126,7 @@ def _unrolled(reader: ModelStatementReader, node: Node, names: list[str]) -> m.B
     if leaves or {*names, *given} & set(stored) or set(names) & expressions.locals.keys():
         raise expressions.unread(node, "the model has no such loop")
     statements: list[m.Statement] = []
-    for values in builtins.rows(expressions, field(node, "right"), len(names)):
+    for values in rows(expressions, field(node, "right"), len(names)):
         if not all(_is_steady(expressions, v) for v in values):
             raise expressions.unread(node, "the model has no such loop")
         with expressions.standing_for(names, values):
@@ -143,8 +144,8 @@ def _backwards(reader: ModelStatementReader, node: Node, name: str, inner: Node)
     """`for i in reversed(range(n))`, of numbers that count up by one."""
     called, arguments = call_parts(inner) or ("", [])
     if called != "range" or not 1 <= len(arguments) <= 2:
-        if builtins.array_elements(reader.expressions, inner) is not None:
-            raise reader.expressions.unread(node, builtins.NO_LENGTH.format("reversed"))
+        if array_elements(reader.expressions, inner) is not None:
+            raise reader.expressions.unread(node, NO_LENGTH.format("reversed"))
         raise reader.expressions.unread(node, "the model has no such loop")
     ends = [n for n in map(whole_number_of, arguments) if n is not None]
     if len(ends) != len(arguments):
@@ -194,21 +195,6 @@ def _round(
     return replace(found, statements=(*declared, *found.statements))
 
 
-def each(reader: ModelStatementReader, node: Node, name: str) -> m.For:
-    """`for x in self._values` goes through an array of one dimension."""
-    values = reader.expressions.read(field(node, "right"))
-    is_whole = isinstance(values, m.Name | m.Member)
-    type_ = idioms.type_of(reader.expressions, values) if is_whole else None
-    if type_ is None or len(type_.dimensions) != 1:
-        raise reader.expressions.unread(node, "the model has no such loop")
-    _assert_kept(reader, node, field(node, "right"))
-    index = _free(reader, node, name)
-    read = m.Index(values, m.Name(index))
-    element = reader.expressions.kind(read) or m.Type(type_.name)
-    body = _round(reader, node, [], index, [(name, element, read)])
-    return _times(reader, node, index, type_.dimensions[0], body)
-
-
 def _assert_kept(reader: ModelStatementReader, node: Node, array: Node) -> None:
     """Python goes on through the array that there was at the start. Unread: another is stored."""
     body, name = field(node, "body"), text_of(array)
@@ -256,6 +242,7 @@ def _for(
     by = step.operand if isinstance(step, m.Unary) else step
     if not isinstance(by, m.IntLiteral) or by.value == 0:
         raise reader.expressions.unread(node, "the step of this loop is to be a number")
+    idioms.check_steady(reader.expressions, node, end, body)
     operator = "-" if is_down else "+"
     update: m.Expression = m.Postfix(operator * 2, place)
     if by.value != 1:
@@ -299,7 +286,7 @@ def _guarded(
     name, test = guard
     if test is None:
         return asked, reader.branch(block)
-    if not builtins.is_calm(test):
+    if not idioms.is_quiet(test):
         raise reader.expressions.unread(test, "what this does may count for the cases behind it")
     bound = reader.expressions.bound
     if name:

@@ -100,9 +100,7 @@ def _is_plain(key: str, default: Node) -> bool:
 def is_lock(module: Scope, node: Node) -> bool:
     """Whether a value is a lock of Python's library."""
     called, arguments = call_parts(node) or ("", [])
-    head, _, rest = called.partition(".")
-    whole = ".".join(filter(None, (imported_as(module, head), rest)))
-    return whole in _LOCKS and not arguments
+    return imported_as(module, called) in _LOCKS and not arguments
 
 
 def attributes_in(line: Sequence[Scope]) -> frozenset[str] | None:

@@ -22,13 +22,16 @@ _TABLE = _LITERALS | {
 
 
 def imported_as(module: Scope, name: str) -> str:
-    """What a name of a module is of, as `threading.Lock`; empty if it is not imported alone."""
-    bindings = module.names.get(name, [])
+    """What a name of a module is of, as `threading.Lock`, with dots too; empty if it is not
+    imported, or not alone.
+    """
+    head, dot, rest = name.partition(".")
+    bindings = module.names.get(head, [])
     if len(bindings) != 1 or bindings[0].how != "import":
         return ""
     node = bindings[0].node
     if node.type == "import_from_statement":
-        return f"{text_of(field(node, 'module_name'))}.{name}"
+        return f"{text_of(field(node, 'module_name'))}.{head}{dot}{rest}"
     return name
 
 
@@ -98,8 +101,7 @@ def loggers_of(module: Scope) -> frozenset[str]:
         called, arguments = (
             call_and_arguments(bindings[0].value) if len(bindings) == 1 else ("", [])
         )
-        head, _, rest = called.partition(".")
-        whole = ".".join(filter(None, (imported_as(module, head), rest)))
+        whole = imported_as(module, called)
         is_named = all(a.type in ("identifier", "string") for a in arguments)
         if whole == "logging.getLogger" and bindings[0].how == "value" and is_named:
             found.add(name)

@@ -277,8 +277,13 @@ def in_double_quotes(text: str) -> str:
 
 
 def only_breaks_lines(node: Node) -> bool:
-    """Whether these are the parentheses that a formatter puts around what is too long a line."""
+    """Whether these are the parentheses that a formatter puts around what is too long a line.
+
+    Those around an operand are the author's.
+    """
     inner = named(node)[0]
+    if node.parent is not None and node.parent.type.endswith("_operator"):
+        return False
     is_apart = inner.start_point.row > node.start_point.row
     return is_apart and inner.type != "named_expression"
 

@@ -9,9 +9,9 @@ from rebsync.names import original
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.python.generated import idioms
+from rebsync.reverse.python.generated.arrays import array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.overloads import told
-from rebsync.reverse.python.generated.py_builtins import array_elements
 from rebsync.reverse.python.generated.py_types import string_value
 from rebsync.reverse.python.generated.roles import PySends
 from rebsync.reverse.syntax.py_tree import named, text_of

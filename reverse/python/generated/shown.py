@@ -176,8 +176,7 @@ def tells_by(code: PyCode, module: Scope, node: Node, types: Mapping[str, str]) 
     for.
     """
     called, arguments = call_and_arguments(node)
-    head, _, rest = called.partition(".")
-    if ".".join(filter(None, (imported_as(module, head), rest))) in broadcasters():
+    if imported_as(module, called) in broadcasters():
         return not any("TransformListener" in s.py.source.text for s in code.modules.values())
     given = [name for a in arguments if (name := text_of(a)) in types]
     topics = [s for a in arguments if (s := string_value(a)) is not None]

@@ -26,9 +26,8 @@ class ModelStatementReader(ABC):
 
     `hoisted` are the locals that a switch declares before it, `cases` the names of the switches
     around a statement, innermost last. `implied` are the locals of a block, `annotated` the types
-    that names of the function have been given, `inner` are functions within. `broken` is the
-    variable that tells that the innermost loop was left by a `break`, if its `else` asks; `lasting`
-    the variable of a loop that is read behind it.
+    that names of the function have been given, `inner` are functions within. `lasting` is the
+    variable of a loop that is read behind it.
     """
 
     expressions: Expressions
@@ -40,7 +39,6 @@ class ModelStatementReader(ABC):
     implied: set[str] = with_default(default_factory=set)
     annotated: dict[str, m.Type] = with_default(default_factory=dict)
     inner: dict[str, Closure] = with_default(default_factory=dict)
-    broken: str = ""
     lasting: str = ""
 
     def in_order(self, store: m.Expression) -> None:

@@ -25,7 +25,6 @@ from rebsync.reverse.python.generated import (
     users,
 )
 from rebsync.reverse.python.generated import inner as inner_functions
-from rebsync.reverse.python.generated import py_builtins as builtins
 from rebsync.reverse.python.generated.decorators import context_of
 from rebsync.reverse.python.generated.failing import told_people
 from rebsync.reverse.python.generated.filled import filled
@@ -134,7 +133,7 @@ class Statements(ModelStatementReader):
             case "return_statement":
                 return self._return(node)
             case "break_statement":
-                return [*endings.noted(self), m.Break(span=span)]
+                return [m.Break(span=span)]
             case "continue_statement":
                 return [m.Continue(span=span)]
             case _:
@@ -282,23 +281,25 @@ class Statements(ModelStatementReader):
         name = text_of(field(node, "left"))
         is_switch = called == "switch" and len(arguments) == 1
         if not is_switch and called != "rounds":
-            through = partial(self._through, node, called, arguments)
+            through = partial(self._through, node, arguments)
             return endings.with_else(self, node, lambda: endings.with_last(self, node, through))
         if node.child_by_field_name("alternative") is not None:  # which what ends it would skip
             raise self.expressions.unread(node, "the model has no such loop")
-        with endings.leaving(self):
-            if is_switch:
-                return [self._switch(node, name, arguments[0])]
-            return [self._rounds(node, name, before)]
+        if is_switch:
+            return [self._switch(node, name, arguments[0])]
+        return [self._rounds(node, name, before)]
 
-    def _through(self, node: Node, called: str, arguments: list[Node]) -> m.Statement:
+    def _through(self, node: Node, arguments: list[Node]) -> m.Statement:
         """A loop of Python through numbers or values."""
-        name = text_of(field(node, "left"))
-        builtins.assert_of_python(self.expressions, node, called)
+        name, right = text_of(field(node, "left")), field(node, "right")
+        library = self.expressions.library(field(right, "function")) if right.type == "call" else ""
+        called = library.removeprefix("builtins.")
         if called == "range":
             return loops.counted(self, node, name)
         found = loops.through(self, node, called, arguments)
-        return found if found is not None else loops.each(self, node, name)
+        if found is not None:
+            return found
+        return loops.numbered(self, node, "", [name], [right])
 
     def _while(self, node: Node, before: list[m.Statement]) -> list[m.Statement]:
         condition = self.expressions.condition(field(node, "condition"))

@@ -10,8 +10,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import is_calm
-from rebsync.reverse.python.generated import idioms
-from rebsync.reverse.python.generated import py_builtins as builtins
+from rebsync.reverse.python.expressions.elements import certain
+from rebsync.reverse.python.generated import arrays, idioms
 from rebsync.reverse.python.generated.inner import leaves
 from rebsync.reverse.python.generated.places import is_kept
 from rebsync.reverse.python.generated.py_types import call_parts, string_value
@@ -49,7 +49,7 @@ def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """
     lefts, right = named(field(node, "left")), field(node, "right")
     expressions = reader.expressions
-    elements = builtins.array_elements(expressions, right)
+    elements = arrays.array_elements(expressions, right)
     if elements is not None and len(elements) == len(lefts):
         if text_of(right) in {idioms.base_of(left) for left in lefts}:
             raise expressions.unread(node, _WHOLE)
@@ -154,8 +154,8 @@ def all_elements(reader: ModelStatementReader, left: Node, value: Node) -> list[
         left, called, arguments = sliced, "Array", [value]
     if called != "Array" or len(arguments) != 1:
         return _filled(reader, left, value)
-    places = builtins.array_elements(reader.expressions, left)
-    values = builtins.listed(reader.expressions, arguments[0]) if places else []
+    places = arrays.array_elements(reader.expressions, left)
+    values = certain(reader.expressions, arguments[0], "this") if places else []
     if places is None or len(places) != len(values):
         raise reader.expressions.unread(value, _WHOLE)
     if idioms.base_of(left) in idioms.names_in(arguments[0]):
@@ -174,7 +174,7 @@ def _whole_slice(node: Node) -> Node | None:
 def _filled(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
     """`self._a[:] = self._b` and `self._a[:] = [0] * 8`, of as many elements as it has."""
     target = _whole_slice(left)
-    places = builtins.array_elements(reader.expressions, target) if target is not None else None
+    places = arrays.array_elements(reader.expressions, target) if target is not None else None
     if target is None or places is None:
         return None
     span = reader.expressions.py.span(value)
@@ -187,7 +187,7 @@ def _filled(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Sta
         read = reader.expressions.read(named(given)[0])
         stores = [m.Assign("=", place, read, span) for place in places]
         return [m.ExpressionStatement(each, span=span) for each in stores]
-    others = builtins.array_elements(reader.expressions, value)
+    others = arrays.array_elements(reader.expressions, value)
     kinds = {reader.expressions.kind(each) for each in (*places, *(others or ()))}
     if others is None or len(others) != len(places) or len(kinds) != 1:
         return None

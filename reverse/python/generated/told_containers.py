@@ -41,9 +41,8 @@ def container_of(module: Scope, value: Node) -> str:
     if value.type == "dictionary":
         return "" if named(value) else TABLE
     called, arguments = call_and_arguments(value)
-    head, _, rest = called.partition(".")
     is_own = called in ("dict", "set") and called not in module.names
-    whole = called if is_own else ".".join(filter(None, (imported_as(module, head), rest)))
+    whole = called if is_own else imported_as(module, called)
     given = [text_of(a) for a in arguments]
     is_empty = not given
     if whole == "collections.defaultdict":

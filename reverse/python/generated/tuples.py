@@ -8,14 +8,12 @@ from rebsync import model as m
 from rebsync.reverse.models.building import binary, is_calm
 from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
+from rebsync.reverse.python.generated.failing import may_fail
 from rebsync.reverse.python.generated.kinds import is_floating
 from rebsync.reverse.python.generated.py_types import without_parentheses
-from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
+from rebsync.reverse.syntax.py_tree import named
 
 _SEQUENCES = frozenset({"tuple", "list"})
-_CUTS = frozenset({"int8", "int16", "int32"})
-_SAFE = frozenset({"identifier", "attribute", "integer", "true", "false"})
-_SUMS = frozenset({"+", "-", "*", "&", "|", "^"})
 
 
 def compared(reader: ModelExpressionReader, node: Node, operator: str) -> m.Expression | None:
@@ -30,7 +28,7 @@ def compared(reader: ModelExpressionReader, node: Node, operator: str) -> m.Expr
         return None
     pairs = list(zip(named(left), named(right), strict=False))
     is_even = len(named(left)) == len(named(right)) > 0
-    if not is_even or not all(_is_safe(each) for pair in pairs for each in pair):
+    if not is_even or any(may_fail(reader, each) for pair in pairs for each in pair):
         raise reader.unread(node, "the model has no such comparison")
     read = [(reader.read(one), reader.read(other)) for one, other in pairs]
     for sides in read:
@@ -54,21 +52,3 @@ def _lexicographical(operator: str, pairs: list[tuple[m.Expression, m.Expression
             same = binary("&&", binary("==", left, right), found)
             found = binary("||", binary(operator[0], left, right), same)
     return found
-
-
-def _is_safe(node: Node) -> bool:
-    """Whether an element is known to have a value, and gives it without doing anything else."""
-    match node.type:
-        case "subscript":  # of an array, whose length is checked where an index is a number
-            holder, *indices = named(node)
-            return _is_safe(holder) and all(whole_number_of(i) is not None for i in indices)
-        case "parenthesized_expression" | "unary_operator":
-            return all(map(_is_safe, named(node)))
-        case "binary_operator":
-            return text_of(field(node, "operator")) in _SUMS and all(map(_is_safe, named(node)))
-        case "call":
-            arguments = named(field(node, "arguments"))
-            is_cut = text_of(field(node, "function")) in _CUTS and len(arguments) == 1
-            return is_cut and _is_safe(arguments[0])
-        case _:
-            return node.type in _SAFE

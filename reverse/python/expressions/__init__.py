@@ -1,0 +1,1 @@
+"""Expressions of Python that mean the same in generated code and in what people wrote."""
