@@ -79,22 +79,28 @@ def symmetry_of(program: Program, problem: Problem, options: Options) -> Symmetr
     """
     if not options.symmetry:
         return Symmetry()
+    found = symmetry_or_reason(program, problem, options)
+    if isinstance(found, Symmetry):
+        return found
+    message, hint = f"no symmetry reduction: {found}", "leave --symmetry out"
+    raise RebsyncError.of(problem.source.path, "RS932", message, hint)
+
+
+def symmetry_or_reason(
+    program: Program, problem: Problem, options: Options, largest: int = LARGEST
+) -> Symmetry | str:
+    """Up to `largest` symmetries under which what is asked is invariant; else why none are."""
     if reason := _obstacle(program, problem, options):
-        raise _refused(problem, reason)
-    candidates = _largest_group(program)
+        return reason
+    candidates = _largest_group(program, largest)
     if len(candidates) == 1:
-        raise _refused(problem, "no two rebecs have one class, one priority and equal known rebecs")
+        return "no two rebecs have one class, one priority and equal known rebecs"
     invariance = Invariance(problem, program)
     group = tuple(p for p in candidates if invariance.holds(p))
     if len(group) == 1:
         names = ", ".join(invariance.broken(candidates))
-        raise _refused(problem, f"equal rebecs are told apart by {names}")
+        return f"equal rebecs are told apart by {names}"
     return Symmetry(group, references_of(program))
-
-
-def _refused(problem: Problem, reason: str) -> RebsyncError:
-    hint = "leave --symmetry out"
-    return RebsyncError.of(problem.source.path, "RS932", f"no symmetry reduction: {reason}", hint)
 
 
 def _obstacle(program: Program, problem: Problem, options: Options) -> str | None:
@@ -130,14 +136,14 @@ def over_orbits(found: Exploration, symmetry: Symmetry, program: Program) -> Exp
     return replace(found, covered=covered, notes=(*found.notes, note))
 
 
-def _largest_group(program: Program) -> tuple[Permutation, ...]:
-    """Automorphisms, all that leave some rebecs where they are: not more than LARGEST."""
+def _largest_group(program: Program, largest: int) -> tuple[Permutation, ...]:
+    """Automorphisms, all that leave some rebecs where they are: not more than `largest`."""
     fixed: frozenset[int] = frozenset()
     while True:
         group = []
         for automorphism in _automorphisms(program, fixed):
             group.append(automorphism)
-            if len(group) > LARGEST:
+            if len(group) > largest:
                 break
         else:
             return tuple(group)
