@@ -118,22 +118,23 @@ def _obstacle(program: Program, problem: Problem, options: Options) -> str | Non
     return None
 
 
-def over_orbits(found: Exploration, symmetry: Symmetry, program: Program) -> Exploration:
+def over_orbits(found: Exploration, symmetry: Symmetry) -> Exploration:
     """A search of canonical states as one of all.
 
     The largest bag of a rebec is that of any rebec of its orbit: where constructors make them
     differ, it need not have been its own.
     """
-    if symmetry.order == 1:
-        return found
     largest = list(found.covered.largest)
     for orbit in symmetry.orbits:
         for rebec in orbit:
             largest[rebec] = max(found.covered.largest[r] for r in orbit)
+    return replace(found, covered=replace(found.covered, largest=tuple(largest)))
+
+
+def counted_once(symmetry: Symmetry, program: Program) -> str:
+    """What a search up to an exchange of rebecs says of its figures."""
     exchanged = "; ".join(", ".join(program.rebecs[r].name for r in o) for o in symmetry.orbits)
-    note = f"states that differ by an exchange are counted once ({symmetry.order}: {exchanged})"
-    covered = replace(found.covered, largest=tuple(largest))
-    return replace(found, covered=covered, notes=(*found.notes, note))
+    return f"states that differ by an exchange are counted once ({symmetry.order}: {exchanged})"
 
 
 def _largest_group(program: Program, largest: int) -> tuple[Permutation, ...]:

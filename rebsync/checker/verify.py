@@ -22,7 +22,6 @@ from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
 from rebsync.checker.reducing import Reducing
 from rebsync.checker.result import Coverage, Result, Verdict
-from rebsync.checker.symmetry import over_orbits
 from rebsync.checker.telling import Teller
 from rebsync.checker.views import view_of
 from rebsync.checker.watch import Watch
@@ -70,7 +69,6 @@ def _searched(
         exploration = replace(exploration, reason=reason)
     view = view_of(program, exploration.semantics, persistent)
     view.limit(options.limits.instructions)
-    exploration = over_orbits(exploration, symmetry, program)
     orbits = Orbits(exploration.semantics, symmetry) if symmetry.order > 1 else None
     teller = Teller(view, problem.source, orbits)
     watch = _watch(exploration, options, report, started)
