@@ -104,10 +104,9 @@ class Reducing(NamedTuple):
         full = self._explored(self._up_to(SMALL))
         if not _goes_on(full):
             return full
-        trial = self._up_to(TRIAL)
+        depth, trial = len(full.search.path(TRIAL)) - 1, self._up_to(TRIAL)
         if full.exploration.engine == "compiled":  # it is there by now
             trial = replace(trial, engine="compiled")
-        depth = self._explored(trial).exploration.depth
 
         def further(persistent: PersistentSets, symmetry: Symmetry = NONE) -> Searched | None:
             reduced = self._explored(trial, persistent, symmetry)

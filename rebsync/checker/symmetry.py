@@ -100,7 +100,10 @@ def symmetry_or_reason(
     if len(group) == 1:
         names = ", ".join(invariance.broken(candidates))
         return f"equal rebecs are told apart by {names}"
-    return Symmetry(group, references_of(program))
+    references = references_of(program)
+    if program.has_delay and references.mixed:
+        return f"{', '.join(references.mixed)} has over a delay what may be a rebec or a number"
+    return Symmetry(group, references)
 
 
 def _obstacle(program: Program, problem: Problem, options: Options) -> str | None:
@@ -113,8 +116,6 @@ def _obstacle(program: Program, problem: Problem, options: Options) -> str | Non
         return "--time-between needs all states"
     if any(server.depth for server in program.servers):
         return "of messages that came at one time @KeepLast loses one by the order of rebecs"
-    if program.has_delay and (mixed := references_of(program).mixed):
-        return f"{', '.join(mixed)} has over a delay what may be a rebec or a number"
     return None
 
 
