@@ -271,8 +271,8 @@ def _swept(model: str, given: dict[str, Any], output: str) -> Status:
     parameters = [parameter(text) for text in given["swept"]]
     if _is_package(model) or _is_code(model):
         raise click.UsageError("--for-all is for models: leave it out for packages")
-    if given["style"] not in ("text", "json"):
-        raise click.UsageError("--for-all prints a table: --format text or json")
+    if given["style"] == "html":
+        raise click.UsageError("--for-all has no page: --format text, json or svg")
     if any(given[name] for name in ("replay", "states", "export", "violation", "serve")):
         raise click.UsageError("--for-all prints a table only, without runs and states")
     asked = given["measures"], given["between"]
