@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from rebsync.checker import reducing, search
 from rebsync.checker.compiled import CompiledSearch
-from rebsync.checker.exploration import Limits, Progress, Unavailable, bound_of_states
+from rebsync.checker.exploration import Limits, Progress, Search, Unavailable, bound_of_states
 from rebsync.checker.problem import EngineChoice, Options, Problem
 from rebsync.checker.result import Result
 from rebsync.checker.search import Interpreted
@@ -128,7 +128,7 @@ def test_a_compiled_search_goes_on(compaction: bool) -> None:
         pytest.skip(f"no compiled engine: {unavailable}")
     for states in (1, 10, 7_000, 7_001):
         assert compiled[0].run(Limits(states=states)).reason == bound_of_states(states)
-    engines = (*compiled, Interpreted(program, "tts", (0,)))
+    engines: tuple[Search, ...] = (*compiled, Interpreted(program, "tts", (0,)))
     found = [engine.run(Limits()) for engine in engines]
     figures = [(f.states, f.transitions, f.depth, f.events, f.covered, f.reason) for f in found]
     assert figures[0] == figures[1] == figures[2]
