@@ -67,7 +67,7 @@ featurevar FAST;
 @feature(!FAST) reactiveclass B(1) { }
 reactiveclass A(3) {
     statevars { @feature(FAST && !false) int n; @feature(!(FAST || false)) boolean n; }
-    A() { self.go(); @feature(!FAST) self.go(); }
+    A() { self.go(); @feature(FAST && !FAST) self.go(); }
     @feature(FAST) msgsrv go() { if (FAST) { n = (n + 1) % 3; } self.go() after(1); }
     @feature(!FAST) msgsrv go() { unknown(); }
 }
