@@ -36,10 +36,10 @@ from rebsync.checker.exploration import (
 )
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, unwatched
-from rebsync.checker.memory import used_memory
+from rebsync.checker.memory import NO_MEMORY, used_memory
 from rebsync.checker.program import Program
 from rebsync.checker.reduction import PersistentSets
-from rebsync.checker.search import FIRST, NO_MEMORY
+from rebsync.checker.search import FIRST
 from rebsync.checker.steps import Semantics
 from rebsync.checker.symmetry import Symmetry
 
@@ -187,11 +187,7 @@ class CompiledSearch:
             found = kinds_of((e.cause for e in self._events(now.events)), limits.faults)
             known = now.states, now.transitions, now.level, waiting
             report(Progress(*known, seconds, memory, violations=found))
-        if over := limits.out_of_time(seconds):
-            return over
-        if limits.memory is not None and memory >= limits.memory:
-            return f"the bound of {limits.memory} bytes of memory was reached"
-        return None
+        return limits.out_of_time(seconds) or limits.out_of_memory(memory)
 
     # --- what was found
 

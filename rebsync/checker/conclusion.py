@@ -15,7 +15,7 @@ from rebsync.checker.graph import Graph
 from rebsync.checker.invariants import predicates_of
 from rebsync.checker.look import Stopped
 from rebsync.checker.measures import measure_ranges, times_between
-from rebsync.checker.memory import peak_memory
+from rebsync.checker.memory import NO_MEMORY, peak_memory
 from rebsync.checker.naming import coverage_of, event_name
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
@@ -88,7 +88,7 @@ class Conclusion:
         except KeyboardInterrupt:
             self.reason = "it was interrupted"
         except MemoryError:
-            self.reason = "there was no more memory"
+            self.reason = NO_MEMORY
 
     # --- collecting
 

@@ -10,6 +10,7 @@ from typing import Protocol
 from rebsync.checker.endless import Cut
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, unwatched
+from rebsync.checker.memory import NO_MEMORY, is_scarce
 from rebsync.checker.steps import Failure, Semantics
 from rebsync.records import dataclass
 
@@ -36,12 +37,13 @@ class Faults:
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Bounds of a search; None is no bound. `seconds` is by the wall clock, `until` model time.
+    """Bounds of a search; None is no bound, of memory what the machine has.
 
-    `until` bounds the time since the start: steps that would pass it are left out, and the search
-    is then incomplete. `memory` is in bytes, of the whole process. `instructions` are those of one
-    run of a body. With `first` a search ends at the first of the `faults`. `began` is the moment by
-    time.perf_counter from which the seconds count, else they count from the search.
+    `seconds` is by the wall clock. `until` bounds the model time since the start: steps that would
+    pass it are left out, and the search is then incomplete. `memory` is in bytes, of the whole
+    process. `instructions` are those of one run of a body. With `first` a search ends at the first
+    of the `faults`. `began` is the moment by time.perf_counter from which the seconds count, else
+    they count from the search.
     """
 
     states: int | None = None
@@ -59,6 +61,14 @@ class Limits:
         if self.seconds is None or spent < self.seconds:
             return None
         return f"the bound of {self.seconds:g} seconds was reached"
+
+    def out_of_memory(self, used: int) -> str | None:
+        """Why to stop with so many bytes in use; without a bound what the machine has is one."""
+        if self.memory is None:
+            return NO_MEMORY if is_scarce(used) else None
+        if used < self.memory:
+            return None
+        return f"the bound of {self.memory} bytes of memory was reached"
 
 
 def bound_of_states(states: int) -> str:

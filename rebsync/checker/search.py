@@ -25,7 +25,7 @@ from rebsync.checker.exploration import (
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, Stopped, unwatched
 from rebsync.checker.machine import Failed, Machine
-from rebsync.checker.memory import used_memory
+from rebsync.checker.memory import NO_MEMORY, used_memory
 from rebsync.checker.orbits import Orbits
 from rebsync.checker.program import NO_DEADLINE, Program
 from rebsync.checker.reduction import PersistentSets
@@ -36,7 +36,6 @@ from rebsync.checker.symmetry import Symmetry
 from rebsync.checker.views import view_of
 
 PAUSED = "paused"
-NO_MEMORY = "there was no more memory"
 FIRST = "the search was stopped at the first violation: --all looks for all"
 _SLICE = 0.05  # seconds between two looks at the bounds
 
@@ -176,11 +175,7 @@ class Interpreted:
                     violations=kinds_of(self._events, limits.faults),
                 )
             )
-        if over := limits.out_of_time(seconds):
-            return over
-        if limits.memory is not None and memory >= limits.memory:
-            return f"the bound of {limits.memory} bytes of memory was reached"
-        return None
+        return limits.out_of_time(seconds) or limits.out_of_memory(memory)
 
     def _expand(self, number: int, limits: Limits) -> None:
         steps = self.view.steps(self.states[number])

@@ -50,5 +50,5 @@ class Watch:
         self()
 
     def _check(self, memory: int) -> None:
-        if self.limits.memory is not None and memory >= self.limits.memory:
-            raise Stopped(f"the bound of {self.limits.memory} bytes of memory was reached")
+        if over := self.limits.out_of_memory(memory):
+            raise Stopped(over)

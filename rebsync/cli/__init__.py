@@ -24,10 +24,25 @@ _ending: list[int] = []  # the signals so far that were to end this process
 _AGAIN = 2.0  # seconds after which a signal that did not end the process is repeated
 
 
-@click.command(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.command(
+    cls=LazyGroup,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    invoke_without_command=True,
+)
 @click.version_option(__version__, "-V", "--version", message="%(prog)s %(version)s")
-def rebsync() -> None:
-    """Keeps verified Timed Rebeca models and the ROS code made from them in step."""
+@click.pass_context
+def rebsync(ctx: click.Context) -> Status | None:
+    """Keeps verified Timed Rebeca models and the ROS code made from them in step.
+
+    \b
+    To begin:  rebsync examples . hello
+               rebsync verify hello --allow deadlock
+    More of a command:  rebsync COMMAND --help
+    """
+    if ctx.invoked_subcommand is not None:
+        return None
+    click.echo(ctx.get_help(), err=True)
+    return Status.UNUSABLE
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -16,7 +16,9 @@ from rebsync.cli.status import Status
 def command(ctx: click.Context, /, shell: str) -> Status:
     """Print the script that completes `rebsync` in a shell.
 
-    For bash: rebsync completion bash > ~/.local/share/bash-completion/completions/rebsync
+    \b
+    For bash, once:
+    rebsync completion bash > ~/.local/share/bash-completion/completions/rebsync
     """
     kind = get_completion_class(shell)
     assert kind is not None

@@ -32,13 +32,24 @@ _SHOWN = (Action.CREATE, Action.UPDATE, Action.MERGE, Action.DELETE)
 
 @click.command("generate")
 @click.argument("model", metavar="MODEL")
-@click.option("-o", "--output", default=".", metavar="DIR", help="Where the package's folder goes.")
-@click.option("--target", type=click.Choice(TARGETS), help="The dialect of the generated code.")
+@click.option(
+    "-o",
+    "--output",
+    default=".",
+    metavar="DIR",
+    help="Where the package's folder goes (default: here).",
+)
+@click.option(
+    "--target",
+    type=click.Choice(TARGETS),
+    help="The dialect of the code (default: that of the settings, else ros1-cpp).",
+)
 @click.option("--monitor", is_flag=True, help="A node that compares a run with the model as well.")
 @click.option(
     "--runtime",
     type=click.Choice(("own", "package")),
-    help="Where the run-time part is: in the package, or in `rebsync_runtime` beside it.",
+    help="Where the run-time part is: in the package, or in `rebsync_runtime` beside it (default: "
+    "that of the settings, else own).",
 )
 @click.option("--list", "only_list", is_flag=True, help="List the files; write nothing.")
 @click.option("--diff", "only_diff", is_flag=True, help="Show what would change; write nothing.")

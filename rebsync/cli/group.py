@@ -9,30 +9,41 @@ import click
 
 from rebsync.diagnostics import did_you_mean
 
-COMMANDS = {
-    "accept": "Accept places of which no verdict can be given.",
-    "ask": "Answer a question about what the nodes of a package do.",
-    "check": "Tell whether packages and their models are in step.",
-    "completion": "Print the script that completes commands and options in a shell.",
-    "conform": "Tell whether a recorded run is a run of the model.",
-    "diff": "Compare two models, packages of code, or revisions of either.",
-    "doctor": "Tell which programs and libraries are found, and what each is for.",
-    "examples": "Write the examples to a directory.",
-    "export": "Print a model in the form that another tool accepts.",
-    "extract": "Read the code of a package back into a model.",
-    "fmt": "Bring models into the canonical layout.",
-    "generate": "Write the ROS package of a model.",
-    "graph": "Draw the computation graph of packages, and tell what is wrong in it.",
-    "init": "Set a repository up, and tell what it has of models and packages.",
-    "lint": "Report mistakes in models and properties.",
-    "lsp": "Serve editors: diagnostics, navigation, renaming, completion.",
-    "monitor": "Write the node that compares a run of a system with its model.",
-    "new": "Begin a model from a conceptual model in TOML.",
-    "simulate": "Make one run of a model, by chance or by hand.",
-    "sync": "Bring packages and their models in step.",
-    "verify": "Check everything that can go wrong in a model, and its properties.",
-    "watch": "Lint, check and verify what has changed, as files are saved.",
+GROUPS = {
+    "Models": {
+        "new": "Begin a model from a list of robots, what they do, and what they sense.",
+        "lint": "Report mistakes in models and properties.",
+        "fmt": "Bring models into the canonical layout.",
+        "verify": "Check everything that can go wrong in a model, and its properties.",
+        "simulate": "Make one run of a model, by chance or by hand.",
+        "export": "Print a model in the form that another tool accepts.",
+    },
+    "Models and their ROS packages": {
+        "generate": "Write the ROS package of a model.",
+        "check": "Tell whether packages and their models are in step.",
+        "sync": "Bring packages and their models in step.",
+        "diff": "Compare two models, packages of code, or revisions of either.",
+        "extract": "Read the code of packages back into models.",
+        "accept": "Say of a place that check cannot decide that it is as it is to be.",
+    },
+    "ROS packages that people wrote": {
+        "ask": "Answer a question about what the nodes of a package do.",
+        "graph": "Draw the computation graph of packages, and tell what is wrong in it.",
+    },
+    "Systems that run, or ran": {
+        "conform": "Tell whether a recorded run is a run of the model.",
+        "monitor": "Write the node that compares a run of a system with its model.",
+    },
+    "Around your work": {
+        "examples": "Write the examples, each with its package, to a directory.",
+        "init": "Set a repository up, and tell what it has of models and packages.",
+        "watch": "Lint, check and verify what has changed, as files are saved.",
+        "lsp": "Serve editors: diagnostics, navigation, renaming, completion.",
+        "doctor": "Tell which programs and libraries are found, and what each is for.",
+        "completion": "Print the script that completes commands and options in a shell.",
+    },
 }
+COMMANDS = {name: about for group in GROUPS.values() for name, about in group.items()}
 
 
 COMPLETING = "_REBSYNC_COMPLETE"  # the variable by which a shell asks for what may follow
@@ -51,7 +62,7 @@ class LazyGroup(click.Group):
     """A group that knows its commands without having loaded them."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        return list(COMMANDS)
+        return sorted(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
@@ -71,5 +82,7 @@ class LazyGroup(click.Group):
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+        width = max(map(len, COMMANDS))
+        for title, group in GROUPS.items():
+            with formatter.section(title):
+                formatter.write_dl([(name.ljust(width), about) for name, about in group.items()])

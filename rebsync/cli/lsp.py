@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 from importlib.util import find_spec
 
 import click
@@ -23,6 +22,5 @@ def command() -> Status:
         raise RebsyncError.of("pygls", "RS816", "the language server needs this library", hint)
     from rebsync.lsp.server import serve
 
-    gc.enable()  # a server lives long
     serve()
     return Status.CLEAN

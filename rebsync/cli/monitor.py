@@ -24,7 +24,11 @@ from rebsync.writing import replace_tree
 @click.command("monitor")
 @click.argument("model", metavar="MODEL")
 @click.option("-o", "--output", default=".", metavar="DIR", help="Where the package's folder is.")
-@click.option("--target", type=click.Choice(TARGETS), help="The dialect of the generated code.")
+@click.option(
+    "--target",
+    type=click.Choice(TARGETS),
+    help="The dialect of the code (default: that of the settings, else ros1-cpp).",
+)
 @click.option("--list", "only_list", is_flag=True, help="List the files; write nothing.")
 @click.option("--force", is_flag=True, help="Overwrite files that are there and differ.")
 def command(model: str, output: str, target: str | None, only_list: bool, force: bool) -> Status:

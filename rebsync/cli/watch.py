@@ -37,7 +37,11 @@ _SAID = {0: "all is well", 1: "findings", 3: "violated", 4: "undetermined"}
 @click.argument("directory", metavar="[DIR]", default=".")
 @click.option("--verify", is_flag=True, help="Verify models, and code that was edited, as well.")
 @click.option(
-    "--max-time", callback=duration, default="60s", metavar="TIME", help="Of each search (60s)."
+    "--max-time",
+    callback=duration,
+    default="60s",
+    metavar="TIME",
+    help="Bound of each search (default: 60s).",
 )
 @click.option("--page", metavar="DIR", help="Write a page there that shows all of it.")
 def command(directory: str, verify: bool, max_time: float, page: str | None) -> Status:

@@ -9,7 +9,6 @@ from lsprotocol import types as lsp
 
 from rebsync import model as m
 from rebsync.lsp.document import Document, ModelDocument
-from rebsync.source import Span
 
 _Type, _Modifier = lsp.SemanticTokenTypes, lsp.SemanticTokenModifiers
 _TYPES = {
@@ -25,7 +24,8 @@ _TYPES = {
     "property": _Type.Function,
 }
 _CONSTANTS = ("env", "define")
-_ANNOTATION = re.compile(r"@[\w$]*")
+# Comments and texts, in which an annotation is none.
+_ANNOTATION = re.compile(r'//[^\n]*|/\*.*?(?:\*/|\Z)|"(?:[^"\\\n]|\\.)*"|(@[\w$]*)', re.DOTALL)
 LEGEND = lsp.SemanticTokensLegend(
     [t.value for t in (*dict.fromkeys(_TYPES.values()), _Type.Parameter, _Type.Decorator)],
     [_Modifier.Declaration.value, _Modifier.Readonly.value],
@@ -56,7 +56,7 @@ def _utf16(text: str) -> int:
 def _names(document: Document) -> dict[int, tuple[int, str, int]]:
     """By the offset in the text where a name begins: its end, its type, its modifiers as bits."""
     to_text = document.layout.to_text
-    found = {to_text(s.start): (to_text(s.end), _Type.Decorator, 0) for s in _annotations(document)}
+    found = {start: (end, _Type.Decorator, 0) for start, end in _annotations(document)}
     parameters = {o.entity for o in document.occurrences if isinstance(o.declares, m.Parameter)}
     for each in document.occurrences:
         type_ = _Type.Parameter if each.entity in parameters else _TYPES[each.entity.kind]
@@ -65,12 +65,9 @@ def _names(document: Document) -> dict[int, tuple[int, str, int]]:
     return {start: name for start, name in found.items() if start < name[0]}
 
 
-def _annotations(document: Document) -> Iterator[Span]:
-    """The annotations of a model, without what is in parentheses behind them."""
-    if not isinstance(document, ModelDocument):
-        return
-    for node in m.walk(document.parts.whole.model):
-        if isinstance(node, m.Annotation):
-            sign = _ANNOTATION.match(document.slice(node.span))
-            if sign is not None:
-                yield Span(node.span.start, node.span.start + sign.end())
+def _annotations(document: Document) -> Iterator[tuple[int, int]]:
+    """Where the annotations of a model stand, without what is in parentheses behind them."""
+    if isinstance(document, ModelDocument):
+        for sign in _ANNOTATION.finditer(document.source.text):
+            if sign[1]:
+                yield sign.span(1)

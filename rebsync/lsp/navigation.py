@@ -11,6 +11,8 @@ from rebsync import properties as p
 from rebsync.lsp.document import Document, ModelDocument, PropertyDocument
 from rebsync.lsp.occurrences import Entity, Occurrence
 from rebsync.lsp.outline import parameters
+from rebsync.lsp.words import remark_of, word_at
+from rebsync.source import Span
 from rebsync.static import Analysis
 from rebsync.static.symbols import BuiltinFunctionSymbol, BuiltinSymbol
 
@@ -77,11 +79,16 @@ def hover(document: Document, position: lsp.Position) -> lsp.Hover | None:
     """What the name at a place is."""
     found = entity_at(document, position)
     if found is None:
-        return _hover_of_builtin(document, position)
+        return _hover_of_builtin(document, position) or _hover_of_word(document, position)
     analysis = _analysis(document)
-    lines = ["```rebeca", _declaration(found, document, analysis), "```"]
+    of, declared = _declared(found, document)
+    lines = ["```rebeca", _declaration(declared, found.entity, analysis), "```"]
     if found.entity.owner and found.entity.kind != "local":
         lines.append(f"of `{found.entity.owner}`")
+    if found.entity.kind != "local":
+        start = of.layout.to_text(declared.span.start)
+        if remark := remark_of(of.source.text, start):
+            lines += ["", remark]
     return _told("\n".join(lines), document.range(found.span))
 
 
@@ -99,6 +106,16 @@ def _hover_of_builtin(document: Document, position: lsp.Position) -> lsp.Hover |
     return None
 
 
+def _hover_of_word(document: Document, position: lsp.Position) -> lsp.Hover | None:
+    if not isinstance(document, ModelDocument):
+        return None
+    found = word_at(document.source.text, document.layout.to_text(document.offset(position)))
+    if found is None:
+        return None
+    start, end, meaning = found
+    return _told(meaning, document.text_range(Span(start, end)))
+
+
 def _told(text: str, place: lsp.Range) -> lsp.Hover:
     return lsp.Hover(lsp.MarkupContent(lsp.MarkupKind.Markdown, text), place)
 
@@ -109,11 +126,15 @@ def _analysis(document: Document) -> Analysis | None:
     return document.model.analysis if document.model is not None else None
 
 
-def _declaration(found: Occurrence, document: Document, analysis: Analysis | None) -> str:
-    entity = found.entity
+def _declared(found: Occurrence, document: Document) -> tuple[Document, Occurrence]:
+    """The declaration of what is found in a document, or else that again."""
     model = document if isinstance(document, ModelDocument) else document.model
     documents = documents_of(document, ()) if model is None else [document, model]
-    declared = next((o for _, o in places(documents, entity) if o.declares is not None), found)
+    every = places(documents, found.entity)
+    return next(((d, o) for d, o in every if o.declares is not None), (document, found))
+
+
+def _declaration(declared: Occurrence, entity: Entity, analysis: Analysis | None) -> str:
     match declared.declares:
         case m.MessageServer() as server:
             return f"msgsrv {server.name}{parameters(server)}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import sys
 from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
@@ -40,7 +41,9 @@ from rebsync.lsp.verdicts import VERDICTS, verdict_hints
 from rebsync.lsp.workspace import Documents
 from rebsync.roundtrip.package.managed import ManagedPackage
 
+_NEVER = 1_000_000  # collections of younger objects before one of all
 DELAY = 0.15  # seconds without a keystroke before diagnostics are sent
+REST = 3.0  # seconds without a keystroke after which memory is looked through
 LONG_DELAY = 1.0  # the same for those of a text with errors of syntax, read as a whole
 
 
@@ -67,6 +70,7 @@ class RebsyncServer(LanguageServer):
         super().__init__("rebsync", __version__, protocol_cls=_Protocol)
         self.documents = Documents(self.open_text)
         self.waiting: dict[str, asyncio.TimerHandle] = {}
+        self.resting: asyncio.TimerHandle | None = None
         self.outlines: dict[str, list[lsp.DocumentSymbol]] = {}
         self.drifts: dict[str, PackageDrift] = {}
         self.packages_by_model: dict[str, list[ManagedPackage]] = {}
@@ -82,6 +86,13 @@ class RebsyncServer(LanguageServer):
             waiting.cancel()
         loop = asyncio.get_running_loop()
         self.waiting[uri] = loop.call_later(delay, lambda: self.publish(uri, exact=exact))
+        self.rest_soon()
+
+    def rest_soon(self) -> None:
+        """Looks for memory that is free when nothing has been typed for a while."""
+        if self.resting is not None:
+            self.resting.cancel()
+        self.resting = asyncio.get_running_loop().call_later(REST, gc.collect)
 
     def publish(self, uri: str, *, exact: bool = False) -> None:
         """Sends the diagnostics of a document, and of the properties of a model."""
@@ -135,7 +146,14 @@ server = RebsyncServer()
 
 
 def serve() -> None:
-    """Answers until the editor says that it ends."""
+    """Answers until the editor says that it ends.
+
+    To look through all memory takes as long as to answer: it is done while nobody types.
+    """
+    gc.enable()
+    gc.freeze()
+    young, middle, _ = gc.get_threshold()
+    gc.set_threshold(young, middle, _NEVER)
     server.start_io()
 
 

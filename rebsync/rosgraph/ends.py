@@ -59,7 +59,8 @@ OTHER_END = {
 class End:
     """One end of a topic, service or action, as the code has it; `within` is the class around it.
 
-    `policies` are None where there is no quality of service, or it is not of a topic.
+    `policies` are None where there is no quality of service, or it is not of a topic. One that
+    `is_lone` is there whether anybody has the other end or not.
     """
 
     role: Role
@@ -69,6 +70,7 @@ class End:
     within: str | None = None
     policies: Policies | None = None
     transport: str | None = None
+    is_lone: bool = False
 
 
 @dataclass(frozen=True, slots=True)

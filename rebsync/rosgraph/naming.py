@@ -12,6 +12,7 @@ from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.unknowns import Open, Text
 
+OWN_NAME = "{name}"  # stands for the last part of the name of the node itself in a name
 _BY_PARAMETER = "the parameter that it comes from is not known"
 
 
@@ -68,7 +69,9 @@ class Naming:
         """The absolute name that the code means."""
         namespace: Text = self.launched.namespace if self.launched is not None else "/"
         own: Text = self.own if self.own is not None else Open("the name of its node is not known")
-        return resolve(name, namespace, own)
+        if OWN_NAME in name and self.own is not None:
+            name = name.replace(OWN_NAME, self.own.rpartition("/")[2])
+        return own if OWN_NAME in name else resolve(name, namespace, own)
 
     # --- values -------------------------------------------------------------------------------
 

@@ -197,4 +197,13 @@
     if (e.key === "Escape") clear();
   });
   group("package");
+  // What would be too small to read begins at its leftmost box; 0 shows all of it.
+  const most = 1.4; // units of the drawing in a pixel
+  if (boxes.length && scale() > most) {
+    const spots = boxes.map((box) => box.getBoundingClientRect()).sort((a, b) => a.left - b.left);
+    const frame = canvas.getScreenCTM().inverse();
+    const y = (spots[0].top + spots[0].bottom) / 2 * frame.d + frame.f;
+    const width = canvas.clientWidth * most, height = canvas.clientHeight * most;
+    show({ x: all.x, y: y - height / 2, width, height });
+  }
 })();

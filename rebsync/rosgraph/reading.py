@@ -14,6 +14,7 @@ from rebsync.reverse.files.reading import Chosen
 from rebsync.reverse.findings import Grade
 from rebsync.rosgraph.cpp_code import nodes_in_cpp
 from rebsync.rosgraph.ends import NodeCode, PackageCode
+from rebsync.rosgraph.generated import with_mailboxes
 from rebsync.rosgraph.python_code import nodes_in_python
 from rebsync.source import Source
 
@@ -37,7 +38,8 @@ def read_package(given: Chosen) -> PackageCode:
     settings = {p: s for p, s in files.items() if p.endswith(_SETTINGS) or is_launch(p)}
     odd = tuple((f.source.path, f.why) for f in given.findings if f.grade is Grade.UNREADABLE)
     types = frozenset(Path(p).stem for p in given.files if p.endswith(_INTERFACES))
-    nodes = tuple(_without_loose(list(_nodes(files, name)), is_whole=not odd))
+    read = with_mailboxes(list(_nodes(files, name)), given.files, name)
+    nodes = tuple(_without_loose(list(read), is_whole=not odd))
     return PackageCode(name, given.root, nodes, settings, types, odd)
 
 

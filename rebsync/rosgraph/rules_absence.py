@@ -80,7 +80,7 @@ def nobody(known: Evidence) -> Iterator[GraphFinding]:
     slipped = {(each.channel, each.name) for pair in _pairs(every) for each in pair}
     unread = sum(not node.is_read for node in known.graph.nodes)
     for each in every:
-        if (each.channel, each.name) in slipped:
+        if (each.channel, each.name) in slipped or all(e.end.is_lone for _, e in each.held):
             continue
         code, does, what = _MISSING[each.role]
         end = next(end for _, end in each.held if end.certain)

@@ -25,6 +25,7 @@ _HARMLESS = re.compile(
 )
 _WAYS = {"if_statement": "consequence", "while_statement": "body"}
 _AND, _OR = ("&&", "and"), ("||", "or")
+_CONDITIONAL_LOG = re.compile(r"[A-Z0-9_]+_(?:COND|EXPRESSION)(?:_[A-Z0-9_]+)?")
 _LEAVING = ("return", "break", "continue", "throw")
 
 
@@ -67,6 +68,12 @@ def is_asked(node: Node, optional: str, question: Question = Question.VALUE) -> 
 def _says(at: Node, below: Node, name: str, question: Question) -> Node | None:
     """What says that there is a value, in a condition that holds wherever what is below runs."""
     condition = None
+    if at.type == "argument_list" and at.parent is not None:
+        function = at.parent.child_by_field_name("function")
+        is_log = function is not None and _CONDITIONAL_LOG.fullmatch(text_of(function)) is not None
+        before = [n for n in named(at)[:2] if n.end_byte <= below.start_byte] if is_log else []
+        found = (_one_of(n, _AND, question.says(name, True)) for n in before)
+        return next((n for n in found if n is not None), None)
     if at.type == "conditional_expression" and at.child_by_field_name("alternative") == below:
         no = question.says(name, False)
         return _one_of(at.child_by_field_name("condition"), _OR, no)

@@ -44,6 +44,7 @@ _FLAG = re.compile(
 )
 _HEADERS = tuple(sorted(HEADERS))
 _WRITING = frozenset({"add_custom_command", "configure_file", "file"})
+_JOINED = frozenset({"UNITY_BUILD", "CMAKE_UNITY_BUILD", "PRECOMPILE_HEADERS"})
 _PRECOMPILED = "target_precompile_headers"
 _NOT_READ = "the macros that this sets for code of C++"
 
@@ -65,6 +66,8 @@ class CompilerSettings:
             return
         if name == _PRECOMPILED and not all(w.startswith("<") for w in _headers(call.words)):
             self._odd(call, "headers of the package stand before each file")
+        if not _JOINED.isdisjoint(call.words):
+            self._odd(call, "other files stand before each file")
         self._options(call)
         self._definitions(call, _defining(call))
 

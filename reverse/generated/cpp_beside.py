@@ -16,7 +16,9 @@ from rebsync.reverse.bodies.effects.cpp_effects import Effects
 from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import Called, Inline, Outside, Scope, Variable, meant_by
 from rebsync.reverse.findings import Unread
+from rebsync.reverse.generated.cpp_dead import is_own_parameter
 from rebsync.reverse.generated.cpp_names import declared_type
+from rebsync.reverse.generated.cpp_parameters import deciding_parameter
 from rebsync.reverse.generated.cpp_roles import parameters_of
 from rebsync.reverse.generated.cpp_shown import OFFERS, is_free
 from rebsync.reverse.generated.cpp_timers import MAKES, makes
@@ -102,17 +104,33 @@ class Beside:
         handed = [n for n in inside(statement, *_HANDS) if n.id not in made]
         if any(map(_hands_on, handed)):
             return False
-        if any(c.name.rpartition("::")[2] in _REGISTERS for c in calls_in(statement)):
+        if any(self._registers(c) for c in calls_in(statement)):
             return False
         if any(name in self.scope.members or name == _GLOBAL for name in _declared(statement)):
             return False  # what follows means the local by it
         before = set(self.effects.inner)
         try:
-            self.effects.check(statement)
+            for each in self._decided(statement):
+                self.effects.check(each)
         except Unread:
             self.effects.inner = before
             return False
         return True
+
+    def _decided(self, statement: Node) -> list[Node]:
+        """The branches of an `if` that asks for a parameter of people; else the statement."""
+        if deciding_parameter(self.code, self.function, statement) is None:
+            return [statement]
+        ways = [part(statement, "consequence"), statement.child_by_field_name("alternative")]
+        return [way for way in ways if way is not None]
+
+    def _registers(self, call: CppCall) -> bool:
+        """Whether a call makes something of ROS, or gets what the model's parameters say."""
+        if call.name not in READS:
+            return call.name.rpartition("::")[2] in _REGISTERS
+        keys = [n for cpp in self.code.files for n in inside(cpp.root, "string_literal")]
+        is_once = [squeezed(n) for n in keys].count(squeezed(call.arguments[0])) == 1
+        return not (is_once and is_own_parameter(call.node))
 
     def _calls_back(self, statement: Node) -> bool:
         """Whether it offers a service, or has set parameters looked at, and keeps what it gets."""

@@ -124,11 +124,7 @@ class _DeadStores:
 
     def has(self, around: list[Node], known: Collection[int]) -> bool:
         """Whether a place, which `around` begins with, is in such a statement, or declares one."""
-        if any(map(_is_of_state, around)):
-            return False
-        return any(
-            n.id in known or is_logging(n) or _fills(n) or self._is_silent(n) for n in around
-        )
+        return any(n.id in known or is_logging(n) or self._is_silent(n) for n in around)
 
     def read_by(self, name: str, around: list[Node]) -> Iterator[str]:
         """The dead member itself, where it decides what is told, or is stored in another one."""
@@ -141,7 +137,7 @@ class _DeadStores:
     def _is_silent(self, node: Node) -> bool:
         match node.type:
             case "expression_statement" if named(node):
-                return is_logging(node) or _fills(node) or self._stores(named(node)[0])
+                return is_logging(node) or _fills_for_people(node) or self._stores(named(node)[0])
             case "if_statement":
                 ways = [part(node, "consequence")]
                 if (other := node.child_by_field_name("alternative")) is not None:
@@ -174,7 +170,7 @@ class _DeadStores:
                     return False
                 operator = text_of(part(node, "operator"))
                 is_cut = operator in ("/=", "%=") and _root(node) not in self._floating
-                return not is_cut and (self._is_pure(value) or _is_own_parameter(value))
+                return not is_cut and (self._is_pure(value) or is_own_parameter(value))
             case "call_expression":
                 call = call_of(node)
                 if call is None or call.target is None or not self._is_dead(call.target):
@@ -183,6 +179,10 @@ class _DeadStores:
                     return False
                 return all(map(self._is_pure, call.arguments))
         return False
+
+    def _counts(self, act: Node) -> bool:
+        """Whether a dead member is counted up or down."""
+        return act.type == "update_expression" and self._is_dead(part(act, "argument"))
 
     def _is_dead(self, place: Node) -> bool:
         is_place = place.type in _PLACES or self._is_element(place)
@@ -196,9 +196,13 @@ class _DeadStores:
         return index.isdecimal() and int(index) < self._sizes.get(_name_of(place), 0)
 
     def _is_pure(self, node: Node) -> bool:
-        """Whether to evaluate something changes nothing, and cannot fail."""
-        if inside(node, *_ACTS) or inside(node, "pointer_expression"):
+        """Whether to evaluate something changes nothing of the model, and cannot fail."""
+        acts = list(inside(node, *_ACTS))
+        if inside(node, "pointer_expression") or not all(map(self._counts, acts)):
             return False
+        words = [text_of(n) for n in inside(node, "identifier", "field_identifier")]
+        if any(words.count(_root(act)) > 1 for act in acts):
+            return False  # what is stored and read in one expression has no order
         if not all(map(self._is_element, inside(node, "subscript_expression"))):
             return False
         return not divides(node, self._floating) and all(map(_is_pure_call, calls_in(node)))
@@ -222,6 +226,8 @@ def divides(node: Node, floating: Collection[str]) -> bool:
             continue
         words = {text_of(n) for n in inside(each, "identifier", "field_identifier")}
         sides = [text_of(part(each, side)) for side in ("left", "right")]
+        if sides[1].isdecimal() and int(sides[1]) > 0:
+            continue
         if words.isdisjoint(floating) and not any(map(_FLOATING.search, sides)):
             return True
     return False
@@ -236,7 +242,7 @@ def _is_pure_call(call: CppCall) -> bool:
     return (call.name.startswith("std::") and is_known(call)) or call.name.startswith("static_cast")
 
 
-def _is_own_parameter(value: Node) -> bool:
+def is_own_parameter(value: Node) -> bool:
     """Whether a value is that of a parameter that is none of the model."""
     call = call_of(value)
     if call is None or call.name not in READS or not call.arguments:
@@ -244,6 +250,11 @@ def _is_own_parameter(value: Node) -> bool:
     key = string_of(call.arguments[0])
     is_own = key is not None and constant_of_model(key) is None and known_rebec(key) is None
     return is_own and call.on != "global" and not list(calls_in(part(call.node, "arguments")))
+
+
+def _fills_for_people(statement: Node) -> bool:
+    """Whether a field of a message is filled that does not tell the state of the model."""
+    return _fills(statement) and not any(map(_is_of_state, ancestors(statement)))
 
 
 def _is_of_state(node: Node) -> bool:

@@ -82,6 +82,24 @@ def own_parameters(code: Code, owner: CppClass) -> tuple[dict[str, OwnParameter]
     return own, {r.statement.id for r in reads if r.member in own}
 
 
+def deciding_parameter(
+    code: Code, constructor: CppFunction, statement: Node
+) -> OwnParameter | None:
+    """The parameter that is all that an `if` of a constructor asks for, or for its opposite."""
+    if statement.type != "if_statement":
+        return None
+    asked = part(statement, "condition")
+    while len(named(asked)) == 1 and (asked.type.endswith("clause") or _is_negated(asked)):
+        asked = named(asked)[0]
+    reader = _ParameterReader(code, constructor, {}, {})
+    found = [r.parameter for r in reader.assigned("", asked, statement) if r.constant is None]
+    return found[0] if found else None
+
+
+def _is_negated(node: Node) -> bool:
+    return node.type == "unary_expression" and text_of(node).startswith("!")
+
+
 def constants_read(
     code: Code, owner: CppClass, constructor: CppFunction
 ) -> Iterator[tuple[str, str, Node, int]]:

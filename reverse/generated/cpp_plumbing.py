@@ -40,6 +40,7 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
 _SETS_UP = SETS_UP | {"advertise", "advertiseAll", "unused"}
 _LOST = "no subscription takes this in: the class only sends it to itself"
+_LATE = "messages may be served by now: set this up before mailbox_.construct(...)"
 _NOTHING = "what this looks at may not be there, and the node may end"
 _STARTING = frozenset({"construct", "start"})
 _ONCE = frozenset({"construct", "onServed", "start"})
@@ -161,8 +162,9 @@ def _odd_in(
     elif name == "construct" and not _is_constructed(code, owner):
         odd = (function.node,)
         why = "no constructor has this run"
+    begun = _begun(function) if name == owner.name else ()
     for node in odd:
-        yield node, _LOST if node.id in roles.lost else why
+        yield node, _LOST if node.id in roles.lost else _LATE if node.id in begun else why
 
 
 def _odd_priority(code: Code, function: CppFunction, lineage: Sequence[Roles]) -> Node | None:
@@ -230,6 +232,16 @@ def _odd_in_constructor(
         waiting.discard(given)
         if not prepares and not _sets_up(statement, function, roles, timers, variables):
             yield statement
+
+
+def _begun(constructor: CppFunction) -> frozenset[int]:
+    """The statements after the one with which messages begin to be served."""
+    statements = list(working(constructor.body))
+    starts = (
+        any(c.name in _STARTING and c.on == "mailbox_" for c in calls_in(s)) for s in statements
+    )
+    first = next((i for i, starting in enumerate(starts) if starting), len(statements))
+    return frozenset(each.id for each in statements[first + 1 :])
 
 
 def _changes_more(statement: Node) -> bool:

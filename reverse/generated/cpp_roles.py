@@ -20,7 +20,11 @@ from rebsync.reverse.bodies.scope import Sends
 from rebsync.reverse.generated.cpp_dead import dead_members
 from rebsync.reverse.generated.cpp_descriptors import priority_of, server_of, tells_priority
 from rebsync.reverse.generated.cpp_idle import working
-from rebsync.reverse.generated.cpp_parameters import constants_read, own_parameters
+from rebsync.reverse.generated.cpp_parameters import (
+    constants_read,
+    deciding_parameter,
+    own_parameters,
+)
 from rebsync.reverse.generated.cpp_queues import queue_length
 from rebsync.reverse.generated.cpp_silent import only_logged
 from rebsync.reverse.generated.own_parameters import OwnParameter
@@ -162,6 +166,9 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
     roles.own = {n: p for n, p in roles.own.items() if n not in roles.silent}
     for constructor in (*owner.functions, *functions):
         if constructor.name == owner.name:
+            for asking in named(constructor.body) if constructor.body is not None else ():
+                told = deciding_parameter(code, constructor, asking)
+                roles.told += [told] if told is not None else []
             roles.queue_length = queue_length(code, constructor) or roles.queue_length
     for function in functions:
         for call in code.calls_of(function) if _says(function, b"receive") else ():

@@ -71,9 +71,9 @@ def is_free(code: Code, topic: Node) -> bool:
 
 
 def topic_of(call: CppCall) -> str:
-    """The name, alone, of the topic that a call offers; empty if it has more of one."""
+    """The last name of the topic that a call offers; empty for what is none."""
     place, name = _split(call)
-    return name if place is not None and place in ("", "~/") else ""
+    return name if place is not None else ""
 
 
 def is_plain(call: CppCall) -> bool:

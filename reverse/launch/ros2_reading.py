@@ -16,6 +16,7 @@ from rebsync.reverse.launch.launched import (
     LaunchedRemap,
 )
 from rebsync.reverse.launch.parameter_sections import of_node
+from rebsync.reverse.launch.parameters import Parameter
 from rebsync.reverse.launch.ros2_actions import (
     Action,
     CommandAction,
@@ -66,6 +67,7 @@ class Reader:
     commands: list[LaunchedCommand] = field(default_factory=list)
     unknowns: list[Unknown] = field(default_factory=list)
     _parameters: Ros2Parameters = field(init=False)
+    _common_to_others: dict[str, Parameter] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._parameters = Ros2Parameters(self._at, self.unknowns)
@@ -78,7 +80,7 @@ class Reader:
             self._parameters.of_nobody(scope)
         return Launch(
             tuple(self.nodes),
-            tuple(self._parameters.common.values()),
+            tuple((self._parameters.common or self._common_to_others).values()),
             tuple(self.unknowns),
             (source, *self._parameters.files.values()),
             tuple(self.commands),
@@ -172,7 +174,12 @@ class Reader:
         program = _given(start.type, "the program of a node", scope)
         words = _command_line(start, scope)
         own = join(namespace, name)
+        common = dict(self._parameters.common)
         sections = self._parameters.of_node(start, words, own, scope)
+        if isinstance(package, str) and package != self.package:
+            # what only a program of others is given, nodes of this package are not
+            self._common_to_others |= self._parameters.common
+            self._parameters.common = common
         if isinstance(words, RosArguments):  # they stand before what launch_ros adds
             name, namespace = words.name or name, as_namespace(words.namespace or namespace)
         return LaunchedNode(

@@ -26,6 +26,7 @@ _LINKS = frozenset({"add_link_options", "target_link_options"})
 _COMMAND = "COMMAND"
 _CHANGING = frozenset(
     {"configure_file", "add_custom_command", "link_libraries", "add_link_options"}
+    | {"target_precompile_headers", "link_directories", "target_link_directories"}
     | {"target_link_options", "cmake_language", "write_file", "exec_program"}
 )
 _LINKING = frozenset(
@@ -36,6 +37,20 @@ _LINKING = frozenset(
 _STEERING = re.compile(
     r".*_LAUNCHER|RULE_LAUNCH_\w+|CMAKE_\w+_COMPILE(?:R|_OBJECT)|LANGUAGE|HEADER_FILE_ONLY"
     r"|EXTERNAL_OBJECT|GENERATED|EXCLUDE_FROM_ALL|(?:\w+_)?INCLUDE_DIRECTORIES"
+    r"|CMAKE_(?:UNITY_BUILD\w*|PRECOMPILE_HEADERS|LINK_\w+|MODULE_PATH|PREFIX_PATH|FIND_\w+|AUTO\w+)"
+)
+# Properties of targets, and variables that these get them from, that change nothing of what is run.
+_CALM_PROPERTY = re.compile(
+    r"(?:CMAKE_)?(?:OUTPUT_NAME|PREFIX|SUFFIX|(?:SO)?VERSION|POSITION_INDEPENDENT_CODE|\w*_POSTFIX|FOLDER"
+    r"|(?:ARCHIVE|LIBRARY|RUNTIME|PDB)_OUTPUT_(?:DIRECTORY|NAME)(?:_\w+)?|\w*RPATH\w*|LABELS"
+    r"|EXPORT_(?:NAME|COMPILE_COMMANDS)|CXX_(?:CLANG_TIDY|CPPCHECK|CPPLINT|INCLUDE_WHAT_YOU_USE)"
+    r"|LINK_WHAT_YOU_USE|INTERPROCEDURAL_OPTIMIZATION(?:_\w+)?|CXX_(?:STANDARD|STANDARD_REQUIRED"
+    r"|EXTENSIONS)|COMPILE_(?:OPTIONS|FLAGS|DEFINITIONS|WARNING_AS_ERROR)|USE_FOLDERS|TIMEOUT"
+    r"|ENVIRONMENT|WORKING_DIRECTORY|DEPENDS|DISABLED|WILL_FAIL|RUN_SERIAL|PROCESSORS)"
+)
+_WITH_PROPERTIES = frozenset(
+    {"set_target_properties", "set_source_files_properties", "set_directory_properties"}
+    | {"set_property"}
 )
 _LAUNCHING = re.compile(r"CMAKE_C(?:XX)?_COMPILER_LAUNCHER|RULE_LAUNCH_COMPILE")
 _CACHES = frozenset({"ccache", "sccache"})
@@ -67,14 +82,16 @@ _PROGRAMS, _SHARED = "${CATKIN_PACKAGE_BIN_DESTINATION}", "${CATKIN_PACKAGE_SHAR
 
 def facts_of_build(source: Source) -> Iterator[Fact]:
     """The facts of a file; values say under which conditions the commands are."""
-    commands = list(_commands(read_cmake(source).items))
+    items = read_cmake(source).items
+    as_written = list(_commands(items))
+    commands = list(_commands(items, ConstantLists(as_written, _sets_what_it_names)))
     names = dict(filter(None, (_named(command) for command, _ in commands)))
     adding = (c for c, _ in commands if c.name == "add_library" and c.arguments)
     libraries = frozenset(command.arguments[0].text for command in adding)
     own = {argument.text for command, _ in commands for argument in command.arguments}
     projects = (c.arguments[0].text for c, _ in commands if c.name == "project" and c.arguments)
     project = next(projects, "")
-    lists = ConstantLists(commands, _sets_what_it_names)
+    lists = ConstantLists(as_written, _sets_what_it_names)
     caches = {*_CACHES, *_found_caches(commands)}
     for command, condition in commands:
         lists.passed(command, condition)
@@ -93,19 +110,29 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
 _Told = tuple[str, str, str, str, Span]
 
 
-def _commands(items: Iterable[Item], condition: str = "") -> Iterator[tuple[Command, str]]:
-    """The commands, each with the blocks around it."""
+def _commands(
+    items: Iterable[Item], lists: ConstantLists | None = None, condition: str = ""
+) -> Iterator[tuple[Command, str]]:
+    """The commands, each with the blocks around it; with `lists` those of loops in each round."""
     for item in items:
+        if lists is not None:
+            lists.passed(item.head if isinstance(item, CommandBlock) else item, condition)
         match item:
             case CommandBlock(head, body, others):
                 yield head, condition
-                inside = _commands(body, condition + _condition(head))
+                rounds = lists.rounds(item) if lists is not None else None
+                if rounds is not None:
+                    for commands in rounds:
+                        yield from _commands(commands, lists, condition)
+                    continue
+                inside = _commands(body, lists, condition + _condition(head))
                 is_function = head.name == "function"
                 yield from (c for c in inside if not is_function or c[0].name != "return")
                 for branch, other in others:
                     yield branch, condition
                     beside = f"{_condition(head)}, {branch.name}" if branch.name == "else" else ""
-                    yield from _commands(other, condition + (beside or _condition(branch)))
+                    said = condition + (beside or _condition(branch))
+                    yield from _commands(other, lists, said)
             case Command():
                 yield item, condition
 
@@ -174,6 +201,9 @@ def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
         case "set", [variable, *flags] if variable in _LINKING:
             said = " ".join(flags).replace(f"${{{variable}}}", "").split()
             is_step = not all(map(_CALM.fullmatch, said))
+        case name, _ if name in _WITH_PROPERTIES:
+            is_step = not all(map(_CALM_PROPERTY.fullmatch, _properties(name, words)))
+            is_step = is_step or any(map(_STEERING.fullmatch, words))
         case name, _ if name.startswith(_SETTING):
             is_step = is_step or any(map(_STEERING.fullmatch, words))
         case _:
@@ -186,6 +216,13 @@ def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
             "given",
             command.span,
         )
+
+
+def _properties(command: str, words: Sequence[str]) -> Sequence[str]:
+    """The names of the properties that a command sets."""
+    if command == "set_property":
+        return words[words.index("PROPERTY") + 1 :][:1] if "PROPERTY" in words else words
+    return words[words.index("PROPERTIES") + 1 :: 2] if "PROPERTIES" in words else words
 
 
 def _found_caches(commands: Iterable[tuple[Command, str]]) -> Iterator[str]:

@@ -34,7 +34,7 @@ from rebsync.roundtrip.package.digests import is_text_of
 from rebsync.roundtrip.package.generation import generated
 from rebsync.roundtrip.package.manifest import BASE, BASE_MODEL, FOLDER, MANIFEST, with_manifest
 from rebsync.roundtrip.package.model_file import is_recorded, properties_beside
-from rebsync.roundtrip.package.models import parsed, read_code, read_model
+from rebsync.roundtrip.package.models import CodeModel, parsed, read_code, read_model
 from rebsync.roundtrip.package.record import (
     Record,
     conflict_in,
@@ -90,7 +90,7 @@ class _Syncing:
         apart = self.compared(today, code.given)
         gone = MissingSources(self.checked, self.record)
         if refused := (
-            *self._unread(apart, code.given),
+            *self._unread(apart, code),
             *gone.without_cause(apart, code.given.model),
             *gone.unparsed(),
         ):
@@ -162,7 +162,7 @@ class _Syncing:
         told = replace(found, span=place.span, message=message)
         return RebsyncError([Findings(place.source, (told,))])
 
-    def _unread(self, apart: Comparison, code: SourcedModel) -> Iterator[Findings]:
+    def _unread(self, apart: Comparison, code: CodeModel) -> Iterator[Findings]:
         """Elements that the code has changed, and of which not all could be read.
 
         How a server's messages are made and taken apart is such a part of what it takes.
@@ -174,17 +174,19 @@ class _Syncing:
             for d in apart.differences
             if not isinstance(d, Undetermined) and movers.get(d) is not Mover.MODEL
         }
+        hints = {(f.source.path, d.span): d.hint for f in code.findings for d in f.diagnostics}
         is_sent_otherwise = any(e.kind == "parameter" for e in changed)
         for difference in apart.differences:
             if not isinstance(difference, Undetermined):
                 continue
             element = difference.element
             if element in changed or (is_sent_otherwise and element.kind == "model"):
-                place = difference.right or Place(code.source, NOWHERE)
+                place = difference.right or Place(code.given.source, NOWHERE)
                 is_it = element in changed
                 how = "was changed in the code" if is_it else "is of messages that have changed"
                 message = f"{element} {how} and cannot be taken into the model: {difference.why}"
-                yield finding(place, "RS959", message, "write this in a way that extract reads")
+                hint = hints.get((place.source.path, place.span))
+                yield finding(place, "RS959", message, hint or "write it so that extract reads it")
 
     # --- results --------------------------------------------------------------------------------
 

@@ -83,6 +83,7 @@ def test_what_cannot_be_read_is_listed(package: Path) -> None:
         ("[this, msg] { P1(msg->cmd); }", "[this, msg] { P1(msg->cmd + 1); }", "hand a message"),
         ("[this] { begin(); }", "[this] { begin(); begin(); }", "more than to send"),
         ("  e1_ = global", "  pos_[0] = 3;\n  e1_ = global", "only sets up"),
+        ("init_y); });\n", "init_y); });\n  pos_[0] = 3;\n", "may be served by now"),
         ("[=] { MoveInX(); }", "[=] { if (stopped_) MoveInX(); }", "more than to send"),
     ],
 )

@@ -32,6 +32,12 @@ def test_help_names_every_command_and_loads_nothing_heavy(tmp_path: Path) -> Non
     assert all(f"  {name} " in done.stdout.decode() for name in COMMANDS)
 
 
+def test_without_a_command_help_is_laid_out(tmp_path: Path) -> None:
+    bare, asked = rebsync(cwd=tmp_path), rebsync("--help", cwd=tmp_path)
+    assert (bare.status, bare.out, bare.err.strip()) == (2, "", asked.out.strip())
+    assert all(f"\n  {name} " in asked.out for name in COMMANDS)
+
+
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_explains_itself(tmp_path: Path, command: str) -> None:
     done = rebsync(command, "--help", cwd=tmp_path)

@@ -60,11 +60,13 @@ def test_names_have_the_colours_of_what_they_are(tmp_path: Path, in_editor: InEd
             ("Counter", "class", 0),
             ("counter", "variable", 1),
         ]
-        place = at(MODEL, "count + by")
+        place, start = at(MODEL, "count + by"), lsp.Position(0, 0)
         client.type(uri, lsp.Range(place, place), "{")
         typed = MODEL.replace("count + by", "{count + by")
         found = await _tokens(client, uri, typed)
         assert found[:2] == [("limit", "variable", 3), ("@Robot", "decorator", 0)]
+        client.type(uri, lsp.Range(start, start), "// @one\n/* @two */ ")
+        assert await _tokens(client, uri, f"// @one\n/* @two */ {typed}") == found
         assert await _tokens(client, client.open(properties), PROPERTY) == [
             ("over", "variable", 3),
             ("counter", "variable", 0),

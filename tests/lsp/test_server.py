@@ -133,6 +133,32 @@ def test_names_lead_to_declarations_and_uses(folder: Path, in_editor: InEditor) 
     in_editor(play)
 
 
+@pytest.mark.parametrize(
+    ("place", "told"),
+    [
+        ("after(1)", "units of time later"),
+        ("@Robot", "a robot"),
+        ("after nothing", None),
+        ("limit)", "```\n\nat most"),
+        ("step(1)", "Counts up.\nIt goes on for ever."),
+    ],
+)
+def test_hover_tells_of_words_and_of_remarks(
+    place: str, told: str | None, folder: Path, in_editor: InEditor
+) -> None:
+    remarks = "  // Counts up.\n  // It goes on for ever.\n  @priority(1)\n  msgsrv step("
+    model = MODEL.replace("  msgsrv step(", remarks) + "// after nothing\n"
+    model = model.replace("limit = 3;", "limit = 3;  // at most")
+
+    async def play(client: Editor) -> None:
+        uri = client.open(folder / "counter.rebeca", model)
+        params = lsp.HoverParams(_of(uri), at(model, place))
+        shown = await client.text_document_hover_async(params)
+        assert shown is None if told is None else told in shown.contents.value  # type: ignore[union-attr]
+
+    in_editor(play)
+
+
 def test_renaming_reaches_the_properties(folder: Path, in_editor: InEditor) -> None:
     async def play(client: Editor) -> None:
         uri = client.open(folder / "counter.rebeca")

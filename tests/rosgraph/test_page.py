@@ -64,3 +64,17 @@ def test_search_groups_and_zoom(chromium: Browser, page: Path) -> None:
     )
     assert chromium.run(VIEW) != before
     assert chromium.run("return performance.getEntriesByType('resource').length") == 0
+
+
+def test_what_is_too_small_to_read_begins_at_its_left(chromium: Browser, page: Path) -> None:
+    chromium.open(page)
+    chromium.resize(500, 500)
+    chromium.open(page)
+    try:
+        x, _, width, _ = map(float, chromium.run(VIEW).split())
+        pixels = chromium.run("return document.getElementById('canvas').clientWidth")
+        assert (x, round(width / pixels, 3)) == (0, 1.4)
+        chromium.press("0")
+        assert float(chromium.run(VIEW).split()[2]) > width
+    finally:
+        chromium.resize(1700, 1000)

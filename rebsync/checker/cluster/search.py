@@ -29,11 +29,11 @@ from rebsync.checker.exploration import (
 )
 from rebsync.checker.graph import Graph
 from rebsync.checker.look import Look, Stopped, unwatched
-from rebsync.checker.memory import used_memory
+from rebsync.checker.memory import NO_MEMORY, used_memory
 from rebsync.checker.problem import Cluster
 from rebsync.checker.program import Program
 from rebsync.checker.reduction import PersistentSets
-from rebsync.checker.search import FIRST, NO_MEMORY
+from rebsync.checker.search import FIRST
 from rebsync.checker.steps import Semantics
 from rebsync.records import dataclass
 
@@ -160,10 +160,8 @@ class ClusterSearch:
                 known = self._states, self._transitions, max(0, len(self._firsts) - 1), waiting
                 violations = kinds_of(self._events, limits.faults)
                 report(Progress(*known, seconds, self._memory, violations=violations))
-            if over := limits.out_of_time(seconds):
+            if over := limits.out_of_time(seconds) or limits.out_of_memory(self._memory):
                 raise Stopped(over)
-            if limits.memory is not None and self._memory >= limits.memory:
-                raise Stopped(f"the bound of {limits.memory} bytes of memory was reached")
 
         return look
 

@@ -101,13 +101,22 @@
     revealAcross(seen <= pane.getBoundingClientRect().right ? { ...place, right: seen } : place, pane);
   }
 
+  // Where the texts beside a place end that the three steps before have in the same column.
+  function rightOfColumn(place) {
+    const before = [1, 2, 3].map((n) => `.msc .step[data-step="${step - n}"] text:not(.number)`);
+    const texts = [...run.querySelectorAll(before.join())].map((one) => one.getBoundingClientRect());
+    const beside = texts.filter((one) => one.left >= place.left && one.left < place.right);
+    return Math.max(place.right, ...beside.map((one) => one.right));
+  }
+
   // A step of one rebec is revealed with all its texts.
   function revealStep(drawn) {
     const pane = drawn.closest('.pane');
     const bodies = [...drawn.querySelectorAll('.body')];
     reveal(around([...drawn.querySelectorAll('rect, text')]), pane);
     if (bodies.length === 1) {
-      revealAcross(around([...bodies, ...drawn.querySelectorAll('text:not(.number)')]), pane);
+      const place = around([...bodies, ...drawn.querySelectorAll('text:not(.number)')]);
+      revealAcross({ ...place, right: rightOfColumn(place) }, pane);
     }
   }
 

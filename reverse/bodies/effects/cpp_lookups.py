@@ -1,8 +1,9 @@
-"""Elements and objects that logs of generated C++ look up in members, and that may not be there.
+"""Elements and objects that logs of generated C++ look up, and that may not be there.
 
-The language leaves undefined what such a log does; the node may end. Looked at are members alone,
-by their declarations: arrays beyond their ends, sequences that may be empty, pointers and optionals
-that nothing sets. A condition around, or before, that asks for them makes them sure.
+The language leaves undefined what such a log does; the node may end. Members, variables of the file
+and locals are looked at by their declarations: arrays beyond their ends, sequences that may be
+empty, pointers and optionals that nothing sets. A condition around, or before, that asks for them
+makes them sure.
 """
 
 from __future__ import annotations
@@ -18,16 +19,20 @@ from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
 from rebsync.reverse.syntax.cpp_tree import inside, named, operator_of, part, squeezed, text_of
 
-_ARRAY = re.compile(r"(?:std::)?array<.*,(\d+)>\w+|[\w:<>,]+\[(\d+)\]")
+_QUALIFIERS = r"(?:static|const(?:expr)?|mutable|inline|thread_local)*"
+_ARRAY = re.compile(_QUALIFIERS + r"(?:(?:std::)?array<.*,(\d+)>&?\w+|[\w:<>,]+\[(\d+)\])")
 _SEQUENCE = re.compile(
-    r"(?:static|const|mutable)*(?:std::)?"
-    r"(?:(?:vector|deque|list|(?:unordered_)?(?:multi)?(?:map|set))<|string\w+)"
+    _QUALIFIERS + r"(?:std::)?(?:(?:vector|deque|list|(?:unordered_)?(?:multi)?(?:map|set)|stack"
+    r"|(?:priority_)?queue)<|string[&\w]+)"
 )
+# What a constant sequence is made of: elements in braces that call nothing, or a text.
+_GIVEN = re.compile(r"const.*?\w=?(?:\{+([^{}();]+)\}+|\(?\{?\"([^\"\\]*)\"[})]?);?")
 _POINTER = re.compile(r"(?:std::)?(?:shared_ptr|unique_ptr|optional)<|[\w:]+\*")
 _KINDS = ("subscript_expression", "pointer_expression", "call_expression", "field_expression")
-_ENDS = frozenset({"front", "back"})
-_FIRST = re.compile(r"(\w+)\.(?:c?begin|c?rbegin)\(\)")
+_ENDS = frozenset({"front", "back", "top"})
+_FIRST = re.compile(r"(?:std::(?:next|prev)\()?(\w+)\.(?:c?begin|c?rbegin|c?end)\(\).*")
 _SEARCH = re.compile(r"(?:std::)?(?:find|find_if|lower_bound|upper_bound)\(.*|\w+\.find\(.*")
+_DECLARATORS = ("init_declarator", "array_declarator", "reference_declarator", "pointer_declarator")
 _BODIES = ("function_definition", "lambda_expression")
 _GREATEST = re.compile(r"(?:std::)?(?:max|min)_element\((\w+)\.c?begin\(\),.*")
 
@@ -37,14 +42,38 @@ def unsure_lookups(code: Code, owner: CppClass, log: Node) -> list[Node]:
     line = code.lineage(owner.name)
     declared = [d for above in line for d in inside(above.node, "field_declaration")]
     members = {text_of(n): squeezed(d) for d in declared for n in inside(d, "field_identifier")}
+    members |= _variables(code, log)
     functions = (f for above in line for f in code.functions_of(above))
     texts = [text_of(f.node) for f in functions]
     look = _Lookups(members, texts, Indices(code, members))
     return [n for n in inside(log, *_KINDS) if look.is_unsure(n)]
 
 
+def _variables(code: Code, log: Node) -> dict[str, str]:
+    """The declarations of the variables that a log looks something up in, those of locals last."""
+    names = {text_of(n) for look in inside(log, *_KINDS) for n in inside(look, "identifier")}
+    found: dict[str, str] = {}
+    around = climb(log, lambda above: above.type == "function_definition")
+    for cpp in code.files if names else ():
+        outside: dict[str, str] = {}
+        locals_: dict[str, str] = {}
+        for name in code.named(cpp, cpp.root, sorted(names)):
+            declared = climb(name, lambda above: above.type not in _DECLARATORS)
+            function = climb(name, lambda above: above.type == "function_definition")
+            if declared is None or declared.type not in ("declaration", "parameter_declaration"):
+                continue
+            if function is None or function == around:
+                kept = outside if function is None else locals_
+                kept[text_of(name)] = squeezed(declared)
+        found |= outside | locals_
+    return found
+
+
 class _Lookups:
-    """Looks up members by their declarations, without layout; `texts` are those of functions."""
+    """Looks up members and variables by their declarations, without layout.
+
+    `texts` are those of functions.
+    """
 
     def __init__(self, members: Mapping[str, str], texts: list[str], indices: Indices) -> None:
         self._members = members
@@ -71,13 +100,13 @@ class _Lookups:
 
     def _declared(self, place: Node) -> tuple[str, str]:
         """The member that a place is, and how it is declared; empty for what is none."""
-        name = squeezed(place).removeprefix("this->")
+        name = squeezed(place).removeprefix("this->").removesuffix(".data()")
         return name, self._members.get(name, "")
 
     def _beyond(self, node: Node) -> bool:
         whole = named(node)[0]
         name, declared = self._declared(whole)
-        index = squeezed(node).removeprefix("this->").removeprefix(name).strip("[]")
+        index = squeezed(part(node, "indices")).strip("[]")
         found = _ARRAY.match(declared)
         if not index.isdecimal():  # of locals they are trusted, what comes and what is kept is not
             is_table = "map<" in declared
@@ -87,11 +116,12 @@ class _Lookups:
         if found is not None:
             return int(index) >= int(found[1] or found[2])
         is_table = re.search(r"(?:map|set)<", declared.partition("<")[0] + "<") is not None
-        return not is_table and self._is_empty(node, name)
+        return not is_table and self._is_empty(node, name, int(index))
 
-    def _is_empty(self, node: Node, name: str) -> bool:
+    def _is_empty(self, node: Node, name: str, at: int = 0) -> bool:
         """Whether a sequence, or a table, may have no element there."""
-        if _SEQUENCE.match(self._members.get(name, "")) is None:
+        declared = self._members.get(name, "")
+        if _SEQUENCE.match(declared) is None or _length(declared) > at:
             return False
         return not is_asked(node, name, Question.ELEMENTS)
 
@@ -116,6 +146,16 @@ class _Lookups:
         stores = r"=(?!=)\s*(?!nullptr|std::nullopt)|\.(?:reset|emplace)\(\S|\{|\("
         sets = re.compile(rf"\b{name}\s*(?:{stores})")
         return any(sets.search(text) for text in self._texts)
+
+
+def _length(declared: str) -> int:
+    """How many elements a constant sequence has at least, by what it is declared with."""
+    given = _GIVEN.fullmatch(declared)
+    if given is None:
+        return 0
+    if given[1]:
+        return 1 if "{{" in declared else given[1].count(",") + 1
+    return len(given[2] or "")
 
 
 def _is_untested_parameter(index: str, node: Node) -> bool:

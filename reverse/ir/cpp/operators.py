@@ -91,7 +91,8 @@ def operator_for(sign: str, operand: t.Type) -> Operator:
 
 def binary(sign: str, left: Value, right: Value, place: Span) -> Value:
     """A built-in operation on two values that are read already."""
-    is_stream = sign in _SHIFTS and isinstance(left.type, t.Text)  # as macros for logs have it
+    # what macros for logs are given goes on what stands before it: a text, or what follows one
+    is_stream = sign in _SHIFTS and any(isinstance(x.type, t.Text) for x in (left, right))
     if is_stream or not (is_built_in(left.type) and is_built_in(right.type)):
         return _up_to_library(sign, left, right, place)
     to_left, to_right, result = operation_types(sign, left.type, right.type)

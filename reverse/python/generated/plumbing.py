@@ -71,6 +71,7 @@ _STORING = frozenset({"assignment", "named_expression", "lambda", "await", "yiel
 _LOOKING = frozenset({"flatten"})
 _WHY = "what this does is not in the model"
 _LOST = "no subscription takes this in: the class only sends it to itself"
+_BEGUN = "messages may be served by now: set this up before self._mailbox.construct(...)"
 _LATE = "this gives a coroutine, and nobody runs it"
 _HINT = "say it in the model, or move it into a user block"
 
@@ -98,11 +99,7 @@ class Plumbing:
         """Lists what a class does besides."""
         owner = self.roles.owner
         for function in self.roles.functions.values():
-            sends = self.roles.sends.get(function.name)
-            why = _LOST if sends is not None and self.is_lost(sends) else _WHY
-            for node in self._odd(function):
-                self._list(owner.py, node, why, function.name)
-            for node, reason in self._failing(function):
+            for node, reason in (*self._odd(function), *self._failing(function)):
                 self._list(owner.py, node, reason, function.name)
         for function in self.roles.functions.values():
             if any(c.type == "async" for c in function.node.children):
@@ -146,19 +143,24 @@ class Plumbing:
         within = ".".join(filter(None, (self.roles.owner.name, function)))
         self.findings.unreadable(py.source, Unread(py.span(node), why, _HINT), within)
 
-    def _odd(self, function: Scope) -> Iterator[Node]:
-        name = function.name
+    def _odd(self, function: Scope) -> Iterator[tuple[Node, str]]:
         body = [s for s in body_of(function) if not self.silent.tells(s)]
-        if name in ("__init__", "_wire"):
+        sends = self.roles.sends.get(function.name)
+        if function.name in ("__init__", "_wire"):
             yield from self._odd_in_set_up(function, body)
-        elif name in self.roles.shims:
+        elif function.name not in self.roles.shims and sends is not None and self.is_lost(sends):
+            yield from ((s, _LOST) for s in body[-1:])
+        else:
+            yield from ((n, _WHY) for n in self._odd_around(function, body))
+
+    def _odd_around(self, function: Scope, body: list[Node]) -> Iterator[Node]:
+        """What other functions do besides that are none of the model's."""
+        name = function.name
+        if name in self.roles.shims:
             yield from odd_in_shim(self.constants.code, self.roles, function, body, self.messages)
         elif name in self.roles.sends:
             sends = self.roles.sends[name]
-            if self.is_lost(sends):
-                yield from body[-1:]
-            else:
-                yield from odd_in_send(function, body, sends, self.messages, self.posts)
+            yield from odd_in_send(function, body, sends, self.messages, self.posts)
         elif name == "_publish_state":
             yield from (s for s in body if not _is_of_state(s))
         elif name == "mailbox":
@@ -175,11 +177,11 @@ class Plumbing:
 
     # --- set up ---------------------------------------------------------------------------------
 
-    def _odd_in_set_up(self, function: Scope, body: list[Node]) -> Iterator[Node]:
+    def _odd_in_set_up(self, function: Scope, body: list[Node]) -> Iterator[tuple[Node, str]]:
         """What does not set up, or comes when the model's constructor has been handed over."""
         is_constructed = False
         early = [s for s in body_of(function) if _is_before_node(function, s)]
-        yield from early
+        yield from ((s, _WHY) for s in early)
         for statement in body:
             if statement in early:
                 continue
@@ -187,7 +189,7 @@ class Plumbing:
                 continue
             is_late = is_constructed and not is_logger(expression_in(statement))
             if is_late or not self._sets_up(function, statement):
-                yield statement
+                yield statement, _BEGUN if is_constructed else _WHY
             called, _ = call_parts(expression_in(statement)) or ("", [])
             is_constructed = is_constructed or called == "self._mailbox.construct"
 

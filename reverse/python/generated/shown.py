@@ -145,8 +145,8 @@ def shown_by(
     types = [t for a in given if (t := text_of(a)) in _VALUES and _is_standard(module, t)]
     if len(topics) != 1 or len(types) != 1 or not is_topic(topics[0], called):
         return None
-    type_, name = types[0], topics[0].lstrip("~/")
-    if not topics[0].startswith("~") or "/" in name or name in _RUNTIME:
+    type_, name = types[0], _own_name(topics[0])
+    if not name:
         return None
     modules = [*code.modules.values()]
     is_heard = any(_hears(each, type_) for each in modules)
@@ -192,12 +192,20 @@ def is_private(code: PyCode, module: Scope, topic: str, type_: str) -> bool:
 
     `type_` is what the module calls that.
     """
-    name = topic.lstrip("~/")
-    if not topic.startswith("~") or "/" in name or name in _RUNTIME or not code.alone:
+    name, modules = _own_name(topic), code.modules.values()
+    if not name or not code.alone:
+        return False
+    if topic == name and any(_is_named(each.node, name, type_) for each in modules):
         return False
     others = (s.py.source.text for s in code.modules.values() if s is not module)
     uses = (n for n in nodes_in(module.node) if n.type == "identifier" and text_of(n) == type_)
     return not any(type_ in text for text in others) and all(map(_is_sent, uses))
+
+
+def _own_name(topic: str) -> str:
+    """The name of a topic in the node, or where the node is; empty if it is another's."""
+    name = topic.removeprefix("~").removeprefix("/") if topic.startswith("~") else topic
+    return "" if "/" in name or name in _RUNTIME else name
 
 
 def _is_standard(module: Scope, name: str) -> bool:

@@ -32,6 +32,7 @@ _TESTS = frozenset({"<", "<=", ">", ">=", "==", "!=", "&&", "||"})
 _EXACT = Interval(-(1 << 24), 1 << 24)  # the integers that 32 bits with a point hold
 _OTHER = "not the number of the model"
 _UNROUNDED = f"{_OTHER}: not rounded to 32 bits"
+_ASSIGNMENT = re.compile(r"([\w.\[\]]+) (?:([-+*&|^])=|=) ([^=\n]+)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +81,7 @@ class _Widths:
     needs: dict[int, list[Need]] = field(default_factory=dict)
     told: list[Mark] = field(default_factory=list)
     divided: set[int] = field(default_factory=set)
+    against_zero: set[int] = field(default_factory=set)  # operands of `== 0` and `!= 0`
     at: Span = NOWHERE
 
     # --- statements -----------------------------------------------------------------------------
@@ -220,6 +222,8 @@ class _Widths:
                 self.used(operand, None if operator in _SIGNS else INT32)
             case m.Binary(operator, left, right):
                 real = self._real_type(m.Binary("+", left, right))
+                if operator in ("==", "!=") and m.IntLiteral(0) in (bare(left), bare(right)):
+                    self.against_zero |= {id(bare(left)), id(bare(right))}
                 self._divided(expression, left, right)
                 self._operands(operator, (left, right), cut, real)
                 if operator not in _TESTS and self._real_type(expression) == "float":
@@ -262,10 +266,15 @@ class _Widths:
                 self.used(side, INT32 if is_rounded else bounds)
 
     def _divided(self, whole: m.Binary, left: m.Expression, right: m.Expression) -> None:
-        """A division that rounds to the lower number: as to 0, where nothing is below that."""
+        """A division that rounds to the lower number: as to 0, where nothing is below that.
+
+        Whether a remainder is 0 does not depend on how is rounded.
+        """
         if id(whole) in self.known.floored:
             self.divided.add(id(whole))
-            self._need(left, Interval(0, INT32.high), _floored(whole))
+            is_multiple = whole.operator == "%" and id(whole) in self.against_zero
+            if not is_multiple:
+                self._need(left, Interval(0, INT32.high), _floored(whole))
             self._need(right, Interval(1, INT32.high), _floored(whole))
 
     def _stored(
@@ -350,6 +359,12 @@ def hint_of(text: str, why: str) -> str:
     """What to write for an expression, by why it is another than that of the model."""
     format_ = "float" if why == _UNROUNDED else "int"
     bits = "".join(filter(str.isdecimal, why))
+    if bits and (assigned := _ASSIGNMENT.fullmatch(text)):
+        target, operator, value = assigned.groups()
+        if operator:
+            operand = value if re.fullmatch(r"[\w.]+", value) else f"({value})"
+            value = f"{target} {operator} {operand}"
+        return f"write {target} = {format_}{bits}({value})"
     if bits and not re.search(r"(?<![=<>!])=(?!=)|^\w+ \w+ in ", text):
         return f"write {format_}{bits}({text})"
     return "let the model's own functions say it: int32(...), int8(...), divide, remainder"

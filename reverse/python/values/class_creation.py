@@ -11,6 +11,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.python import clients
+from rebsync.reverse.python.values.annotations import unbound_annotations
 from rebsync.reverse.python.values.py_evaluator import PyEvaluator
 from rebsync.reverse.python.values.py_worth import Class, External, Ways
 from rebsync.reverse.syntax.py_index import FUNCTION, Scope
@@ -44,12 +45,13 @@ def list_creation(
 def class_departures(
     values: PyEvaluator, scope: Scope, libraries: Collection[str] | None = None
 ) -> Iterator[Departure]:
-    """Decorators, keywords and bases of a class by which it may be another class.
+    """Decorators, keywords and bases of a class by which it may be another class, or none.
 
     With `libraries` bases of all others are listed as well.
     """
     for node in decorating(scope.node):
         yield node, "what decorates this class may change it"
+    yield from unbound_annotations(scope)
     outer = scope.parent or scope
     bases = scope.node.child_by_field_name("superclasses")
     for base in named(bases) if bases is not None else ():

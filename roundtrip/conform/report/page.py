@@ -23,20 +23,24 @@ from rebsync.roundtrip.conform.report.text import allowed_line, lines
 
 SHOWN = 40  # steps of each chart
 _STYLE = """
-body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5em; color: #222; background: #fff; }
-.movement, .source { color: var(--ink); background: var(--back); }
+body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5em; }
+body { color: var(--ink); background: var(--back); }
+h1 { font-size: 20px; overflow-wrap: anywhere; } h2 { font-size: 17px; } a { color: var(--way); }
 .movement { font-size: 14px; }
 #recorded-chart { max-height: 70vh; overflow: auto; }
 .sides { display: flex; gap: 2em; align-items: flex-start; flex-wrap: wrap; }
 .sides > section { overflow-x: auto; max-width: 100%; }
-.said { white-space: pre-wrap; font-family: monospace; }
-.verdict { padding: .1em .5em; border-radius: 3px; background: #dde; }
-.conforms { background: #cfc; } .deviates, .violated { background: #fcc; }
-.plot .axis { stroke: #888; } .plot .zero { stroke: #ccc; } .plot circle { fill: #247; }
-.plot circle.greatest { fill: #c22; } .plot text { font-size: 12px; fill: #444; }
+.said { white-space: pre-wrap; font-family: monospace; overflow-wrap: anywhere; }
+.verdict { padding: .1em .5em; border-radius: 3px; background: var(--raised); }
+.conforms { color: var(--good); }
+.deviates, .violated { color: var(--wrong); background: var(--alarm); }
+#lateness, .source { overflow-x: auto; }
+.plot .axis { stroke: var(--quiet); } .plot .zero { stroke: var(--rule); }
+.plot circle { fill: var(--way); }
+.plot circle.greatest { fill: var(--wrong); } .plot text { font-size: 12px; fill: var(--quiet); }
 .heads, .gutter { display: none; } table.lines code { white-space: pre; }
 .times { overflow-x: auto; } .times table { border-collapse: collapse; font-size: 13px; }
-.times td, .times th { padding: 2px 8px; text-align: left; border-bottom: 1px solid #ddd; }
+.times td, .times th { padding: 2px 8px; text-align: left; border-bottom: 1px solid var(--rule); }
 table.lines { border-collapse: collapse; font-size: 13px; }
 table.lines th { color: var(--quiet); font-weight: normal; text-align: right; padding-right: 1em; }
 tr:target { background: var(--chosen); }

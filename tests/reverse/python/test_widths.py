@@ -80,6 +80,13 @@ BODIES = [
     (["self._ok = self._n - k > 0"], ["self._n - k"]),
     (["self._ok = int32(self._n - k) > 0"], []),
     (["self._n = divide(self._n + k, 2)"], ["self._n + k"]),
+    (["self._ok = self._n % 3 == 0"], []),  # a multiple is one, however is rounded
+    (["self._ok = 0 != (k % 3)"], []),
+    (["self._ok = not self._n % 3"], []),
+    (["self._ok = self._n % 3 == 1"], ["self._n % 3"]),
+    (["self._ok = self._n % k == 0"], ["self._n % k"]),
+    (["self._ok = (self._n + k) % 3 == 0"], ["self._n + k"]),
+    (["self._ok = self._n // 3 == 0"], ["self._n // 3", "self._n // 3"]),
     (["self._n = shift_left(self._n, k)"], []),
     (["self._n = int32(self._n << 3)"], []),
     (["self._n = int32(self._n << k)"], ["k"]),
@@ -202,6 +209,10 @@ def fresh(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Source]:
 
 def test_what_to_write_is_said() -> None:
     assert hint_of("k + 1", "not cut to 8 bits") == "write int8(k + 1)"
+    assert hint_of("self._k += 1", "not cut to 32 bits") == "write self._k = int32(self._k + 1)"
+    assert hint_of("k *= a + b", "not cut to 8 bits") == "write k = int8(k * (a + b))"
+    assert hint_of("k = a + b", "not cut to 8 bits") == "write k = int8(a + b)"
+    assert "int32(...)" in hint_of("k //= 2", "not cut to 32 bits")
     assert "int32(...)" in hint_of("for i in range(k): pass", "not cut to 32 bits")
     assert "int32(...)" in hint_of("k", "shifted by any distance")
 
