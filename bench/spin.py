@@ -21,7 +21,7 @@ def spin() -> None:
         print("spin: not here\n")
         return
     print(HEADING)
-    options = ("--language", "core", "--engine", "compiled")
+    options = ("--language", "core", "--engine", "compiled", "--no-reduce")
     ours = verified(MODEL, 3, *options)
     print(ours.line("rebsync"))
     theirs = []

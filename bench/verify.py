@@ -12,6 +12,7 @@ temporal formulas of LTL and TCTL, in Python and in C
 spin     an untimed model against SPIN on its twin (needs spin and gcc)
 first    whole commands on the models of the thesis: nothing is compiled
 actors   whole commands on large models: built before, and with an empty cache
+reduced  whole commands that reduce states where that pays, and that do not
 """
 
 from __future__ import annotations
@@ -141,6 +142,7 @@ def temporal() -> None:
     print()
 
 
+ALL = "--no-reduce"
 KINDS = (("", 0), ("_unsafe", 3))  # with the exit status of the verdict
 THESIS = tuple((f"experiment{n}{kind}", s) for n in (1, 2, 3) for kind, s in KINDS)
 
@@ -164,12 +166,26 @@ def actors() -> None:
         model = MODELS / f"{name}.rebeca"
         with tempfile.TemporaryDirectory() as folder:
             caches = [Path(folder, str(n)) for n in range(3 if times > 1 else 0)]
-            cold = [verified(model, 1, cache=cache) for cache in caches]
+            cold = [verified(model, 1, ALL, cache=cache) for cache in caches]
             if cold:
                 runs = tuple(it.runs.runs[0] for it in cold)
                 print(replace(cold[0], runs=Runs(runs)).line(f"{name}, empty cache"))
-            verified(model, 1, cache=Path(folder, "0"))
-        print(verified(model, times).line(f"{name}, built before"))
+            verified(model, 1, ALL, cache=Path(folder, "0"))
+        print(verified(model, times, ALL).line(f"{name}, built before"))
+    print()
+
+
+REDUCED = ("carts", "actors4", "crowd", "laps", "ttc")
+
+
+def reduced() -> None:
+    """Large models, whose engine was built before; the last one has nothing to be reduced by."""
+    print(HEADING)
+    for name in REDUCED:
+        for options in ((ALL,), ()):
+            model = MODELS / f"{name}.rebeca"
+            verified(model, 1, *options)
+            print(verified(model, 5, *options).line(" ".join((name, *options))))
     print()
 
 
@@ -180,6 +196,7 @@ PARTS: dict[str, Callable[[], object]] = {
     "spin": spin,
     "first": first,
     "actors": actors,
+    "reduced": reduced,
 }
 
 

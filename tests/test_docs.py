@@ -45,7 +45,7 @@ def test_every_option_is_described(name: str) -> None:
         option for row in described for option in re.findall(r"(?<!\w)--?[a-z]+(?:-[a-z]+)*", row)
     }
     options = [p for p in command.params if isinstance(p, click.Option)]
-    assert shown == {o for option in options for o in option.opts}
+    assert shown == {o for option in options for o in (*option.opts, *option.secondary_opts)}
 
 
 def test_every_setting_is_described_with_its_default() -> None:

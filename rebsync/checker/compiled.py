@@ -31,6 +31,7 @@ from rebsync.checker.exploration import (
     Progress,
     Report,
     Unavailable,
+    bound_of_states,
     kinds_of,
 )
 from rebsync.checker.graph import Graph
@@ -160,7 +161,7 @@ class CompiledSearch:
                 case "finished":
                     return None
                 case "states":
-                    return f"the bound of {limits.states} states was reached"
+                    return bound_of_states(states)
                 case "endless":
                     self._cut = self._given_up(limits.instructions)
                     return endless_reason(self.program, self._cut)

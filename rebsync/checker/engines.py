@@ -50,7 +50,17 @@ def explore(
         known = program, semantics, invariants, persistent, symmetry
         compiled = _compiled(*known, options, wanted=_in_time(options.limits))
         return compiled, compiled.run(options.limits, report)
-    return _auto(program, semantics, invariants, persistent, symmetry, options, report)
+    search = Interpreted(program, semantics, invariants, persistent, symmetry)
+    return _auto(search, options, report)
+
+
+def resume(
+    search: Search, options: Options, report: Report | None = None
+) -> tuple[Search, Exploration]:
+    """Goes on with a search that its bound of states has ended."""
+    if options.engine == "auto" and isinstance(search, Interpreted):
+        return _auto(search, options, report)
+    return search, search.run(options.limits, report)
 
 
 def _compiled(
@@ -89,24 +99,18 @@ def _in_time(limits: Limits) -> Callable[[], bool]:
 
 
 def _auto(
-    program: Program,
-    semantics: Semantics,
-    invariants: tuple[int, ...],
-    persistent: PersistentSets,
-    symmetry: Symmetry,
-    options: Options,
-    report: Report | None,
+    search: Interpreted, options: Options, report: Report | None
 ) -> tuple[Search, Exploration]:
     """Interprets for a moment; then compiles, and goes on interpreting until that is done.
 
     What has been compiled before is taken as soon as a model is not tiny.
     """
-    search = Interpreted(program, semantics, invariants, persistent, symmetry)
     found = search.run(options.limits, report, _after(GLANCE))
     if found.reason != PAUSED:
         return search, found
+    known = search.program, search.semantics, search.invariants, search.persistent, search.symmetry
     try:
-        kept = _compiled(program, semantics, invariants, persistent, symmetry, options, build=False)
+        kept = _compiled(*known, options, build=False)
     except Unavailable:
         found = search.run(options.limits, report, _after(PATIENCE - GLANCE))
     else:

@@ -71,6 +71,11 @@ class Limits:
         return f"the bound of {self.memory} bytes of memory was reached"
 
 
+def bound_of_states(states: int) -> str:
+    """Why a search ends that has found so many states."""
+    return f"the bound of {states} states was reached"
+
+
 @dataclass(frozen=True, slots=True)
 class Progress:
     """How far a search is: `depth` is the breadth-first level, `memory` bytes in use.

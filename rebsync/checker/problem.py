@@ -110,6 +110,7 @@ class Options:
     """How to verify. `semantics` None leaves the view to the model and its properties.
 
     With `first` the search ends at the first violation; what is not decided then is undetermined.
+    With `reduce` or `symmetry` states are reduced so, with `auto_reduce` where that pays.
     """
 
     semantics: Semantics | None = None
@@ -120,6 +121,7 @@ class Options:
     hash_compaction: bool = False
     reduce: bool = False
     symmetry: bool = False
+    auto_reduce: bool = False
     cluster: Cluster | None = None
 
     def bounded(self, started: float, faults: Faults) -> Options:

@@ -60,19 +60,33 @@ def _rebec_cells(slots: Iterable[Slot]) -> _Cells:
 
 
 def _suspensions(program: Program) -> Iterator[tuple[int, _Frame]]:
-    """The frames as they are kept at each delay and call, without its arguments."""
+    """The frames as they are kept at each delay, and call of what may delay, without arguments."""
+    calls = [
+        {i.a for i in program.code[body.entry : body.end] if i.op == "CALL"}
+        for body in program.bodies
+    ]
+    suspended = {
+        number
+        for number, body in enumerate(program.bodies)
+        if any(i.op == "DELAY" for i in program.code[body.entry : body.end])
+    }
+    while callers := {n for n, called in enumerate(calls) if called & suspended} - suspended:
+        suspended |= callers
+    analysed = set(suspended)
+    while called := {callee for number in analysed for callee in calls[number]} - analysed:
+        analysed |= called
     results: dict[int, _Cells] = {}
     while True:
-        flows = [_Flow(program, body, results) for body in program.bodies]
-        found = {number: flow.result for number, flow in enumerate(flows)}
+        flows = {number: _Flow(program, program.bodies[number], results) for number in analysed}
+        found = {number: flow.result for number, flow in flows.items()}
         if found == results:
             break
         results = found
-    for flow in flows:
-        for pc, (cells, operands) in flow.before.items():
+    for number in sorted(suspended):
+        for pc, (cells, operands) in flows[number].before.items():
             i = program.code[pc]
-            if i.op in ("DELAY", "CALL"):
-                taken = 1 if i.op == "DELAY" else flow.arguments(i.a)
+            if i.op == "DELAY" or (i.op == "CALL" and i.a in suspended):
+                taken = 1 if i.op == "DELAY" else flows[number].arguments(i.a)
                 yield pc, (cells, operands[: len(operands) - taken])
 
 
@@ -116,7 +130,7 @@ class _Flow:
         )
 
     def _joined(self, known: _Frame | None, reached: _Frame) -> _Frame:
-        if known is None:
+        if known is None or known == reached:
             return reached
         cells, operands = (tuple(map(_join, *both)) for both in zip(known, reached, strict=True))
         return cells, operands

@@ -19,6 +19,7 @@ from rebsync.checker.exploration import (
     Limits,
     Progress,
     Report,
+    bound_of_states,
     kinds_of,
 )
 from rebsync.checker.graph import Graph
@@ -143,7 +144,7 @@ class Interpreted:
                     self._stop_at_first(limits)
             while self._expanded < len(self.states):
                 if limits.states is not None and len(self.states) >= limits.states:
-                    return f"the bound of {limits.states} states was reached"
+                    return bound_of_states(limits.states)
                 look()
                 self._expand(self._expanded, limits)
         return None

@@ -79,22 +79,31 @@ def symmetry_of(program: Program, problem: Problem, options: Options) -> Symmetr
     """
     if not options.symmetry:
         return Symmetry()
+    found = symmetry_or_reason(program, problem, options)
+    if isinstance(found, Symmetry):
+        return found
+    message, hint = f"no symmetry reduction: {found}", "leave --symmetry out"
+    raise RebsyncError.of(problem.source.path, "RS932", message, hint)
+
+
+def symmetry_or_reason(
+    program: Program, problem: Problem, options: Options, largest: int = LARGEST
+) -> Symmetry | str:
+    """Up to `largest` symmetries under which what is asked is invariant; else why none are."""
     if reason := _obstacle(program, problem, options):
-        raise _refused(problem, reason)
-    candidates = _largest_group(program)
+        return reason
+    candidates = _largest_group(program, largest)
     if len(candidates) == 1:
-        raise _refused(problem, "no two rebecs have one class, one priority and equal known rebecs")
+        return "no two rebecs have one class, one priority and equal known rebecs"
     invariance = Invariance(problem, program)
     group = tuple(p for p in candidates if invariance.holds(p))
     if len(group) == 1:
         names = ", ".join(invariance.broken(candidates))
-        raise _refused(problem, f"equal rebecs are told apart by {names}")
-    return Symmetry(group, references_of(program))
-
-
-def _refused(problem: Problem, reason: str) -> RebsyncError:
-    hint = "leave --symmetry out"
-    return RebsyncError.of(problem.source.path, "RS932", f"no symmetry reduction: {reason}", hint)
+        return f"equal rebecs are told apart by {names}"
+    references = references_of(program)
+    if program.has_delay and references.mixed:
+        return f"{', '.join(references.mixed)} has over a delay what may be a rebec or a number"
+    return Symmetry(group, references)
 
 
 def _obstacle(program: Program, problem: Problem, options: Options) -> str | None:
@@ -107,37 +116,36 @@ def _obstacle(program: Program, problem: Problem, options: Options) -> str | Non
         return "--time-between needs all states"
     if any(server.depth for server in program.servers):
         return "of messages that came at one time @KeepLast loses one by the order of rebecs"
-    if program.has_delay and (mixed := references_of(program).mixed):
-        return f"{', '.join(mixed)} has over a delay what may be a rebec or a number"
     return None
 
 
-def over_orbits(found: Exploration, symmetry: Symmetry, program: Program) -> Exploration:
+def over_orbits(found: Exploration, symmetry: Symmetry) -> Exploration:
     """A search of canonical states as one of all.
 
     The largest bag of a rebec is that of any rebec of its orbit: where constructors make them
     differ, it need not have been its own.
     """
-    if symmetry.order == 1:
-        return found
     largest = list(found.covered.largest)
     for orbit in symmetry.orbits:
         for rebec in orbit:
             largest[rebec] = max(found.covered.largest[r] for r in orbit)
+    return replace(found, covered=replace(found.covered, largest=tuple(largest)))
+
+
+def counted_once(symmetry: Symmetry, program: Program) -> str:
+    """What a search up to an exchange of rebecs says of its figures."""
     exchanged = "; ".join(", ".join(program.rebecs[r].name for r in o) for o in symmetry.orbits)
-    note = f"states that differ by an exchange are counted once ({symmetry.order}: {exchanged})"
-    covered = replace(found.covered, largest=tuple(largest))
-    return replace(found, covered=covered, notes=(*found.notes, note))
+    return f"states that differ by an exchange are counted once ({symmetry.order}: {exchanged})"
 
 
-def _largest_group(program: Program) -> tuple[Permutation, ...]:
-    """Automorphisms, all that leave some rebecs where they are: not more than LARGEST."""
+def _largest_group(program: Program, largest: int) -> tuple[Permutation, ...]:
+    """Automorphisms, all that leave some rebecs where they are: not more than `largest`."""
     fixed: frozenset[int] = frozenset()
     while True:
         group = []
         for automorphism in _automorphisms(program, fixed):
             group.append(automorphism)
-            if len(group) > LARGEST:
+            if len(group) > largest:
                 break
         else:
             return tuple(group)

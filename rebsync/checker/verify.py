@@ -9,7 +9,6 @@ from rebsync.checker.choosing import semantics_for
 from rebsync.checker.cluster.scope import check_scope
 from rebsync.checker.conclusion import Conclusion
 from rebsync.checker.endless import endless_reason
-from rebsync.checker.engines import explore
 from rebsync.checker.exploration import Exploration, Faults, Progress, Report
 from rebsync.checker.formulas import NamedFormula
 from rebsync.checker.incomplete import limited
@@ -21,15 +20,11 @@ from rebsync.checker.memory import peak_memory, used_memory
 from rebsync.checker.orbits import Orbits
 from rebsync.checker.problem import Options, Problem
 from rebsync.checker.program import Program
-from rebsync.checker.reduction import persistent_sets
+from rebsync.checker.reducing import Reducing
 from rebsync.checker.result import Coverage, Result, Verdict
-from rebsync.checker.steps import Failure
-from rebsync.checker.symmetry import over_orbits, symmetry_of
 from rebsync.checker.telling import Teller
 from rebsync.checker.views import view_of
 from rebsync.checker.watch import Watch
-
-ALL_ORDERS = "nothing is left out: what is reached beyond an overflow depends on the order of steps"
 
 
 def verify(problem: Problem, options: Options, report: Report | None = None) -> Result:
@@ -63,35 +58,23 @@ def _searched(
     assertions = formulas[: len(problem.properties.assertions)]
     invariants = invariants_of(program, assertions, formulas)
     semantics = options.semantics or semantics_for(program, problem)
-    reduces = options.reduce and len(assertions) == len(formulas) and not problem.is_measured
-    persistent = persistent_sets(program, semantics) if reduces else ()
-    symmetry = symmetry_of(program, problem, options)
     faults = Faults(frozenset(asserted(assertions)), "deadlock" not in options.allowed)
     options = options.bounded(started, faults)
-    known = program, semantics, invariants
-    search, exploration = explore(*known, persistent, symmetry, options, report)
-    if persistent and exploration.reason is None and _overflows(exploration):
-        persistent = ()
-        search, exploration = explore(*known, persistent, symmetry, options, report)
-        exploration = replace(exploration, notes=(*exploration.notes, ALL_ORDERS))
+    asks_more = len(assertions) < len(formulas) or problem.is_measured
+    search, exploration, persistent, symmetry = Reducing(
+        program, semantics, invariants, problem, options, report, asks_more
+    ).searched()
     if exploration.cut:
         reason = endless_reason(program, exploration.cut, problem.source)
         exploration = replace(exploration, reason=reason)
     view = view_of(program, exploration.semantics, persistent)
     view.limit(options.limits.instructions)
-    exploration = over_orbits(exploration, symmetry, program)
     orbits = Orbits(exploration.semantics, symmetry) if symmetry.order > 1 else None
     teller = Teller(view, problem.source, orbits)
     watch = _watch(exploration, options, report, started)
     answer = Conclusion(problem, options, program, formulas, search, exploration, teller, watch)
     answer.collect()
     return limited(problem, answer.result(time.perf_counter() - started), teller)
-
-
-def _overflows(exploration: Exploration) -> bool:
-    """Whether a bag was too full in some run."""
-    causes = [event.cause for event in exploration.events]
-    return any(isinstance(cause, Failure) and cause.kind == "overflow" for cause in causes)
 
 
 def _nothing_found(problem: Problem, options: Options, reason: str, seconds: float) -> Result:

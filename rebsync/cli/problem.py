@@ -121,6 +121,10 @@ def analysed(source: Source, *, untimed: bool = False) -> Analysis:
 
     parsed = parse_model(source)
     model = parsed.model
+    if "feature" in source.text:
+        from rebsync.checker.features import with_features
+
+        model = with_features(model)
     if untimed:
         from rebsync.checker.initial import with_initial
 

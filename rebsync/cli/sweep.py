@@ -198,12 +198,24 @@ def write_sweep(
 
     if style == "json":
         write_output(output, sweep_json(model, parameters, noted()))
+    elif style == "svg":
+        write_output(output, _drawn(model, parameters, noted()))
     elif output == "-":
         for text in sweep_lines(model, parameters, noted()):
             write_output(output, text + "\n")
     else:
         write_output(output, "".join(f"{t}\n" for t in sweep_lines(model, parameters, noted())))
     return worst(STATUS_OF[row.verdict] for row in known)
+
+
+def _drawn(model: str, parameters: Sequence[Swept], rows: Iterable[SweptResult]) -> str:
+    from rebsync.checker.show.sweep_svg import Column, sweep_svg
+
+    columns = [
+        Column(row.values, (("verdict", row.verdict), *row.properties), row.measures)
+        for row in rows
+    ]
+    return sweep_svg(model, [p.name for p in parameters], columns)
 
 
 def sweep_lines(

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from rebsync.checker.steps import Semantics
 
 FORMATS = ("text", "json", "svg", "html")
+_SHOW_STATES = ("states", "export")  # options that show all states
 MOST_INSTRUCTIONS = 10**10  # their delays together stay within 64 bits
 
 
@@ -108,7 +109,10 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     help="Keep 64 bits for each state: less memory, and a small risk of missing states.",
 )
 @click.option(
-    "--reduce", is_flag=True, help="Leave out orders of steps that cannot matter to the verdict."
+    "--reduce/--no-reduce",
+    default=None,
+    help="Leave out orders of steps that cannot matter to the verdict, or nothing at all (default: "
+    "what pays).",
 )
 @click.option(
     "--symmetry", is_flag=True, help="Count states that differ by an exchange of equal rebecs once."
@@ -267,8 +271,8 @@ def _swept(model: str, given: dict[str, Any], output: str) -> Status:
     parameters = [parameter(text) for text in given["swept"]]
     if _is_package(model) or _is_code(model):
         raise click.UsageError("--for-all is for models: leave it out for packages")
-    if given["style"] not in ("text", "json"):
-        raise click.UsageError("--for-all prints a table: --format text or json")
+    if given["style"] == "html":
+        raise click.UsageError("--for-all has no page: --format text, json or svg")
     if any(given[name] for name in ("replay", "states", "export", "violation", "serve")):
         raise click.UsageError("--for-all prints a table only, without runs and states")
     asked = given["measures"], given["between"]
@@ -319,8 +323,9 @@ def _options(given: dict[str, Any], model: str) -> Options:
         fairness=given["fairness"],
         allowed=frozenset({*given["allow"], *_allowed(model)}),
         hash_compaction=given["hash_compaction"],
-        reduce=given["reduce"],
+        reduce=bool(given["reduce"]),
         symmetry=given["symmetry"],
+        auto_reduce=given["reduce"] is None and not any(given[o] for o in _SHOW_STATES),
         cluster=Cluster(given["cluster"], given["workers"]) if given["cluster"] else None,
         first=_first(given),
     )

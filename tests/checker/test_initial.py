@@ -1,9 +1,11 @@
-"""The message `initial` of core Rebeca up to 2.0, and annotations that public models misplace."""
+"""What public models have: `initial` of core Rebeca up to 2.0, features, misplaced annotations."""
 
 from __future__ import annotations
 
 import json
 from pathlib import Path
+
+import pytest
 
 from tests.cli.run import rebsync
 
@@ -58,3 +60,44 @@ main { @Port A a():(); }
     generated = rebsync("generate", "m.rebeca", "-o", "out", cwd=tmp_path)
     assert generated.status == 2
     assert "RS427 @Sensor on a class cannot be generated" in generated.out + generated.err
+
+
+FEATURES = """\
+featurevar FAST;
+@feature(!FAST) reactiveclass B(1) { }
+reactiveclass A(3) {
+    statevars { @feature(FAST && !false) int n; @feature(!(FAST || false)) boolean n; }
+    A() { self.go(); @feature(FAST && !FAST) self.go(); }
+    @feature(FAST) msgsrv go() { if (FAST) { n = (n + 1) % 3; } self.go() after(1); }
+    @feature(!FAST) msgsrv go() { unknown(); }
+}
+main { A a():(); @feature(!FAST) B b():(); }
+"""
+SELECTED = """\
+reactiveclass A(3) {
+    statevars { int n; }
+    A() { self.go(); }
+    msgsrv go() { if (true) { n = (n + 1) % 3; } self.go() after(1); }
+}
+main { A a():(); }
+"""
+
+
+def test_features_are_true(tmp_path: Path) -> None:
+    """What needs one to be false is no part of a model, as the official compiler has it."""
+    (status, found), (_, selected) = (verified(tmp_path, m) for m in (FEATURES, SELECTED))
+    figures = ("verdict", "states", "transitions", "properties")
+    assert status == 0
+    assert [found[f] for f in figures] == [selected[f] for f in figures]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [("(FAST) msgsrv", "(QUICK) msgsrv"), ("statevars {", "statevars { int FAST;")],
+    ids=["one that is not declared", "one that is a variable too"],
+)
+def test_features_that_are_not_known_are_refused(tmp_path: Path, change: tuple[str, str]) -> None:
+    (tmp_path / "m.rebeca").write_text(FEATURES.replace(*change))
+    done = rebsync("verify", "m.rebeca", cwd=tmp_path)
+    assert done.status == 2
+    assert 'RS110 "@feature" is not supported' in done.err

@@ -13,6 +13,7 @@ from rebsync.checker.compiled import CompiledSearch
 from rebsync.checker.exploration import Exploration, Limits, Unavailable
 from rebsync.checker.orbits import Orbits
 from rebsync.checker.problem import EngineChoice, Options, Problem
+from rebsync.checker.references import references_of
 from rebsync.checker.result import Result, Violation
 from rebsync.checker.search import Interpreted
 from rebsync.checker.state import State
@@ -207,3 +208,24 @@ def _compare(full: Result, reduced: Result, verdict: str) -> None:
         if loop is not None:
             after, before = steps[-1].rebecs, steps[loop].rebecs
             assert [r.variables for r in after] == [r.variables for r in before]
+
+
+SUSPENDED = """\
+reactiveclass A(2) {
+  knownrebecs { A other; }
+  A() { self.go(); }
+  A pick() { return other; }
+  void wait(A whom) { int n = 1; delay(n); whom.go() after(1); }
+  msgsrv go() { int n = 1; A found = pick(); wait(found); found.go() after(n); }
+}
+main { A a(b):(); A b(a):(); }
+"""
+
+
+def test_frames_hold_what_methods_gave() -> None:
+    """Also of a method that is not suspended itself, and in the frame of who calls one that is."""
+    program = System.of(SUSPENDED).program
+    held = {
+        program.body_at(pc).name: list(cells) for pc, cells in references_of(program).frames.items()
+    }
+    assert held == {"A.wait": [0], "A.go": [1]}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import click
 import pytest
@@ -122,3 +123,23 @@ def test_values_change_nothing_else_of_the_text() -> None:
     declared = [env["limit"].declaration, env["quick"].declaration]
     text = with_values(MODEL, declared, ("10", "false"))
     assert text == MODEL.replace("limit = 3", "limit = 10").replace("= true", "= false")
+
+
+def test_the_table_is_drawn(model: str, tmp_path: Path) -> None:
+    """A cell for each verdict, and a line for the least and for the greatest value."""
+    options = ["--for-all", "limit=2..4", "--for-all", "step=1,2", "--measure", "walker.place"]
+    done = rebsync("verify", model, *options, "--format", "svg", cwd=tmp_path)
+    assert done.status == 3
+    drawn = ElementTree.fromstring(done.out)
+    told = [title.text for title in drawn.iter("{http://www.w3.org/2000/svg}title")]
+    assert told[0] == "walker.rebeca: verdicts by the values of limit, step"
+    columns = [f"{limit}, {step}" for limit in (2, 3, 4) for step in (1, 2)]
+    cells = [(each, "satisfied" if each == "4, 2" else "violated") for each in columns]
+    for name in ("verdict", "Low"):
+        assert [t for t in told if f": {name} " in str(t)] == [
+            f"{values}: {name} {verdict}" for values, verdict in cells
+        ]
+    assert [t for t in told if "greatest" in str(t)] == [
+        f"{values}: greatest {5 if values.endswith('1') else 4}" for values, _ in cells
+    ]
+    assert len(drawn.findall(".//{http://www.w3.org/2000/svg}path[@class='way']")) == 2

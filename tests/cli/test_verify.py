@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 from rebsync.cli import main
+from tests.checker.test_reducing import FLEET, ONCE
 from tests.cli.run import ROOT, environment, rebsync
 
 EXAMPLES = ROOT / "examples"
@@ -471,3 +472,20 @@ def test_properties_are_picked_by_name(tmp_path: Path, capsys: pytest.CaptureFix
     assert 'RS929 no property is called "Safty"\nhint: did you mean "Safety"?' in (
         capsys.readouterr().err
     )
+
+
+def test_states_are_reduced_unless_all_are_wanted(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """And not where something is asked that not every reduction keeps."""
+    (tmp_path / "fleet.rebeca").write_text(FLEET.replace("% 3); }\n}", "% 2); }\n}"))
+
+    def states(*options: str) -> tuple[int, list[str]]:
+        assert main(["verify", str(tmp_path / "fleet.rebeca"), "--format", "json", *options]) == 0
+        found = json.loads(capsys.readouterr().out)
+        return found["states"], found["caveats"]
+
+    assert states() == (1443, [ONCE])
+    assert states("--no-reduce") == states("--measure", "a.done") == (22240, [])
+    reduced, caveats = states("--symmetry")
+    assert (reduced, caveats) == (1443, [ONCE.partition("; --no-reduce")[0]])

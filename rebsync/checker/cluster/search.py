@@ -24,6 +24,7 @@ from rebsync.checker.exploration import (
     Progress,
     Report,
     Unavailable,
+    bound_of_states,
     kinds_of,
 )
 from rebsync.checker.graph import Graph
@@ -176,7 +177,7 @@ class ClusterSearch:
             if not reached:
                 return None
             if limits.states is not None and self._states >= limits.states:
-                return f"the bound of {limits.states} states was reached"
+                return bound_of_states(limits.states)
             phase, first, parents = "expand", self._firsts[-1], reached
 
     def _enter(self, pool: Pool, phase: str, first: int, parents: int, limits: Limits) -> int:
