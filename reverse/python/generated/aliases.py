@@ -13,9 +13,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
 
 _SET_UP = frozenset({"__init__", "_wire"})

@@ -48,8 +48,8 @@ from rebsync.reverse.python.generated.value_types import typed
 from rebsync.reverse.python.values.class_creation import list_creation
 from rebsync.reverse.python.values.py_evaluator import lineage
 from rebsync.reverse.python.values.py_values import PyValues
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import PyCode, Scope, classes_in
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import named, text_of
 
 

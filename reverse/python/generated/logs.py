@@ -21,10 +21,10 @@ from rebsync.reverse.python.generated.log_words import (
 )
 from rebsync.reverse.python.generated.told_containers import is_asked
 from rebsync.reverse.python.values.py_callbacks import body_of
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.ancestors import functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, has_splat
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _DESCRIBES = frozenset({"__repr__", "__str__"})

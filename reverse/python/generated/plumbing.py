@@ -18,8 +18,10 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
 from rebsync.reverse.python.generated.decorators import is_context, is_transparent
+from rebsync.reverse.python.generated.log_setup import imports_types, sets_up_logs
 from rebsync.reverse.python.generated.logs import is_logger
 from rebsync.reverse.python.generated.members import declares_plain
+from rebsync.reverse.python.generated.moments import names_moment
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.parameters import only_declares, parameter_read
 from rebsync.reverse.python.generated.posts import Post
@@ -260,6 +262,10 @@ def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
         if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
             continue
         if constants.is_quiet(module, statement) or is_alias(module, statement):
+            continue
+        if names_moment(module, statement) or sets_up_logs(module, statement):
+            continue
+        if imports_types(module, statement):
             continue
         if (
             statement.type == "decorated_definition"
