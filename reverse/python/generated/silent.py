@@ -285,7 +285,8 @@ def silent_in(
     )
     rest = {n: v for n, v in members.items() if not found.is_member(n)}
     computed = frozenset(n for n, v in rest.items() if is_candidate(code, owner.module, v))
-    kept = {f.node.id: candidate_locals(code, f) for f in functions.values()}
+    told_ones = found.members | computed
+    kept = {f.node.id: candidate_locals(code, f, told_ones) for f in functions.values()}
     kept = {place: names - found.locals[place] for place, names in kept.items()}
     found = replace(found, texts=told | computed, computed=computed, kept=kept)
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}

@@ -13,6 +13,7 @@ from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.python.values.py_callbacks import body_of
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
@@ -26,6 +27,7 @@ _STATEMENTS = frozenset(
 )
 SET_UP = ("__init__", "_wire")
 _NUMBERS = frozenset({"integer", "float", "true", "false", "unary_operator"})
+_TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern"})
 _STORING = frozenset({"assignment", "augmented_assignment"})
 
 
@@ -34,15 +36,59 @@ def is_candidate(code: PyCode, module: Scope, value: Node) -> bool:
     return value.type not in _NUMBERS and _is_computed(code, module, value)
 
 
-def candidate_locals(code: PyCode, function: Scope) -> frozenset[str]:
-    """The locals of a function that may be for people: none that models declare."""
-    return frozenset(
+def candidate_locals(code: PyCode, function: Scope, members: Collection[str]) -> frozenset[str]:
+    """The locals of a function that may be for people: none that models declare.
+
+    `members` are told to people. A local that nobody is told of is the model's, though nobody
+    reads it.
+    """
+    computed = frozenset(
         name
         for name, bindings in function.names.items()
         if all(b.how in ("value", "augmented", "loop") for b in bindings)
         and all(_is_computed(code, function.module, b.value) for b in bindings)
         and not any(_is_declared(b.value) for b in bindings)
     )
+    return _told_of(function, computed, members) if computed else computed
+
+
+def _told_of(function: Scope, names: frozenset[str], members: Collection[str]) -> frozenset[str]:
+    """Those of some locals that a statement reads which tells people something."""
+    reads = [n for n in nodes_in(function.node) if n.type == "identifier" and not _is_bound(n)]
+    reads = [n for n in reads if text_of(n) in names]
+    found = frozenset[str]()
+    while fresh := {text_of(n) for n in reads if _is_told(n, members, found)} - found:
+        found |= fresh
+    return found
+
+
+def _is_bound(node: Node) -> bool:
+    """Whether a name stands where it gets a value."""
+    above = node.parent
+    while above is not None and above.type in _TARGETS:
+        node, above = above, above.parent
+    is_left = above is not None and above.child_by_field_name("left") == node
+    return is_left and above is not None and above.type in (*_STORING, "for_statement")
+
+
+def _is_told(node: Node, members: Collection[str], told: Collection[str]) -> bool:
+    """Whether a read of a local stands in a statement that tells people something."""
+    around = (n for n in ancestors(node, _is_scope) if n.type in _STATEMENTS)
+    return any(_speaks(part, members, told) for s in around for part in nodes_in(s))
+
+
+def _is_scope(node: Node) -> bool:
+    return node.type in ("function_definition", "class_definition")
+
+
+def _speaks(part: Node, members: Collection[str], told: Collection[str]) -> bool:
+    match part.type:
+        case "call":
+            return libraries.log_words().match(text_of(field(part, "function"))) is not None
+        case "attribute":
+            return text_of(field(part, "attribute")) in members
+        case _:
+            return part.type == "identifier" and text_of(part) in told
 
 
 def _is_declared(value: Node) -> bool:
