@@ -298,7 +298,12 @@ def written(key: e.Expression, types: ValueTypes) -> Iterator[tuple[object, Valu
 
 
 def computed(operator: Operator, left: ValueTypes, right: ValueTypes) -> ValueTypes:
-    """The types of what an operator gives for operands of some types."""
+    """The types of what an operator gives for operands of some types; for None there is nothing.
+
+    So a counter, of which the only other value is its own sum, is a number.
+    """
+    if NO_TYPES in (left, right):
+        return NO_TYPES
     if left == right == A_NUMBER:
         return A_NUMBER
     kinds = frozenset(map(own_type, left))

@@ -109,7 +109,7 @@ Takes = Callable[[ValueTypes], bool]
 # What takes so many arguments: of each what it must be; the first number is of those needed.
 _FUNCTIONS: dict[str, tuple[int, Sequence[Takes]]] = {
     **dict.fromkeys(("str", "repr", "bool", "type", "id"), (1, (_anything,))),
-    **dict.fromkeys(("abs", "round", "float", "int", "bin", "hex", "chr"), (1, (_number,))),
+    **dict.fromkeys(("abs", "round", "float", "int", "bin", "hex"), (1, (_number,))),
     "range": (1, (_number, _number)),
     "divmod": (2, (_number, _number)),
     **dict.fromkeys(("list", "tuple", "len", "any", "all", "reversed"), (1, (_elements,))),
@@ -143,16 +143,28 @@ _METHODS: dict[str, tuple[int, Sequence[Takes]]] = {
 }
 
 
-def takes(name: str, given: Sequence[tuple[str | None, ValueTypes]]) -> bool:
-    """Whether a function takes some arguments, by place or name, and only gives a value."""
+# Of these a number with a point is none that they take.
+_OF_WHOLE = frozenset({"range", "bin", "hex", "enumerate", "collections.deque", "json.dumps"})
+_METHODS_OF_WHOLE = frozenset({"ljust", "rjust", "center", "zfill"})
+
+
+def takes(name: str, given: Sequence[tuple[str | None, ValueTypes]], *, whole: bool) -> bool:
+    """Whether a function takes some arguments, by place or name, and only gives a value.
+
+    `whole` says whether all numbers among them are whole.
+    """
     if name in libraries.clocks():
         return not given
     plain = name.removeprefix("builtins.")
+    if plain in _OF_WHOLE and not whole:
+        return False
     return plain in _FUNCTIONS and _fits(_FUNCTIONS[plain], _NAMED.get(plain, {}), given)
 
 
-def method_takes(name: str, given: Sequence[tuple[str | None, ValueTypes]]) -> bool:
+def method_takes(name: str, given: Sequence[tuple[str | None, ValueTypes]], *, whole: bool) -> bool:
     """Whether a method of a container or text takes some arguments."""
+    if name in _METHODS_OF_WHOLE and not whole:
+        return False
     return name in _METHODS and _fits(_METHODS[name], {}, given)
 
 

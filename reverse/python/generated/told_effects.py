@@ -194,6 +194,8 @@ class _Scope(ToldValues):
             is_made = self.enters(ClassOrigin(node.class_name, False)) and self._given(node)
         else:
             is_made = self._calls(node)
+            if node.target is not None and _gives_whole(node):
+                self.whole.add(node.target)
         if not is_made:
             return False
         return node.target is None or self._is_place(node.target)
@@ -242,7 +244,7 @@ class _Scope(ToldValues):
             return all(isinstance(a.value, e.LibraryReference) for a in node.arguments)
         is_whole = name.removeprefix("builtins.") in _WHOLE
         seen = all(self.is_seen(a.value, whole=is_whole) for a in node.arguments)
-        return seen and takes(name, self.arguments(node))
+        return seen and takes(name, self.arguments(node), whole=self.has_whole(node))
 
     def _calls_method(self, node: s.Call, receiver: e.Expression, name: str) -> bool:
         places = self.places
@@ -264,7 +266,7 @@ class _Scope(ToldValues):
                 return name == "publish" and self._given(node)
         if self.is_table(receiver):
             is_asked = name in _ASKING and self._given(node)
-            return is_asked and method_takes(name, self.arguments(node))
+            return is_asked and method_takes(name, self.arguments(node), whole=self.has_whole(node))
         held = self.held(receiver)
         is_logging = held == {LOGGER} and name in _LOG_LEVELS
         if is_logging or not self._given(node):
@@ -276,7 +278,7 @@ class _Scope(ToldValues):
         """Whether a method of an object that the receiver may be does nothing to the model."""
         match origin:
             case LibraryOrigin(of, True):
-                return of in _CONTAINERS and method_takes(name, self.arguments(node))
+                return of in _CONTAINERS and method_takes(name, self.arguments(node), whole=self.has_whole(node))
             case ClassOrigin(of, True):
                 found = self.effects.origins.methods(of, name)
                 return bool(found) and all(map(self.effects.is_foreign, found))
@@ -293,3 +295,14 @@ class _Scope(ToldValues):
                 return all(map(self.effects.is_foreign, graph.construction(name).functions))
             case _:
                 return False
+
+
+def _gives_whole(node: s.Call) -> bool:
+    """Whether what a call gives is a whole number, if it gives one."""
+    match node.callee:
+        case s.LibraryCallee("builtins.len" | "builtins.int"):
+            return True
+        case s.LibraryCallee("builtins.round"):
+            return len(node.arguments) == 1
+        case _:
+            return False

@@ -12,7 +12,7 @@ from dataclasses import field as with_default
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origin, Origins
-from rebsync.reverse.analysis.python.value_types import ValueTypes
+from rebsync.reverse.analysis.python.value_types import A_NUMBER, ValueTypes
 from rebsync.reverse.analysis.stores import key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -26,6 +26,12 @@ from rebsync.source import Span
 
 LOGGER = LibraryOrigin("logging.getLogger", True)
 _SCALARS = (t.Integer, t.Float, t.Truth, t.Text)
+_OF_WHOLE = frozenset(
+    {
+        *(Operator.ADD, Operator.SUBTRACT, Operator.MULTIPLY),
+        *(Operator.FLOOR_DIVIDE, Operator.FLOOR_MODULO),
+    }
+)
 _OF_ANYTHING = (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SAME)
 
 
@@ -76,7 +82,7 @@ class ToldValues(ABC):
 
     A generator that is written within a method has that `outside`. `tables` are locals and
     temporaries that hold an array of the model, and so are only looked at; `loggers` those that
-    hold a logger; `known` the places of calls of which the rest of the form does not know what they
+    hold a logger; `whole` those that hold a whole number; `known` the places of calls of which the rest of the form does not know what they
     do.
     """
 
@@ -88,6 +94,7 @@ class ToldValues(ABC):
     loggers: set[e.Expression] = with_default(default_factory=set)
     known: set[Span] = with_default(default_factory=set)
     outside: ToldValues | None = None
+    whole: set[e.Expression] = with_default(default_factory=set)
     loops: int = 0
 
     @property
@@ -127,6 +134,22 @@ class ToldValues(ABC):
 
     def arguments(self, node: s.Call) -> list[tuple[str | None, ValueTypes]]:
         return [(a.name, self._types(a.value)) for a in node.arguments]
+
+    def has_whole(self, node: s.Call) -> bool:
+        """Whether all numbers that a call gets are whole."""
+        values = (a.value for a in node.arguments)
+        return all(self._types(v) != A_NUMBER or self._is_whole(v) for v in values)
+
+    def _is_whole(self, value: e.Expression) -> bool:
+        match value:
+            case e.Literal(number):
+                return isinstance(number, int)
+            case e.Binary(operator, left, right) if operator in _OF_WHOLE:
+                return self._is_whole(left) and self._is_whole(right)
+            case e.Temporary():
+                return value in self.whole
+            case _:
+                return self.effects.form.kinds(self.function).is_whole(value)
 
     def is_plain(self, value: e.Expression, name: str) -> bool:
         """Whether one of those that are told is of types that no array of the model has."""
