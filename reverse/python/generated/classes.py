@@ -275,7 +275,8 @@ class ModelClasses:
         line = self.line(owner)[1:]
         nearest = next((i for i, c in enumerate(line) if self._has_mailbox(c)), len(line))
         for above in filter(self._is_helping, line[:nearest]):
-            yield from (f for n, f in self._of(above).functions.items() if n not in own)
+            taken = own.keys() | self._of(above).ticking
+            yield from (f for n, f in self._of(above).functions.items() if n not in taken)
 
     def _is_helping(self, owner: Scope) -> bool:
         """Whether a class has nothing but functions with bodies, for its heirs."""

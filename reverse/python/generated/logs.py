@@ -267,15 +267,6 @@ def _by_position(given: Node) -> bool:
     return all(n.type != "keyword_argument" for n in named(given))
 
 
-def only_logs_by_words(function: Scope) -> bool:
-    """Whether each statement of a method is one that logs, whatever it logs."""
-    words = libraries.log_words()
-    calls = [named(s)[0] for s in body_of(function) if s.type == "expression_statement"]
-    called = [text_of(field(c, "function")) for c in calls if c.type == "call"]
-    is_plain = not function.decorators and len(called) == len(body_of(function)) > 0
-    return is_plain and all(words.match(each) is not None for each in called)
-
-
 def own_method(node: Node) -> str:
     """The method that a call of one of the object's own calls; empty for all else."""
     function = field(node, "function") if node.type == "call" else None

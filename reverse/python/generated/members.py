@@ -28,6 +28,7 @@ from rebsync.reverse.syntax.py_tree import field, named, text_of
 VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
 _NUMBERS = frozenset({"true", "false", "integer", "float"})
 _DECLARE, _GET = "self.declare_parameter", "self.get_parameter"
+_MADE_OF_ANY = frozenset({"bool", "str"})
 _LIBRARY_BASES = frozenset({"Node", "LifecycleNode", "object", "ABC"})
 _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target"})
 _LOCKS = frozenset({"threading.Lock", "threading.RLock"})
@@ -36,8 +37,11 @@ _LOCKS = frozenset({"threading.Lock", "threading.RLock"})
 def is_own_parameter(node: Node) -> bool:
     """`rospy.get_param("~label", "robot")` and `self.declare_parameter("label", "robot").value`.
 
-    So is `self.get_parameter("label").value` behind the declaration.
+    So is `self.get_parameter("label").value` behind the declaration, and a truth or text of it.
     """
+    made, of = call_parts(node) or ("", [])
+    if made in _MADE_OF_ANY and len(of) == 1:
+        return is_own_parameter(of[0])
     inner = _asked(node)
     called, arguments = call_parts(inner if inner is not None else node) or ("", [])
     if inner is not None and called == _GET and len(arguments) == 1:

@@ -255,7 +255,7 @@ def silent_in(
     members = {name: value for name, value in made.items() if not is_of_node(name)}
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
-    handed = {n: functions[n] for n in roles[0].ticking}
+    handed = _handed(roles)
     messages = ToldMessages(types, variables, looks)
     exceptions = ToldExceptions.of(code, form, messages)
     timers = Timers.of(code, handed, looks, exceptions)
@@ -296,6 +296,13 @@ def silent_in(
         return found
     ticking = found.ticking.union(n for n, v in members.items() if timers.is_idle(v))
     return _consistent(replace(found, timers=timers, ticking=ticking), modules, beside)
+
+
+def _handed(roles: Sequence[PyRoles]) -> dict[str, Scope]:
+    """The methods that may only tell people something, of classes of one module."""
+    here = [r for r in roles if r.owner.module is roles[0].owner.module]
+    functions = {n: f for r in reversed(here) for n, f in r.functions.items()}
+    return {n: functions[n] for r in here for n in r.ticking if functions[n] is r.functions[n]}
 
 
 def _is_told(name: str, value: Node, looks: Looks) -> bool:

@@ -278,7 +278,9 @@ class _Scope(ToldValues):
         """Whether a method of an object that the receiver may be does nothing to the model."""
         match origin:
             case LibraryOrigin(of, True):
-                return of in _CONTAINERS and method_takes(name, self.arguments(node), whole=self.has_whole(node))
+                return of in _CONTAINERS and method_takes(
+                    name, self.arguments(node), whole=self.has_whole(node)
+                )
             case ClassOrigin(of, True):
                 found = self.effects.origins.methods(of, name)
                 return bool(found) and all(map(self.effects.is_foreign, found))
