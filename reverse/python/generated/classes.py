@@ -25,9 +25,10 @@ from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.generated import first_values
 from rebsync.reverse.python.generated.bodies import ModelBodies
 from rebsync.reverse.python.generated.marks import is_abstract, is_constructor, is_marked
+from rebsync.reverse.python.generated.module_top import ModuleTop
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.overloads import families
-from rebsync.reverse.python.generated.plumbing import Plumbing, odd_at_top, set_in
+from rebsync.reverse.python.generated.plumbing import Plumbing
 from rebsync.reverse.python.generated.posts import learn_servers
 from rebsync.reverse.python.generated.py_types import (
     annotations_above,
@@ -145,10 +146,9 @@ class ModelClasses:
         """All of them in the order of the code, or those of a file."""
         wanted = [o for o in self._owners if path is None or o.py.source.path == path]
         for module in {id(o.module): o.module for o in wanted}.values():
-            counters = self._counters(module)
-            for node in odd_at_top(module, self._named):
-                if counters.intersection(set_in(node)):
-                    continue
+            owners = [o for o in self._owners if o.module is module]
+            names = [self._bodies.names(o) for o in owners]
+            for node in ModuleTop(module, self._named, names, owners).odd():
                 unread = Unread(module.py.span(node), "what this does is not in the model")
                 self.findings.unreadable(module.py.source, unread, "")
         for owner in wanted:
@@ -159,12 +159,6 @@ class ModelClasses:
             for o in wanted
             if not self._is_helping(o)
         )
-
-    def _counters(self, module: Scope) -> frozenset[str]:
-        """The variables of a module that only people are told of, whichever class counts."""
-        owners = [o for o in self._owners if o.module is module]
-        found = [self._bodies.names(o).silent.counters for o in owners]
-        return frozenset.intersection(*found) if found else frozenset()
 
     def arguments(self) -> dict[str, list[str]]:
         """The parameters that the constructors of classes read for their arguments, in order."""

@@ -89,6 +89,17 @@ def list_definition_effects(source: Source, own: Collection[str], findings: Find
         _list(source, _ImportedCode(tree).defining(own), findings)
 
 
+def acting_lines(source: Source) -> frozenset[int] | None:
+    """The lines of a module at which statements stand that may do more than to bind names.
+
+    None for a module that Python does not take.
+    """
+    tree = module_of(source.text)
+    if tree is None:
+        return None
+    return frozenset(node.lineno for node in _ImportedCode(tree).acting())
+
+
 def list_setup_effects(source: Source, findings: Findings) -> None:
     """Lists what `setup.py` does besides to say what is installed."""
     tree = module_of(source.text)

@@ -1,9 +1,8 @@
-"""Statements at the top of modules that only say how is logged, or import what a version has."""
+"""Statements at the top of modules that only say how is logged."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
 
 from tree_sitter import Node
 
@@ -13,13 +12,10 @@ from rebsync.reverse.python.generated.module_variables import (
     loggers_of,
 )
 from rebsync.reverse.syntax.py_index import Scope
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import named, text_of
 
 _LEVEL = re.compile(r"logging\.(?:DEBUG|INFO|WARN|WARNING|ERROR|CRITICAL|FATAL)\Z")
 _HANDLERS = frozenset({"logging.StreamHandler", "logging.NullHandler"})
-_VERSION = re.compile(r"sys\.version_info\s*(?:>=|<)\s*\(\s*\d+\s*,\s*\d+\s*\)\Z")
-# What only has other names for types there.
-_OF_TYPES = re.compile(r"from (?:typing|typing_extensions|collections\.abc) import [\w\s,()]+\Z")
 
 
 def sets_up_logs(module: Scope, statement: Node) -> bool:
@@ -47,21 +43,3 @@ def _is_level(module: Scope, node: Node) -> bool:
 
 def _is_logging(module: Scope) -> bool:
     return imported_as(module, "logging") == "logging"
-
-
-def imports_types(module: Scope, statement: Node) -> bool:
-    """Whether a statement imports names of types from where a version of Python has them."""
-    if statement.type != "if_statement":
-        return False
-    condition = text_of(field(statement, "condition"))
-    if _VERSION.match(condition) is None or imported_as(module, "sys") != "sys":
-        return False
-    others = statement.children_by_field_name("alternative")
-    blocks = [field(statement, "consequence"), *(field(o, "body") for o in others)]
-    is_whole = all(o.type == "else_clause" for o in others)
-    return is_whole and all(map(_only_imports_types, blocks))
-
-
-def _only_imports_types(block: Node) -> bool:
-    inside: Collection[Node] = [n for n in named(block) if n.type != "comment"]
-    return bool(inside) and all(_OF_TYPES.match(text_of(n)) for n in inside)

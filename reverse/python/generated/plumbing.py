@@ -13,15 +13,12 @@ from tree_sitter import Node
 from rebsync.intervals import Interval
 from rebsync.names import graph_name
 from rebsync.records import dataclass
-from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.messages import OwnMessages
-from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
-from rebsync.reverse.python.generated.decorators import is_context, is_transparent
-from rebsync.reverse.python.generated.log_setup import imports_types, sets_up_logs
+from rebsync.reverse.libraries.generated_calls import PUBLISHERS
+from rebsync.reverse.python.generated.decorators import is_transparent
 from rebsync.reverse.python.generated.logs import is_logger
 from rebsync.reverse.python.generated.members import declares_plain
-from rebsync.reverse.python.generated.moments import names_moment
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.parameters import only_declares, parameter_read
 from rebsync.reverse.python.generated.posts import Post
@@ -30,7 +27,7 @@ from rebsync.reverse.python.generated.py_types import (
     called_late,
     expression_in,
     handed_over,
-    is_alias,
+    is_text,
     is_unset,
     literal_type,
     string_value,
@@ -56,16 +53,12 @@ _CONNECTING = frozenset(
         *OFFERING,
     }
 )
-_NAMED = frozenset({"Server", "logging.getLogger", "getLogger", LOGGER})
 _CALLED = frozenset(
     {
         *("self._wire", "super()._wire", "super().__init__", "Node.__init__"),
         "RebecNode.__init__",
         "self._mailbox.on_served",
     }
-)
-_AT_TOP = frozenset(
-    {"comment", "import_statement", "import_from_statement", "future_import_statement"}
 )
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
 _PLAIN = frozenset({"__init__", "_wire", "_publish_state", "mailbox"})
@@ -116,7 +109,7 @@ class Plumbing:
         for node, why in self._overridden():
             self._list(owner.py, node, why, "")
         for statement in named(field(owner.node, "body")):
-            if statement.type in _IN_CLASS or _is_text(statement):
+            if statement.type in _IN_CLASS or is_text(statement):
                 continue
             if not self.constants.is_quiet(owner, statement):
                 self._list(owner.py, statement, _WHY, "")
@@ -200,7 +193,7 @@ class Plumbing:
         if inner.type == "call":
             return self._is_called(function, inner)
         if inner.type != "assignment":
-            return _is_text(statement)
+            return is_text(statement)
         member = text_of(field(inner, "left")).removeprefix("self.")
         if self.silent.is_member(member):
             return True
@@ -250,37 +243,6 @@ class Plumbing:
         return member in self.roles.publishers
 
 
-def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
-    """The statements of a module of a class that are none of the model's."""
-    for statement in named(module.node):
-        inner = expression_in(statement)
-        called, _ = call_parts(inner.child_by_field_name("right") if inner else None) or ("", [])
-        definition = statement.child_by_field_name("definition") or statement
-        if any(c.type == "wildcard_import" for c in statement.children):
-            yield statement
-            continue
-        if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
-            continue
-        if constants.is_quiet(module, statement) or is_alias(module, statement):
-            continue
-        if names_moment(module, statement) or sets_up_logs(module, statement):
-            continue
-        if imports_types(module, statement):
-            continue
-        if (
-            statement.type == "decorated_definition"
-            and definition.type == "function_definition"
-            and is_context(module, constants.code.scope_of(definition, module.py))
-        ):
-            continue
-        is_class = definition.type == "class_definition"
-        if is_class and text_of(field(definition, "name")) not in NO_PYTHON_CLASSES:
-            continue  # of those names generated code means its own
-        if statement.type == "if_statement" and "TYPE_CHECKING" in text_of(statement):
-            continue
-        yield statement
-
-
 def _is_of_type(statement: Node) -> bool:
     """Whether a state variable is made as its type says, with a value that the model has."""
     value = without_parentheses(field(statement, "right"))
@@ -317,15 +279,3 @@ def _only_looks(value: Node) -> bool:
         and (node.type != "call" or text_of(field(node, "function")) in _LOOKING)
         for node in nodes_in(value)
     )
-
-
-def _is_text(statement: Node) -> bool:
-    inner = expression_in(statement)
-    return inner is not None and inner.type in ("string", "concatenated_string")
-
-
-def set_in(statement: Node) -> Iterator[str]:
-    """The variable that a statement at the top of a module makes."""
-    inner = named(statement)[0] if named(statement) else statement
-    if inner.type == "assignment":
-        yield text_of(field(inner, "left"))

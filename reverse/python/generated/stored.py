@@ -29,7 +29,7 @@ _WHOLE = "say what is stored here element by element"
 
 
 def chained(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
-    """`a = b = e`. Unread: e may be another value the second time."""
+    """`a = b = e`, where `e` is kept if it may be another value the second time."""
     lefts, value = [field(node, "left")], node.child_by_field_name("right")
     while value is not None and value.type == "assignment":
         lefts.append(field(value, "left"))
@@ -38,8 +38,26 @@ def chained(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
         raise reader.expressions.unread(node, "nothing is stored here: give it a value")
     stored = {idioms.base_of(left) for left in lefts}
     if not idioms.is_plain(value) or not stored.isdisjoint(idioms.names_in(value)):
-        raise reader.expressions.unread(node, "store this in one variable after the other")
+        return _computed_once(reader, lefts, value, node)
     return [s for left in lefts for s in _stored(reader, left, value, node)]
+
+
+def _computed_once(
+    reader: ModelStatementReader, lefts: list[Node], value: Node, node: Node
+) -> list[m.Statement]:
+    """`self._x = x = e`: the value goes into a local, and from there into variables of its type."""
+    known = reader.expressions
+    new = [n for n in lefts if n.type == "identifier" and text_of(n) not in known.locals]
+    others = [n for n in lefts if n not in new[:1]]
+    first = reader.implied_local(text_of(new[0]), value, node) if new else None
+    first = first or _kept(reader, lefts[0], value, node)
+    read = [known.read(left) for left in others]  # behind what may hide them
+    type_, name = first.declaration.type, first.declaration.declarators[0].name
+    if any(left.type not in _PLACES for left in others) or {*map(known.kind, read)} - {type_}:
+        raise known.unread(node, "store this in one variable after the other")
+    span = known.py.span(node)
+    stores = (m.Assign("=", target, m.Name(name), span) for target in read)
+    return [first, *(m.ExpressionStatement(each, span=span) for each in stores)]
 
 
 def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:

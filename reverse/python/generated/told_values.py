@@ -82,8 +82,8 @@ class ToldValues(ABC):
 
     A generator that is written within a method has that `outside`. `tables` are locals and
     temporaries that hold an array of the model, and so are only looked at; `loggers` those that
-    hold a logger; `whole` those that hold a whole number; `known` the places of calls of which the rest of the form does not know what they
-    do.
+    hold a logger; `whole` those that hold a whole
+    number; `known` the places of calls of which the rest of the form does not know what they do.
     """
 
     effects: Foreign
