@@ -24,12 +24,12 @@ from rebsync.reverse.python.generated.parameters import only_declares, parameter
 from rebsync.reverse.python.generated.posts import Post
 from rebsync.reverse.python.generated.py_types import (
     call_parts,
-    called_late,
     expression_in,
     handed_over,
     is_text,
     is_unset,
     literal_type,
+    passed_on,
     string_value,
     type_made,
     type_of,
@@ -220,9 +220,7 @@ class Plumbing:
     def _is_called(self, function: Scope, call: Node) -> bool:
         called, arguments = call_parts(call) or ("", [])
         if called == "self._mailbox.construct" and len(arguments) == 1:
-            passed = arguments[0]
-            given = called_late(passed)
-            _, values = call_parts(given) or ("", [])
+            _, values = passed_on(arguments[0]) or ("", [])
             names = [*(p.name for p in function.parameters[1:]), *self.roles.arguments]
             return [text_of(v) for v in values] == names[-len(values) :] if values else True
         if self.silent.timers.is_idle(call) or self.silent.asked.is_idle(call):

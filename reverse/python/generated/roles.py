@@ -246,7 +246,7 @@ def _member(roles: PyRoles, function: Scope, name: str, statement: Node, value: 
 
 
 def _connected(roles: PyRoles, member: str, method: str, arguments: list[Node]) -> None:
-    first = string_value(arguments[0]) if arguments else None
+    first = _topic(roles, arguments[0]) if arguments else None
     topic = (first or "").removeprefix("~/").removeprefix("~")
     if method == "advertise" and len(arguments) == 2:
         known, _, key = topic.rpartition("/")
@@ -266,6 +266,15 @@ def _connected(roles: PyRoles, member: str, method: str, arguments: list[Node]) 
         name = "Action" if method.startswith("offer_action") else "Service"
         replies = (string_value(arguments[i]) for i in (1, 6) if i < len(arguments))
         roles.offers[shim] = m.Annotation(name, tuple(m.Name(reply or "") for reply in replies))
+
+
+def _topic(roles: PyRoles, node: Node) -> str | None:
+    """A text, or one that the module gives a name to."""
+    bound = roles.owner.module.names.get(text_of(node), [])
+    if len(bound) != 1 or bound[0].how != "value" or bound[0].path:
+        return string_value(node)
+    is_local = any(text_of(node) in f.names for f in roles.functions.values())
+    return None if is_local else string_value(bound[0].value)
 
 
 def _variable(
