@@ -1,4 +1,4 @@
-"""Trees of generated Python in which names of texts are these texts, and partial calls are calls."""
+"""Trees of generated Python with texts in place of their names, and calls for partial ones."""
 
 from __future__ import annotations
 

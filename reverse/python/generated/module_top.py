@@ -12,6 +12,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
+from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.generated_calls import LOGGER
 from rebsync.reverse.python.generated.decorators import is_context
 from rebsync.reverse.python.generated.import_effects import acting_lines
@@ -31,6 +32,7 @@ from rebsync.reverse.syntax.py_bindings import Binding
 from rebsync.reverse.syntax.py_index import Scope, module_named, module_of
 from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
 
+_WHY = "what this does is not in the model"
 _NAMED = frozenset({"Server", "logging.getLogger", "getLogger", LOGGER})
 _IMPORTS = frozenset(
     {"comment", "import_statement", "import_from_statement", "future_import_statement"}
@@ -49,6 +51,11 @@ class ModuleTop:
     constants: CodeConstants
     names: Sequence[ModelNames]
     owners: Sequence[Scope]
+
+    def check(self, findings: Findings) -> None:
+        """Lists what a module does besides."""
+        for node in self.odd():
+            findings.unreadable(self.module.py.source, Unread(self.module.py.span(node), _WHY), "")
 
     def odd(self) -> Iterator[Node]:
         """The statements that are none of the model's, and may count for it."""

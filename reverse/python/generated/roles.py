@@ -126,9 +126,10 @@ class PyRoles:
     queue: Node | None = None  # the length that heirs may hand on another one for
 
     def leave_out(self, members: Collection[str]) -> None:
-        """Takes those with parameters of the node's own among some members out of the model."""
-        for name in self.own.keys() & members:
-            self.told.append(self.own.pop(name)[0])
+        """Takes some variables out of the model, with parameters of the node's own or not."""
+        self.told += [self.own.pop(name)[0] for name in self.own.keys() & members]
+        self.initial = [each for each in self.initial if each[0] not in members]
+        for name in self.state.keys() & members:
             del self.state[name]
 
     def served_by(self, shim: str) -> str | None:
@@ -171,11 +172,11 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     handed = [n for n, function in roles.functions.items() if only_logs_by_words(function)]
     for set_up in (roles.functions[n] for n in ("__init__", "_wire") if n in roles.functions):
         handed += [*called_back(set_up), *asked_back(set_up)]
-    roles.ticking.update(n for n in handed if _is_added(roles, n))
+    roles.ticking.update(n for n in handed if is_people_own(roles, n))
     return roles
 
 
-def _is_added(roles: PyRoles, name: str) -> bool:
+def is_people_own(roles: PyRoles, name: str) -> bool:
     """Whether a function is one that people added beside what sends and serves."""
     function = roles.functions.get(name)
     is_made = roles.is_plumbing(name) or name in roles.handlers or name.startswith("construct")

@@ -25,6 +25,7 @@ from rebsync.reverse.python.generated.member_places import (
     name_around,
 )
 from rebsync.reverse.python.generated.members import (
+    NUMBERS,
     VALUES,
     is_lock,
     is_own_parameter,
@@ -307,7 +308,7 @@ def _handed(roles: Sequence[PyRoles]) -> dict[str, Scope]:
 
 def _is_told(name: str, value: Node, looks: Looks) -> bool:
     """Whether a member holds nothing but what people are told."""
-    is_kept = value.type in VALUES or is_own_parameter(value) or name in looks.containers
+    is_kept = value.type in VALUES | NUMBERS or is_own_parameter(value) or name in looks.containers
     return is_kept or looks.tells_time(value)
 
 
