@@ -117,7 +117,7 @@ class Plumbing:
     def _is_transparent(self, decorator: str) -> bool:
         """Whether a decorator only tells people of the function."""
         code, module = self.constants.code, self.roles.owner.module
-        return is_transparent(code, module, decorator, self.silent.exceptions)
+        return is_transparent(code, module, decorator, self.silent)
 
     def _is_plain(self, function: Scope, decorator: str) -> bool:
         """Whether the model knows what a function is with it: what is called is no property."""

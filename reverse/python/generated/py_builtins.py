@@ -254,7 +254,7 @@ def rows(reader: ModelExpressionReader, node: Node, width: int) -> list[tuple[m.
         return [(m.IntLiteral(n),) for n in numbers]
     if called == "enumerate" and width == 2 and 1 <= len(arguments) <= 2:
         values = _certain(reader, arguments[0], called)
-        start = whole_number_of(arguments[1]) if len(arguments) > 1 else 0
+        start = _start(arguments[1]) if len(arguments) > 1 else 0
         if start is not None:
             return [(m.IntLiteral(i), value) for i, value in enumerate(values, start)]
     if called == "zip" and width == len(arguments):
@@ -263,6 +263,13 @@ def rows(reader: ModelExpressionReader, node: Node, width: int) -> list[tuple[m.
     if width == 1 and node.type not in ("generator_expression", "list_comprehension"):
         return [(e,) for e in _certain(reader, node, called or "this")]
     raise reader.unread(node, "nobody knows what this goes through")
+
+
+def _start(node: Node) -> int | None:
+    """What `enumerate` counts from, given by place or by its name."""
+    if node.type == "keyword_argument":
+        node = field(node, "value") if text_of(field(node, "name")) == "start" else node
+    return whole_number_of(node)
 
 
 # --- values -------------------------------------------------------------------------------------

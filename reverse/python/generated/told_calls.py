@@ -122,6 +122,7 @@ _FUNCTIONS: dict[str, tuple[int, Sequence[Takes]]] = {
     "collections.OrderedDict": (0, ()),
     "collections.deque": (0, ()),
     "json.dumps": (1, (_plain,)),
+    "logging.getLogger": (0, (_text,)),
     **dict.fromkeys(("os.getpid", "platform.node", "socket.gethostname"), (0, ())),
     **{n: (1, (_number,)) for n in COMPUTING if n in ("math.floor", "math.ceil", "math.fabs")},
 }

@@ -60,6 +60,17 @@ class ToldEffects(Foreign):
         acting = self.form.acting(function, place)
         return all(problem.place in scope.known for problem in acting)
 
+    def computes(self, py: Py, place: Span) -> bool:
+        """Whether statements at a place of a function of a module do nothing but that, nor leave it."""
+        function, body = self.form.statements(py, place)
+        if function is None or function.owner is not None or not body:
+            return False
+        if any(isinstance(n, s.Return | s.Yield) for n in walk(body)):
+            return False
+        scope = _Scope(self, function, None)
+        is_free = scope.body(body)
+        return is_free and all(p.place in scope.known for p in self.form.acting(function, place))
+
     def is_foreign(self, name: str) -> bool:
         """Whether a function does nothing to the model where it gets free values only."""
         body = self.form.program.function(name).body

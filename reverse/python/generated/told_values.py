@@ -24,7 +24,7 @@ from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.generated.told_calls import is_known, is_plain
 from rebsync.source import Span
 
-LOGGER = LibraryOrigin("logging.getLogger", True)
+LOGGER = LibraryOrigin("logger", True)
 _SCALARS = (t.Integer, t.Float, t.Truth, t.Text)
 _OF_WHOLE = frozenset(
     {
