@@ -61,7 +61,7 @@ class ToldEffects(Foreign):
         return all(problem.place in scope.known for problem in acting)
 
     def computes(self, py: Py, place: Span) -> bool:
-        """Whether statements at a place of a function of a module do nothing but that, nor leave it."""
+        """Whether statements of a function of a module do nothing but that, and do not leave it."""
         function, body = self.form.statements(py, place)
         if function is None or function.owner is not None or not body:
             return False
