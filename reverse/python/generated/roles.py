@@ -25,6 +25,7 @@ from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.python.generated.asked import asked_back
 from rebsync.reverse.python.generated.descriptors import servers_of
 from rebsync.reverse.python.generated.logs import only_describes
+from rebsync.reverse.python.generated.pair_methods import values_given
 from rebsync.reverse.python.generated.parameters import (
     ParameterRead,
     declared_by,
@@ -109,6 +110,7 @@ class PyRoles:
     orders: list[tuple[str, tuple[str, ...]]] = with_default(default_factory=list)  # by shims
     shims: set[str] = with_default(default_factory=set)
     ticking: set[str] = with_default(default_factory=set)
+    pairs: dict[str, list[Node]] = with_default(default_factory=dict)  # what methods give at once
     arguments: dict[str, str] = with_default(default_factory=dict)
     own: dict[str, tuple[OwnParameter, Node]] = with_default(default_factory=dict)
     told: list[OwnParameter] = with_default(default_factory=list)  # that people are told of
@@ -142,7 +144,7 @@ class PyRoles:
 
     def is_plumbing(self, name: str) -> bool:
         """Whether a function is none of the model's."""
-        others = (_PLUMBING, self.shims, self.sends, self.ticking)
+        others = (_PLUMBING, self.shims, self.sends, self.ticking, self.pairs)
         return any(name in of for of in others)
 
     @property
@@ -173,6 +175,8 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     for set_up in (roles.functions[n] for n in ("__init__", "_wire") if n in roles.functions):
         handed += [*called_back(set_up), *asked_back(set_up)]
     roles.ticking.update(n for n in handed if is_people_own(roles, n))
+    added = (f for n, f in roles.functions.items() if is_people_own(roles, n))
+    roles.pairs = {f.name: given for f in added if (given := values_given(code, f))}
     return roles
 
 

@@ -13,6 +13,7 @@ from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated import py_builtins as builtins
 from rebsync.reverse.python.generated.inner import leaves
+from rebsync.reverse.python.generated.pairs import values_in_place
 from rebsync.reverse.python.generated.places import is_kept
 from rebsync.reverse.python.generated.py_types import call_parts, string_value
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
@@ -73,7 +74,9 @@ def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
             raise expressions.unread(node, _WHOLE)
         pairs = zip(lefts, elements, strict=True)
         return [s for left, e in pairs for s in _given(reader, left, e, node)]
-    values = named(right) if right.type in ("expression_list", "tuple") else []
+    values = values_in_place(expressions, right)
+    if not values and right.type in ("expression_list", "tuple"):
+        values = named(right)
     lefts, values = _flat(lefts, values)
     if len(lefts) != len(values) or "list_splat" in {v.type for v in (*lefts, *values)}:
         raise expressions.unread(node, "the model has no such assignment")
