@@ -12,6 +12,7 @@ from collections.abc import Collection, Mapping
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin, Origin
+from rebsync.reverse.analysis.stores import ClassValue, Value, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import walk
@@ -228,9 +229,24 @@ class _Scope(ToldValues):
                 return self._runs(node, name)
             case s.ValueCallee(value):
                 held = self.effects.origins.of(value, self.function.name)
-                return bool(held) and self._given(node) and all(map(self.enters, held))
+                is_free = bool(held) and self._given(node) and all(map(self.enters, held))
+                return is_free and (
+                    self._is_defined(value, self.function.name) or self.has_keys(node)
+                )
             case s.MethodCallee(receiver, name, after=None):
                 return self._calls_method(node, receiver, name)
+            case _:
+                return False
+
+    def _is_defined(self, value: Value, function: str, deepest: int = 4) -> bool:
+        """Whether what a value stands for is as it was defined: nothing decorates it."""
+        match value:
+            case e.Closure() | e.FunctionReference() | e.ClassReference() | ClassValue():
+                return True
+            case e.Global() | e.Temporary() | e.Local():
+                key = key_of(value, function) if deepest else None
+                stored = self.effects.origins.graph.stores.of(key) if key is not None else []
+                return bool(stored) and all(self._is_defined(v, f, deepest - 1) for f, v in stored)
             case _:
                 return False
 

@@ -12,7 +12,7 @@ from dataclasses import field as with_default
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origin, Origins
-from rebsync.reverse.analysis.python.value_types import A_NUMBER, ValueTypes
+from rebsync.reverse.analysis.python.value_types import A_NUMBER, A_TEXT, ValueTypes
 from rebsync.reverse.analysis.stores import key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -134,6 +134,10 @@ class ToldValues(ABC):
 
     def arguments(self, node: s.Call) -> list[tuple[str | None, ValueTypes]]:
         return [(a.name, self._types(a.value)) for a in node.arguments]
+
+    def has_keys(self, node: s.Call) -> bool:
+        """Whether all that a call gets may be a key: numbers and texts."""
+        return all(self._types(a.value) in (A_NUMBER, A_TEXT) for a in node.arguments)
 
     def has_whole(self, node: s.Call) -> bool:
         """Whether all numbers that a call gets are whole."""
