@@ -135,6 +135,8 @@ _METHODS: dict[str, tuple[int, Sequence[Takes]]] = {
     **dict.fromkeys(("append", "appendleft"), (1, (_anything,))),
     **dict.fromkeys(("add", "discard"), (1, (_key,))),
     "extend": (1, (_elements,)),
+    "pop": (0, (_number,)),  # that there is an element is asked of the form
+    "popleft": (0, ()),
     "get": (1, (_key, _anything)),
     **dict.fromkeys(("clear", "copy", "items", "keys", "values", "most_common"), (0, ())),
     **dict.fromkeys(("upper", "lower", "strip", "title", "capitalize", "split"), (0, ())),
@@ -146,7 +148,7 @@ _METHODS: dict[str, tuple[int, Sequence[Takes]]] = {
 
 # Of these a number with a point is none that they take.
 _OF_WHOLE = frozenset({"range", "bin", "hex", "enumerate", "collections.deque", "json.dumps"})
-_METHODS_OF_WHOLE = frozenset({"ljust", "rjust", "center", "zfill"})
+_METHODS_OF_WHOLE = frozenset({"ljust", "rjust", "center", "zfill", "pop"})
 
 
 def takes(name: str, given: Sequence[tuple[str | None, ValueTypes]], *, whole: bool) -> bool:
