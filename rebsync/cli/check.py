@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import field
+from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -92,8 +92,18 @@ def _outcome(package: ManagedPackage, checked: Result, given: dict[str, Any]) ->
         from rebsync.roundtrip.verdict.unparsed import as_far_as_parsed
 
         checked = as_far_as_parsed(checked)
+    checked = _with_refusals(checked)
     is_same = given["behaviour"] and _is_same(checked, given["max_states"])
     return Outcome(package.root, checked, proof=proof, is_same=is_same)
+
+
+def _with_refusals(checked: CheckResult) -> CheckResult:
+    """The same, with why `rebsync sync` would not take what has moved into the model."""
+    if checked.drift is None or checked.drift.verdict.value not in ("code ahead", "both moved"):
+        return checked
+    from rebsync.roundtrip.sync.sync import makes_no_model
+
+    return replace(checked, findings=(*checked.findings, *makes_no_model(checked)))
 
 
 def _is_same(checked: CheckResult, most: int | None) -> bool:

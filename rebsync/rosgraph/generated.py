@@ -15,11 +15,11 @@ from rebsync.records import dataclass
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import is_launch, is_python
 from rebsync.reverse.graph import Place, Resolved, Unresolved
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.scaffold.cpp import facts_in_cpp
 from rebsync.reverse.scaffold.fact import PROGRAM, Fact
 from rebsync.reverse.scaffold.python import facts_in_python
 from rebsync.reverse.scaffold.runtime_cpp import HEADER
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.rosgraph.closed import is_closed
 from rebsync.rosgraph.ends import End, NodeCode, ParameterUse, Role
 from rebsync.rosgraph.facts import distinct

@@ -217,8 +217,9 @@ class _Visitor:
                 self._runs(ImplicitCall.DERIVE, ImplicitCall.DESCRIBE)
                 self._runs(ImplicitCall.CONSTRUCT, ImplicitCall.CALL)
             case s.Import(_, module, _, is_program):
-                if is_program:
-                    self.functions.add(self.graph.program.modules[module])
+                modules = self.graph.program.modules
+                if is_program and module in modules:  # one may be left out of the program
+                    self.functions.add(modules[module])
                 else:
                     self.has_library = True
             case _:

@@ -46,8 +46,8 @@ from rebsync.reverse.python.values.py_calls import owner_of
 from rebsync.reverse.python.values.py_hooks import hooks_in
 from rebsync.reverse.python.values.py_unmodelled import whole_graph
 from rebsync.reverse.python.values.py_values import PyValues
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import field, named, parse, text_of, unparsed
 from rebsync.source import Source
 

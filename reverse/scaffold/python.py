@@ -17,6 +17,7 @@ from rebsync.names import uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.scaffold.fact import PLAYED, PROGRAM, TOLD, Fact, numbered
+from rebsync.reverse.scaffold.python_names import resolved
 from rebsync.reverse.scaffold.python_parameters import as_declared
 from rebsync.reverse.scaffold.python_trees import (
     MODULE,
@@ -46,8 +47,10 @@ def facts_in_python(
         yield from SetupFile(source, tree, package, beside).facts()
         return
     classes = [c for c in tree.body if isinstance(c, ast.ClassDef) and _is_node(c)]
-    found = [f for c in classes for f in _Class.of(source, tree, c).facts()]
+    found = list[Fact]()
     if classes:
+        resolved(tree)
+        found = [f for c in classes for f in _Class.of(source, tree, c).facts()]
         found += _imports(source, tree, classes[0], package)
     else:
         stem = Path(name).stem

@@ -23,6 +23,13 @@ _CLASS = re.compile(r"^# rebsync: (?:reactiveclass|interface) ", re.M)
 _READS = re.compile(r"(?:rospy\.get_param|declared|read_array|declare_array)\(")
 _MAKES = "rospy.init_node"
 _LEVELS = frozenset({"DEBUG", "INFO", "WARN", "ERROR", "FATAL"})
+_SEVERITY = rf"(?:rclpy\.logging\.)?LoggingSeverity\.(?:{'|'.join(_LEVELS)})"
+_DIAGNOSES = re.compile(
+    r"(?:faulthandler\.enable\(\)"
+    rf"|rebec\.get_logger\(\)\.set_level\({_SEVERITY}\)"
+    rf"|rclpy\.logging\.set_logger_level\('\w+', {_SEVERITY}\))\Z"
+)
+_DIAGNOSING = frozenset({"faulthandler", "rclpy", "rclpy.logging", "rclpy.logging.LoggingSeverity"})
 _IMPORTS = (ast.Import, ast.ImportFrom)
 _TOLD = frozenset({"__version__", "__author__", "__license__", "__copyright__"})
 
@@ -43,6 +50,7 @@ def first_difference(base: Source, source: Source, own: frozenset[str]) -> Span 
         return span_of(source, odd) if isinstance(odd, ast.stmt) else Span(0, 1)
     new = _without_main(old, new)
     if SERVES in base.text:
+        new = _without_diagnostics(new)
         is_script = not source.path.endswith(".py")
         old, new = (plain_program(each, is_script) for each in (old, new))
         if (early := next(_too_early(new.body), None)) is not None:
@@ -76,8 +84,10 @@ def _imported(old: ast.Module, new: ast.Module, own: frozenset[str]) -> ast.stmt
     for name, (of, _) in before.items():
         if name not in now:
             return True
-        if _without(now[name][0], own) != _without(of, own):
-            return now[name][1]
+        brought, statement = now[name]
+        is_more = isinstance(statement, ast.Import) and brought.startswith(f"{of}.")
+        if not is_more and _without(brought, own) != _without(of, own):
+            return statement
     used = {n.id for n in ast.walk(old) if isinstance(n, ast.Name)}
     return next((now[name][1] for name in now if name not in before and name in used), None)
 
@@ -95,6 +105,27 @@ def _is_told_to_people(statement: ast.stmt) -> bool:
             return name in _TOLD
         case _:
             return False
+
+
+def _without_diagnostics(module: ast.Module) -> ast.Module:
+    """A program without what says from which level on it logs, or shows where it crashed."""
+    known = {name for name, (of, _) in bindings(module).items() if of in _DIAGNOSING}
+
+    def rest(body: list[ast.stmt]) -> Iterator[ast.stmt]:
+        made = False
+        for statement in body:
+            made = made or _makes_rebec(statement)
+            names = {n.id for n in ast.walk(statement) if isinstance(n, ast.Name)}
+            if isinstance(statement, ast.Expr) and "rebec" in names and not made:
+                yield ast.copy_location(ast.Raise(), statement)  # there is none yet
+            elif _DIAGNOSES.match(ast.unparse(statement)) is None or names - known - {"rebec"}:
+                yield statement
+
+    body = [*rest(module.body)]
+    for each in body:
+        if isinstance(each, ast.FunctionDef) and each.name == "main":
+            each.body = [*rest(each.body)] or [ast.Pass()]
+    return ast.Module(body, [])
 
 
 def _parts(body: list[ast.stmt], own: frozenset[str]) -> Iterator[tuple[str, ast.stmt]]:

@@ -72,6 +72,23 @@ def synced(checked: CheckResult, favour: Favour) -> Sync:
         return Sync(checked, refused=tuple(error.findings), is_undetermined=True)
 
 
+def makes_no_model(checked: CheckResult) -> tuple[Findings, ...]:
+    """Why what code and model have changed makes no model, so that `synced` would refuse it."""
+    record = checked.record or read_record(checked.package.root)
+    syncing = _Syncing(checked, record, Favour.MARKERS, Compared())
+    today, code = read_model(checked.model), read_code(checked.package, checked.state).given
+    try:
+        base = syncing._base(today)
+        syncing._of_code(base or today, today, code)
+        merged = merged_model(base, today, code, syncing.favour, syncing.compared)
+        if not merged.conflicts:
+            _parsed(Source(today.source.path, merged.text))
+    except RebsyncError as error:
+        told = (d for f in error.findings for d in f.diagnostics)
+        return tuple(error.findings) if all(d.code == "RS967" for d in told) else ()
+    return ()
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class _Syncing:
     checked: CheckResult

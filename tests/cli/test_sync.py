@@ -272,17 +272,21 @@ def test_what_the_model_has_no_type_for_is_told_where_it_is(sync: Run) -> None:
     assert snapshot(Path()) == before
 
 
-def test_what_makes_no_model_is_told(sync: Run) -> None:
+def test_what_makes_no_model_is_told(sync: Run, capsys: pytest.CaptureFixture[str]) -> None:
     replace(SOURCE, "  sendSelfLook(after(e_));", "  x_ = 0.5 * x_;\n  sendSelfLook(after(e_));")
     before = snapshot(Path())
     status, shown = sync()
     assert status == 1
     assert "RS967 the changes of the code make no model" in shown
     assert "hint: it would say `x = 0.5d * x;`" in shown
+    assert main(["check"]) == 1
+    assert "RS967 the changes of the code make no model" in capsys.readouterr().out
     assert snapshot(Path()) == before
 
 
-def test_what_makes_no_model_together_is_told_of_the_model(sync: Run) -> None:
+def test_what_makes_no_model_together_is_told_of_the_model(
+    sync: Run, capsys: pytest.CaptureFixture[str]
+) -> None:
     replace("patrol.rebeca", "    on = n > 3;\n", "")
     replace("patrol.rebeca", "    boolean on;\n", "")
     replace(SOURCE, "  sendSelfLook(after(e_));", "  on_ = true;\n  sendSelfLook(after(e_));")
@@ -290,6 +294,8 @@ def test_what_makes_no_model_together_is_told_of_the_model(sync: Run) -> None:
     assert status == 1
     assert "patrol.rebeca: RS967 the changes of model and code cannot be put together" in shown
     assert 'hint: it would say `on = true;`: unknown variable "on"' in shown
+    assert main(["check"]) == 1
+    assert "RS967 the changes of model and code cannot be put together" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,11 @@ from functools import cache, partial
 
 from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin
 from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
+from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.libraries.outcome_classes import TERMINATES
+
+_SUPPRESS = "contextlib.suppress"
 
 
 class Handlers:
@@ -16,6 +19,30 @@ class Handlers:
 
     def __init__(self, notes: ProblemNotes) -> None:
         self._notes = notes
+        self._suppressed: dict[e.Expression, s.Handler] = {}
+
+    def note(self, call: s.Call) -> None:
+        """Notes a context that ends exceptions: `contextlib.suppress(KeyError)`."""
+        match call:
+            case s.Call(e.Temporary() as target, s.LibraryCallee(name), given):
+                if name == _SUPPRESS and not any(a.stars for a in given):
+                    self._suppressed[target] = s.Handler(tuple(a.value for a in given), ())
+            case _:
+                pass
+
+    def suppresses(self, context: e.Expression) -> bool:
+        """Whether a context ends exceptions that are known."""
+        return context in self._suppressed
+
+    def passed(self, context: e.Expression, raised: set[Problem | Called]) -> set[Problem | Called]:
+        """What leaves the block of a context of what the block raises."""
+        handler = self._suppressed.get(context)
+        return raised if handler is None else self.split(raised, handler)[1]
+
+    def may_swallow(self, context: e.Expression) -> bool:
+        """Whether leaving a context may end an exception, so that its block was left before."""
+        held = self._notes.origins.of(context, self._notes.function.name)
+        return any(isinstance(o, ClassOrigin) or o == LibraryOrigin(_SUPPRESS, True) for o in held)
 
     def split(
         self, raised: set[Problem | Called], handler: s.Handler

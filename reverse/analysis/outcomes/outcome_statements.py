@@ -100,6 +100,7 @@ class OutcomeWalk:
             case s.Continue():
                 return None
             case s.Call():
+                self._handlers.note(node)
                 return self._calls.call(node, facts)
             case s.Construct():
                 return self._calls.construct(node, facts)
@@ -272,10 +273,10 @@ class OutcomeWalk:
             case s.With(context, target, body):
                 self._calls.entered(context, facts)
                 facts = facts if target is None else stored(facts, target)
-                after = self.body(body, facts)
+                after = self._body_of_context(context, body, facts)
                 if after is None:
                     return None
-                bound = () if self._may_swallow(context) else filter(is_bound, after)
+                bound = () if self._handlers.may_swallow(context) else filter(is_bound, after)
                 return self._changed(facts, body).union(bound)
             case s.Assert(test):
                 self.value(test, facts)
@@ -290,13 +291,15 @@ class OutcomeWalk:
             case _:
                 assert_never(node)
 
-    def _may_swallow(self, context: e.Expression) -> bool:
-        """Whether leaving a context may end an exception, so that its block was left before."""
-        held = self.origins.of(context, self.name)
-        return any(
-            isinstance(o, ClassOrigin) or o == LibraryOrigin("contextlib.suppress", True)
-            for o in held
-        )
+    def _body_of_context(self, context: e.Expression, body: s.Body, facts: Facts) -> Facts | None:
+        """What is known after the body of a `with`, which may end some exceptions."""
+        outer, self.notes.found = self.notes.found, set()
+        after = self.body(body, facts)
+        raised, self.notes.found = self.notes.found, outer
+        self.notes.take(self._handlers.passed(context, raised))
+        if after is None and self._handlers.suppresses(context):
+            return self._changed(facts, body)
+        return after
 
     def _loop(self, node: s.Loop, facts: Facts) -> Facts:
         inner = (*node.prelude, *node.body, *node.step)

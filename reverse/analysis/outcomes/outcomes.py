@@ -27,6 +27,7 @@ from rebsync.reverse.analysis.outcomes.held_locks import HeldLocks
 from rebsync.reverse.analysis.outcomes.outcome_statements import ENDLESS, OutcomeWalk
 from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
 from rebsync.reverse.analysis.python.operand_classes import OperandClasses
+from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.silent_calls import SilentCalls
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -99,9 +100,13 @@ class OutcomeAnalysis:
 
     def of_statements(self, function: Function, span: Span) -> frozenset[Problem]:
         """What the statements of a function at a place may do besides to compute."""
+        return self.of_body(function, self.statements(function, span))
+
+    def statements(self, function: Function, span: Span) -> s.Body:
+        """The statements of a function at a place."""
         if function.name not in self._nested:
             self._nested[function.name] = tuple(_nested(function.body))
-        return self.of_body(function, tuple(_within(self._nested[function.name], span)))
+        return tuple(_within(self._nested[function.name], span))
 
     def of_body(self, function: Function, body: s.Body) -> frozenset[Problem]:
         """What some statements of a function may do besides to compute."""
@@ -162,6 +167,10 @@ class OutcomeAnalysis:
         families = {each for c in classes for each in self.graph.family(c)}
         owners = {n: self.program.function(n).owner for n in self.origins.operators}
         return frozenset(n for n, owner in owners.items() if owner in families)
+
+    def kinds(self, function: Function) -> OperandKinds:
+        """Of which types the values of a function in Python are."""
+        return OperandKinds(self._notes(function))
 
     def _notes(self, function: Function) -> ProblemNotes:
         return ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)

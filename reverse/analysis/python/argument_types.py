@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 from functools import cached_property
 
-from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origins
+from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin, Origins
 from rebsync.reverse.analysis.python.call_binding import bound
 from rebsync.reverse.analysis.python.message_values import (
     callback_functions,
@@ -86,7 +86,9 @@ class ArgumentTypes:
             case s.FunctionCallee(name):
                 return frozenset({name})
             case s.ValueCallee(value):
-                return self._graph.value(value, around).functions
+                held = self._origins.of(value, around.name)  # decorated ones too
+                names = (o.name for o in held if isinstance(o, FunctionOrigin))
+                return self._graph.value(value, around).functions.union(names)
             case s.MethodCallee(e.Local() as receiver, _, None, None) as callee if (
                 self._graph.class_of(receiver, around) is not None
             ):

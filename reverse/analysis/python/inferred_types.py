@@ -31,6 +31,7 @@ from rebsync.reverse.analysis.python.value_types import (
     joined_items,
     limited,
     merged,
+    of_declared,
     own_type,
     pair,
     sequence,
@@ -53,7 +54,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import COMPARISONS, Operator
-from rebsync.reverse.ir.program import FunctionKind
+from rebsync.reverse.ir.program import FunctionKind, Parameter
 from rebsync.reverse.ir.walk import walk
 
 _CONTAINERS = {
@@ -240,18 +241,20 @@ class InferredTypes:
 
     def parameter(self, key: Key) -> ValueTypes:
         """The types of what calls and subscriptions give for a parameter, as far as known."""
-        if not isinstance(key, CapturedVariable) or not self._is_parameter(key):
+        if not isinstance(key, CapturedVariable) or not (own := self._own_parameter(key)):
             return NO_TYPES
+        if declared := of_declared(own.type):
+            return declared
         given = self._arguments.arguments(key.function, key.name)
         messages = self._arguments.messages(key.function, key.name)
         found = union(map(self.of_stored, given))
         return found | union(map(self.attributes.of_class, messages))
 
-    def _is_parameter(self, key: CapturedVariable) -> bool:
+    def _own_parameter(self, key: CapturedVariable) -> Parameter | None:
+        """The parameter of a function that a name is."""
         program = self._graph.program
-        if key.function not in program:
-            return False
-        return any(p.name == key.name for p in program.function(key.function).parameters)
+        parameters = program.function(key.function).parameters if key.function in program else ()
+        return next((p for p in parameters if p.name == key.name), None)
 
     def of_stored(self, stored: Source) -> ValueTypes:
         """The types of what is stored somewhere."""
@@ -298,7 +301,12 @@ def written(key: e.Expression, types: ValueTypes) -> Iterator[tuple[object, Valu
 
 
 def computed(operator: Operator, left: ValueTypes, right: ValueTypes) -> ValueTypes:
-    """The types of what an operator gives for operands of some types."""
+    """The types of what an operator gives for operands of some types; for None there is nothing.
+
+    So a counter, of which the only other value is its own sum, is a number.
+    """
+    if NO_TYPES in (left, right):
+        return NO_TYPES
     if left == right == A_NUMBER:
         return A_NUMBER
     kinds = frozenset(map(own_type, left))

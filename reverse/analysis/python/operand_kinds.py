@@ -18,14 +18,13 @@ from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.inferred_types import computed
 from rebsync.reverse.analysis.python.value_types import (
     A_NUMBER,
-    A_TEXT,
     ANY_TYPE,
     NO_TYPES,
     OwnType,
     ValueTypes,
     at_index,
+    of_declared,
     own_type,
-    sequence,
     union,
 )
 from rebsync.reverse.analysis.stores import Member, key_of
@@ -121,7 +120,7 @@ class OperandKinds:
 
     def _declared(self, value: e.Expression) -> ValueTypes:
         """The types that parameters, attributes and their elements are declared with."""
-        return union(map(_of_declared, self._declared_types(value)))
+        return union(map(of_declared, self._declared_types(value)))
 
     def _declared_types(self, value: e.Expression) -> list[t.Type]:
         program = self._graph.program
@@ -182,19 +181,6 @@ class OperandKinds:
             for argument in node.arguments[:1]
             if node.callee.name in _ASKING and isinstance(argument.value, e.Local)
         )
-
-
-def _of_declared(type_: t.Type) -> ValueTypes:
-    """The type of a value that is declared with one; none where that says nothing."""
-    match type_:
-        case t.Integer() | t.Float() | t.Truth():
-            return A_NUMBER
-        case t.Text():
-            return A_TEXT
-        case t.Array(element):
-            return sequence(OwnType.MODEL_ARRAY, _of_declared(element) or ANY_TYPE)
-        case _:
-            return NO_TYPES
 
 
 def _is_nothing(value: object) -> bool:

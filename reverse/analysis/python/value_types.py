@@ -7,6 +7,7 @@ from enum import Enum
 from typing import TypeAlias
 
 from rebsync.records import dataclass
+from rebsync.reverse.ir import types as t
 
 
 class OwnType(Enum):
@@ -194,3 +195,16 @@ def joined_items(
     for key, types in other:
         found[key] = merged(found.get(key, NO_TYPES) | types)
     return frozenset(found.items())
+
+
+def of_declared(type_: t.Type) -> ValueTypes:
+    """The type of a value that is declared with one; none where that says nothing."""
+    match type_:
+        case t.Integer() | t.Float() | t.Truth():
+            return A_NUMBER
+        case t.Text():
+            return A_TEXT
+        case t.Array(element):
+            return sequence(OwnType.MODEL_ARRAY, of_declared(element) or ANY_TYPE)
+        case _:
+            return NO_TYPES

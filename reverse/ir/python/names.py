@@ -12,8 +12,10 @@ from rebsync.records import dataclass
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir.python.symbols import Binder, ScopeKind, Symbols
 from rebsync.reverse.ir.types import UNKNOWN, FunctionType, Type
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import CLASS, FUNCTION, PyCode, module_named, module_of
-from rebsync.reverse.syntax.py_tree import field, text_of
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
+from rebsync.reverse.syntax.py_tree import Py, field, named, text_in, text_of
 from rebsync.source import Span
 
 _OLD = {"raw_input", "unicode", "xrange", "long", "basestring", "reduce", "unichr", "execfile"}
@@ -227,6 +229,23 @@ def _changing(code: PyCode) -> frozenset[str]:
             }
         elif scope.kind == FUNCTION and scope.is_method and scope.decorators:
             found.add(scope.name)
-    if any(word in m.py.plain.words for m in code.modules.values() for word in _BY_NAME):
+    # The run-time part stores by names only what `put` is handed, and only looks at the rest.
+    own = [m.py for m in code.modules.values() if not is_runtime_file(m.py.source)]
+    if any(word in py.plain.words for py in own for word in _BY_NAME):
         found.add("*")
-    return frozenset(found)
+    return frozenset(found).union(*(_put(py) for py in own if b"put" in py.plain.words))
+
+
+def _put(py: Py) -> Iterator[str]:
+    """The names of attributes that a file hands to `put`; "*" where that may be any."""
+    for node in nodes_in(py.root):
+        if node.type != "identifier" or text_of(node) != "put":
+            continue
+        call = node.parent
+        if call is not None and call.type == "dotted_name":
+            is_renamed = call.parent is not None and call.parent.type == "aliased_import"
+            yield from "*" if is_renamed else ()
+            continue
+        is_called = call is not None and call.child_by_field_name("function") == node
+        arguments = named(field(call, "arguments")) if call is not None and is_called else []
+        yield (text_in(arguments[1]) if len(arguments) == 3 else None) or "*"

@@ -15,6 +15,7 @@ from rebsync.reverse.analysis.outcomes.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
 from rebsync.reverse.analysis.outcomes.size_changes import GROWING
 from rebsync.reverse.analysis.problems import Problem
+from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, Program
@@ -25,8 +26,8 @@ from rebsync.reverse.libraries.endless import FINITE
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.size_effects import CHANGING_OBJECT
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import NOWHERE, Source, Span
 
@@ -108,6 +109,27 @@ class PyForm:
         if elsewhere:
             called = self._outcomes.raised_by(function, place)
             yield from ((problem, scope) for problem, scope in elsewhere if problem in called)
+
+    @property
+    def origins(self) -> Origins:
+        """What values may be, where methods of what a library made are trusted by their names."""
+        return self._outcomes.origins
+
+    def statements(self, py: Py, place: Span) -> tuple[Function | None, s.Body]:
+        """The function around a place, and its statements there."""
+        around = [f for f in self._bodies(py) if _is_in(place, f.place)]
+        if not around:
+            return None, ()
+        function = min(around, key=lambda f: f.place.end - f.place.start)
+        return function, self._outcomes.statements(function, place)
+
+    def kinds(self, function: Function) -> OperandKinds:
+        """Of which types the values of a function are."""
+        return self._outcomes.kinds(function)
+
+    def acting(self, function: Function, place: Span) -> Iterator[Problem]:
+        """What statements at a place may do besides to compute, and to raise exceptions."""
+        return (p for p in self._outcomes.of_statements(function, place) if not p.raises)
 
     def raising(self, py: Py, place: Span) -> Iterator[tuple[Problem, Scope]]:
         """The exceptions of statements at a place, handled around it or not."""

@@ -100,7 +100,7 @@ def rows(reader: OperandReader[V], node: Node, width: int) -> list[tuple[V, ...]
             if len(numbers) <= MOST:
                 return [(reader.made(number_literal(n), INT),) for n in numbers]
         case "enumerate" if width == 2 and 1 <= len(arguments) <= 2:
-            start = whole_number_of(arguments[1]) if len(arguments) > 1 else 0
+            start = _start(arguments[1]) if len(arguments) > 1 else 0
             values = certain(reader, arguments[0], "enumerate")
             if start is not None:
                 numbered = enumerate(values, start)
@@ -111,3 +111,10 @@ def rows(reader: OperandReader[V], node: Node, width: int) -> list[tuple[V, ...]
         case _ if width == 1 and node.type not in COMPREHENSIONS:
             return [(value,) for value in certain(reader, node, name or "this")]
     raise reader.refused(node, "nobody knows what this goes through")
+
+
+def _start(node: Node) -> int | None:
+    """What `enumerate` counts from, given by place or by its name."""
+    if node.type == "keyword_argument":
+        node = field(node, "value") if text_of(field(node, "name")) == "start" else node
+    return whole_number_of(node)

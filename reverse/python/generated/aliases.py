@@ -13,14 +13,17 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
 
 _SET_UP = frozenset({"__init__", "_wire"})
 _STORES = frozenset({"assignment", "augmented_assignment", "named_expression"})
 _UNSAFE = SCOPES | {"augmented_assignment", "named_expression", "delete_statement"}
+_NO_ARRAY = frozenset(
+    {"expression_list", "identifier", "integer", "true", "false", "unary_operator"}
+)
 _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "attribute"})
 
 
@@ -117,6 +120,8 @@ def _is_element(use: Node, function: Node) -> bool:
     if place is None or place.type != "subscript" or field(place, "value") != use:
         return False
     above = place.parent
+    if above is not None and above.type == "pattern_list" and _stores_plain(above):
+        above = above.parent
     while above is not None and above != function:
         if above.type in _UNSAFE or above.type in _TARGETS - {"attribute"}:
             return False
@@ -126,11 +131,20 @@ def _is_element(use: Node, function: Node) -> bool:
     return above is not None
 
 
+def _stores_plain(lefts: Node) -> bool:
+    """Whether `x[0], x[1] = a, b` stores what no array is asked for: nothing goes by its name."""
+    assignment = lefts.parent
+    value = assignment.child_by_field_name("right") if assignment is not None else None
+    return value is not None and all(n.type in _NO_ARRAY for n in nodes_in(value) if n.is_named)
+
+
 def _is_simple(assignment: Node) -> bool:
-    """Whether one value is stored in one place."""
+    """Whether values are stored, each in one place."""
     above, left = assignment.parent, field(assignment, "left")
     value = assignment.child_by_field_name("right")
-    is_one = left.type in ("identifier", "attribute", "subscript")
+    if left.type == "pattern_list" and not _stores_plain(left):
+        return False
+    is_one = left.type == "pattern_list" or left.type in ("identifier", "attribute", "subscript")
     is_alone = above is not None and above.type == "expression_statement"
     return is_one and is_alone and value is not None and value.type != "assignment"
 

@@ -352,14 +352,9 @@ class ModelBodies:
         fillings: dict[str, Filling] = {}
         for above in reversed(self.line(owner)):
             fillings |= fillings_of(self.roles(above), names.sends)
-        return replace(
-            names,
-            imported=imported,
-            posts=posts,
-            fillings=fillings,
-            silent=silent_in(self.code, self.form, line, [*map(self.roles, line)]),
-            code=self.code,
-        )
+        silent = silent_in(self.code, self.form, line, [*map(self.roles, line)])
+        known = replace(names, imported=imported, posts=posts, fillings=fillings)
+        return replace(known, silent=silent, pairs=self.roles(owner).pairs, code=self.code)
 
 
 def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.Type | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 
 from tree_sitter import Node
 
@@ -16,7 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES, OFFERS, RUNTIME_TOPICS
 from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.build.message_types import MessageTypes
-from rebsync.reverse.findings import Findings, Unread
+from rebsync.reverse.findings import Findings
 from rebsync.reverse.generated.annotations import of_class, of_server
 from rebsync.reverse.generated.messages import NO_MESSAGES, OwnMessages
 from rebsync.reverse.generated.own_parameters import Stored, with_own
@@ -24,10 +24,12 @@ from rebsync.reverse.generated.receivers import known_rebecs
 from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.generated import first_values
 from rebsync.reverse.python.generated.bodies import ModelBodies
+from rebsync.reverse.python.generated.dead_methods import unless_dead
 from rebsync.reverse.python.generated.marks import is_abstract, is_constructor, is_marked
+from rebsync.reverse.python.generated.module_top import ModuleTop
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.overloads import families
-from rebsync.reverse.python.generated.plumbing import Plumbing, odd_at_top, set_in
+from rebsync.reverse.python.generated.plumbing import Plumbing
 from rebsync.reverse.python.generated.posts import learn_servers
 from rebsync.reverse.python.generated.py_types import (
     annotations_above,
@@ -40,16 +42,18 @@ from rebsync.reverse.python.generated.roles import (
     EnvUse,
     PyRoles,
     PySends,
+    is_people_own,
     plain_name,
     roles_of,
 )
 from rebsync.reverse.python.generated.silent import silent_in
+from rebsync.reverse.python.generated.told_numbers import numbers_for_people
 from rebsync.reverse.python.generated.value_types import typed
 from rebsync.reverse.python.values.class_creation import list_creation
 from rebsync.reverse.python.values.py_evaluator import lineage
 from rebsync.reverse.python.values.py_values import PyValues
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import PyCode, Scope, classes_in
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import named, text_of
 
 
@@ -94,9 +98,9 @@ class ModelClasses:
             roles, line = self._of(owner), self.line(owner)
             if not self._is_alone(owner):
                 roles.own.clear()
-            elif roles.own:
+            elif own := roles.own.keys() | numbers_for_people(roles):
                 all_roles = [*map(self._of, line)]
-                roles.leave_out(silent_in(self.code, self._form, line, all_roles, roles.own).texts)
+                roles.leave_out(silent_in(self.code, self._form, line, all_roles, own).texts & own)
         for owner in self._owners:
             learn_servers(self.line(owner), self._of)
         own = {o.name for o in self._owners}
@@ -145,12 +149,9 @@ class ModelClasses:
         """All of them in the order of the code, or those of a file."""
         wanted = [o for o in self._owners if path is None or o.py.source.path == path]
         for module in {id(o.module): o.module for o in wanted}.values():
-            counters = self._counters(module)
-            for node in odd_at_top(module, self._named):
-                if counters.intersection(set_in(node)):
-                    continue
-                unread = Unread(module.py.span(node), "what this does is not in the model")
-                self.findings.unreadable(module.py.source, unread, "")
+            owners = [o for o in self._owners if o.module is module]
+            names = [self._bodies.names(o) for o in owners]
+            ModuleTop(module, self._named, names, owners).check(self.findings)
         for owner in wanted:
             functions = self._of(owner).functions.values()
             list_creation(self._values, owner, functions, self.findings)
@@ -159,12 +160,6 @@ class ModelClasses:
             for o in wanted
             if not self._is_helping(o)
         )
-
-    def _counters(self, module: Scope) -> frozenset[str]:
-        """The variables of a module that only people are told of, whichever class counts."""
-        owners = [o for o in self._owners if o.module is module]
-        found = [self._bodies.names(o).silent.counters for o in owners]
-        return frozenset.intersection(*found) if found else frozenset()
 
     def arguments(self) -> dict[str, list[str]]:
         """The parameters that the constructors of classes read for their arguments, in order."""
@@ -249,7 +244,7 @@ class ModelClasses:
         rest = [f for f in self._functions(owner) if self._is_of_model(owner, f)]
         served = {f.name: self._served(owner, f) for f in rest}
         members += [self._server(owner, f, s) for f in rest if (s := served[f.name]) is not None]
-        members += [self._method(owner, f) for f in rest if served[f.name] is None]
+        members += [x for f in rest if served[f.name] is None and (x := self._live(owner, f))]
         members += [self._method(owner, f) for f in self._bodies.helpers(owner)]
         is_whole = self._is_alone(owner) and len(self.findings.all) == before
         self._bodies.list_beyond(owner, constructors if is_whole else None)
@@ -275,7 +270,8 @@ class ModelClasses:
         line = self.line(owner)[1:]
         nearest = next((i for i, c in enumerate(line) if self._has_mailbox(c)), len(line))
         for above in filter(self._is_helping, line[:nearest]):
-            yield from (f for n, f in self._of(above).functions.items() if n not in own)
+            taken = own.keys() | self._of(above).ticking
+            yield from (f for n, f in self._of(above).functions.items() if n not in taken)
 
     def _is_helping(self, owner: Scope) -> bool:
         """Whether a class has nothing but functions with bodies, for its heirs."""
@@ -357,6 +353,13 @@ class ModelClasses:
                 # A service or action is said where it is offered, and nowhere below.
                 return tuple(a for a in shown if above is owner or a.name not in OFFERS)
         return None
+
+    def _live(self, owner: Scope, function: Scope) -> m.Method | None:
+        """A method; None for one that no model can have, and that nothing runs."""
+        read, noted = partial(self._method, owner), self._bodies.noted.setdefault(id(owner), [])
+        if not is_people_own(self._of(owner), function.name):
+            return read(function)
+        return unless_dead(self.code, function, self.findings, noted, read)
 
     def _method(self, owner: Scope, function: Scope) -> m.Method:
         name = plain_name(function)

@@ -19,7 +19,7 @@ from rebsync.reverse.python.generated.module_variables import (
 )
 from rebsync.reverse.python.generated.plain_functions import function_named
 from rebsync.reverse.python.generated.py_types import expression_in, stored_into
-from rebsync.reverse.python.generated.told_exceptions import ToldExceptions
+from rebsync.reverse.python.generated.silent import Silent
 from rebsync.reverse.python.generated.told_locals import told_locals
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
@@ -30,7 +30,7 @@ _PLAIN = frozenset({"string", "integer", "float", "true", "false", "none"})
 _WRAPS = ("wraps", "functools.wraps")
 
 
-def is_transparent(code: PyCode, module: Scope, decorator: str, exceptions: ToldExceptions) -> bool:
+def is_transparent(code: PyCode, module: Scope, decorator: str, silent: Silent) -> bool:
     """Whether a decorator only logs, and calls the function with all that it is given.
 
     It may be made by a function of literals: `@timed("way")`.
@@ -40,7 +40,7 @@ def is_transparent(code: PyCode, module: Scope, decorator: str, exceptions: Told
     if made is None or made.decorators:
         return False
     if not given:
-        return _only_tells(code, module, made, exceptions)
+        return _only_tells(code, module, made, silent)
     call = named(parse(Source("", decorator)).root)[0]
     arguments = named(field(named(call)[0], "arguments"))
     inner = _given_back(code, made)
@@ -50,13 +50,11 @@ def is_transparent(code: PyCode, module: Scope, decorator: str, exceptions: Told
         and len(arguments) == len(made.parameters)
         and all(v.type in _PLAIN for v in values)
         and not inner.decorators
-        and _only_tells(code, module, inner, exceptions)
+        and _only_tells(code, module, inner, silent)
     )
 
 
-def context_of(
-    code: PyCode, module: Scope, statement: Node, exceptions: ToldExceptions
-) -> Node | None:
+def context_of(code: PyCode, module: Scope, statement: Node, silent: Silent) -> Node | None:
     """What is done within `with timed("question"):`, if the context only tells people of it."""
     head = next((c for c in named(statement) if c.type == "with_clause"), statement)
     items = [i for i in named(head) if i.type == "with_item"]
@@ -70,7 +68,7 @@ def context_of(
     values = [n.child_by_field_name("value") or n for n in given]
     is_given = len(needed) <= len(given) and all(p.star == 0 for p in made.parameters)
     is_known = is_given and all(v.type in _PLAIN for v in values)
-    is_telling = is_known and _tells_around(code, module, made, exceptions)
+    is_telling = is_known and _tells_around(code, module, made, silent)
     return field(statement, "body") if is_telling else None
 
 
@@ -99,15 +97,15 @@ def is_context(module: Scope, function: Scope) -> bool:
     return whole == ["contextlib.contextmanager"]
 
 
-def _tells_around(code: PyCode, module: Scope, made: Scope, exceptions: ToldExceptions) -> bool:
+def _tells_around(code: PyCode, module: Scope, made: Scope, silent: Silent) -> bool:
     """Whether a context manager does nothing but to tell people, before and behind its block."""
     looks = _looks(code, module, made.module)
     told = told_locals(made, frozenset(), looks)
-    around = _Around(made, "yield", looks, told, exceptions)
+    around = _Around(made, "yield", looks, told, silent)
     return around.yields(body_of(made))
 
 
-def _only_tells(code: PyCode, module: Scope, made: Scope, exceptions: ToldExceptions) -> bool:
+def _only_tells(code: PyCode, module: Scope, made: Scope, silent: Silent) -> bool:
     """Whether what a decorator puts in place of a function does that function, and tells of it."""
     function = _given_back(code, made) if len(made.parameters) == 1 else None
     if function is None:
@@ -122,7 +120,7 @@ def _only_tells(code: PyCode, module: Scope, made: Scope, exceptions: ToldExcept
         return False
     looks = _looks(code, module, made.module)
     told = told_locals(function, frozenset(), looks)
-    return _Around(function, call, looks, told, exceptions).gives(body_of(function))
+    return _Around(function, call, looks, told, silent).gives(body_of(function))
 
 
 def is_cast(module: Scope, called: str) -> bool:
@@ -160,7 +158,7 @@ class _Around:
     call: str
     looks: Looks
     told: frozenset[str]
-    exceptions: ToldExceptions
+    silent: Silent
 
     def gives(self, body: list[Node]) -> bool:
         """Whether statements do the call once, give what it gives, and else only tell people."""
@@ -199,9 +197,13 @@ class _Around:
     def _tells(self, node: Node) -> bool:
         if node.type in ("comment", "pass_statement"):
             return True
-        if self.exceptions.raises(node):
+        if self.silent.exceptions.raises(node):
             return False
         if only_logs(node, self.looks):
+            return True
+        effects, py = self.silent.effects, self.function.py
+        is_context = self.call == "yield"  # others are given what the model has, and may change it
+        if is_context and effects is not None and effects.computes(py, py.span(node)):
             return True
         inner = expression_in(node)
         value = inner.child_by_field_name("right") if inner is not None else None

@@ -15,7 +15,6 @@ from rebsync.reverse.python.generated.expression_reader import ModelExpressionRe
 from rebsync.reverse.python.generated.idioms import in_order
 from rebsync.reverse.python.generated.names import Helper
 from rebsync.reverse.python.generated.plain_functions import function_named, is_runtime
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import (
     PyCode,
     PyParameter,
@@ -23,6 +22,7 @@ from rebsync.reverse.syntax.py_index import (
     module_named,
     module_of,
 )
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 
 # What stores in an object by a name that is a value, or replaces a module.

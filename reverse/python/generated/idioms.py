@@ -12,6 +12,7 @@ from rebsync.reverse.models.building import located
 from rebsync.reverse.python.generated.cuts import other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
+from rebsync.reverse.python.generated.moments import is_moment, named_moment
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.static.types import INT
@@ -156,10 +157,14 @@ def times(reader: ModelExpressionReader, node: Node) -> dict[str, m.Expression]:
         return {}
     if node.type == "identifier" and text_of(node) in reader.moments:
         return {**reader.moments[text_of(node)]}
+    module, hidden = reader.names.constants.module, reader.locals
+    if node.type == "identifier" and text_of(node) not in hidden:
+        node = named_moment(module, text_of(node)) or node
     called = text_of(field(node, "function")) if node.type == "call" else ""
-    given = named(field(node, "arguments")) if called == "When" else []
+    is_moment_ = called not in hidden and is_moment(module, called)
+    given = named(field(node, "arguments")) if is_moment_ else []
     is_spread = any(g.type in ("list_splat", "dictionary_splat") for g in given)
-    if called != "When" or is_spread or len(given) > 2:
+    if not is_moment_ or is_spread or len(given) > 2:
         raise reader.unread(node, "this is no time of a send")
     said: dict[str, Node] = {}
     for name, each in zip(("after", "deadline"), given, strict=False):

@@ -14,6 +14,7 @@ from rebsync.reverse.build.built_python import files_of_import, imported_by
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.routines import Effect, Language
+from rebsync.reverse.python.generated.log_words import COMPUTING
 from rebsync.reverse.syntax.py_module import module_of
 from rebsync.source import Source, Span
 
@@ -43,6 +44,7 @@ _PLAIN = frozenset(
         "collections.Counter",
     }
 )
+_PLAIN |= COMPUTING
 _IN_SETUP = _PLAIN | {
     *("setuptools.setup", "distutils.core.setup", "setuptools.find_packages", "glob.glob"),
     *("catkin_pkg.python_setup.generate_distutils_setup", "os.listdir", "os.walk"),
@@ -87,6 +89,17 @@ def list_definition_effects(source: Source, own: Collection[str], findings: Find
     tree = module_of(source.text)
     if tree is not None:
         _list(source, _ImportedCode(tree).defining(own), findings)
+
+
+def acting_lines(source: Source) -> frozenset[int] | None:
+    """The lines of a module at which statements stand that may do more than to bind names.
+
+    None for a module that Python does not take.
+    """
+    tree = module_of(source.text)
+    if tree is None:
+        return None
+    return frozenset(node.lineno for node in _ImportedCode(tree).acting())
 
 
 def list_setup_effects(source: Source, findings: Findings) -> None:

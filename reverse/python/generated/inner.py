@@ -19,7 +19,7 @@ from rebsync.reverse.python.generated.py_types import call_parts, type_of
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_tree import SCOPES, calls_in, field, named, text_of
+from rebsync.reverse.syntax.py_tree import SCOPES, calls_in, field, is_label, named, text_of
 from rebsync.static.types import INT
 
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
@@ -141,7 +141,7 @@ def _is_bound_once(node: Node, name: str, passed: bool = False) -> bool:
     for each in _mentions(node, name):
         above = each.parent
         called = above is not None and above.type == "call" and field(above, "function") == each
-        is_passed = above is not None and above.type == "argument_list"
+        is_passed = above is not None and above.type in ("argument_list", "keyword_argument")
         found += not (is_passed if passed else called)
     return found == 1
 
@@ -150,7 +150,8 @@ def _mentions(node: Node, name: str) -> list[Node]:
     """Where the method around says a name."""
     around = climb(node, lambda above: above.type == "function_definition")
     every = nodes_in(around) if around is not None else ()
-    return [each for each in every if each.type == "identifier" and text_of(each) == name]
+    found = (each for each in every if each.type == "identifier" and text_of(each) == name)
+    return [each for each in found if not is_label(each)]
 
 
 def inline_call(

@@ -21,10 +21,10 @@ from rebsync.reverse.python.generated.log_words import (
 )
 from rebsync.reverse.python.generated.told_containers import is_asked
 from rebsync.reverse.python.values.py_callbacks import body_of
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.ancestors import functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, has_splat
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _DESCRIBES = frozenset({"__repr__", "__str__"})
@@ -265,15 +265,6 @@ def is_target(assignment: Node, name: str) -> bool:
 
 def _by_position(given: Node) -> bool:
     return all(n.type != "keyword_argument" for n in named(given))
-
-
-def only_logs_by_words(function: Scope) -> bool:
-    """Whether each statement of a method is one that logs, whatever it logs."""
-    words = libraries.log_words()
-    calls = [named(s)[0] for s in body_of(function) if s.type == "expression_statement"]
-    called = [text_of(field(c, "function")) for c in calls if c.type == "call"]
-    is_plain = not function.decorators and len(called) == len(body_of(function)) > 0
-    return is_plain and all(words.match(each) is not None for each in called)
 
 
 def own_method(node: Node) -> str:

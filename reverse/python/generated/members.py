@@ -26,8 +26,9 @@ from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
-_NUMBERS = frozenset({"true", "false", "integer", "float"})
+NUMBERS = frozenset({"true", "false", "integer", "float"})
 _DECLARE, _GET = "self.declare_parameter", "self.get_parameter"
+_MADE_OF_ANY = frozenset({"bool", "str"})
 _LIBRARY_BASES = frozenset({"Node", "LifecycleNode", "object", "ABC"})
 _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target"})
 _LOCKS = frozenset({"threading.Lock", "threading.RLock"})
@@ -36,8 +37,11 @@ _LOCKS = frozenset({"threading.Lock", "threading.RLock"})
 def is_own_parameter(node: Node) -> bool:
     """`rospy.get_param("~label", "robot")` and `self.declare_parameter("label", "robot").value`.
 
-    So is `self.get_parameter("label").value` behind the declaration.
+    So is `self.get_parameter("label").value` behind the declaration, and a truth or text of it.
     """
+    made, of = call_parts(node) or ("", [])
+    if made in _MADE_OF_ANY and len(of) == 1:
+        return is_own_parameter(of[0])
     inner = _asked(node)
     called, arguments = call_parts(inner if inner is not None else node) or ("", [])
     if inner is not None and called == _GET and len(arguments) == 1:
@@ -67,7 +71,7 @@ def _is_description(node: Node) -> bool:
     given = field(node, "arguments") if function is not None else node
     is_made = function is not None and text_of(function).rpartition(".")[2] == "ParameterDescriptor"
     values = [n.child_by_field_name("value") or n for n in named(given)]
-    return is_made and all(v.type in VALUES | _NUMBERS for v in values)
+    return is_made and all(v.type in VALUES | NUMBERS for v in values)
 
 
 def _asked(node: Node) -> Node | None:
@@ -94,7 +98,7 @@ def _before(node: Node) -> Iterator[Node]:
 def _is_plain(key: str, default: Node) -> bool:
     section = re.split(r"[./]", key.removeprefix("~"))[0]
     is_other = section not in ("env", "knownrebecs", "mailbox", "drive")
-    return is_other and default.type in VALUES | _NUMBERS
+    return is_other and default.type in VALUES | NUMBERS
 
 
 def is_lock(module: Scope, node: Node) -> bool:

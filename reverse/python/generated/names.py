@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import field as with_default
 
 from tree_sitter import Node
@@ -26,7 +26,8 @@ class ModelNames:
     `parameters` are what functions are given besides the object, by their names in the code.
     `imported` are what names of the module are of, `helpers` functions without an object,
     `fillings` what publishers send, `posts` what is posted, by the ids of the calls. `silent` is
-    what only people are told, `code` all that the package has of Python.
+    what only people are told, `pairs` what methods give that give several values at once, `code`
+    all that the package has of Python.
     """
 
     variables: Mapping[str, str]
@@ -43,6 +44,7 @@ class ModelNames:
     fillings: Mapping[str, Filling] = with_default(default_factory=dict)
     posts: Mapping[int, Post] = with_default(default_factory=dict)
     silent: Silent = NOTHING
+    pairs: Mapping[str, Sequence[Node]] = with_default(default_factory=dict)
     code: PyCode = with_default(default_factory=PyCode)
 
 

@@ -13,11 +13,10 @@ from tree_sitter import Node
 from rebsync.intervals import Interval
 from rebsync.names import graph_name
 from rebsync.records import dataclass
-from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.messages import OwnMessages
-from rebsync.reverse.libraries.generated_calls import LOGGER, PUBLISHERS
-from rebsync.reverse.python.generated.decorators import is_context, is_transparent
+from rebsync.reverse.libraries.generated_calls import PUBLISHERS
+from rebsync.reverse.python.generated.decorators import is_transparent
 from rebsync.reverse.python.generated.logs import is_logger
 from rebsync.reverse.python.generated.members import declares_plain
 from rebsync.reverse.python.generated.named_constants import CodeConstants
@@ -25,12 +24,12 @@ from rebsync.reverse.python.generated.parameters import only_declares, parameter
 from rebsync.reverse.python.generated.posts import Post
 from rebsync.reverse.python.generated.py_types import (
     call_parts,
-    called_late,
     expression_in,
     handed_over,
-    is_alias,
+    is_text,
     is_unset,
     literal_type,
+    passed_on,
     string_value,
     type_made,
     type_of,
@@ -54,16 +53,12 @@ _CONNECTING = frozenset(
         *OFFERING,
     }
 )
-_NAMED = frozenset({"Server", "logging.getLogger", "getLogger", LOGGER})
 _CALLED = frozenset(
     {
         *("self._wire", "super()._wire", "super().__init__", "Node.__init__"),
         "RebecNode.__init__",
         "self._mailbox.on_served",
     }
-)
-_AT_TOP = frozenset(
-    {"comment", "import_statement", "import_from_statement", "future_import_statement"}
 )
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
 _PLAIN = frozenset({"__init__", "_wire", "_publish_state", "mailbox"})
@@ -111,7 +106,7 @@ class Plumbing:
         for node, why in self._overridden():
             self._list(owner.py, node, why, "")
         for statement in named(field(owner.node, "body")):
-            if statement.type in _IN_CLASS or _is_text(statement):
+            if statement.type in _IN_CLASS or is_text(statement):
                 continue
             if not self.constants.is_quiet(owner, statement):
                 self._list(owner.py, statement, _WHY, "")
@@ -119,7 +114,7 @@ class Plumbing:
     def _is_transparent(self, decorator: str) -> bool:
         """Whether a decorator only tells people of the function."""
         code, module = self.constants.code, self.roles.owner.module
-        return is_transparent(code, module, decorator, self.silent.exceptions)
+        return is_transparent(code, module, decorator, self.silent)
 
     def _is_plain(self, function: Scope, decorator: str) -> bool:
         """Whether the model knows what a function is with it: what is called is no property."""
@@ -200,7 +195,7 @@ class Plumbing:
         if inner.type == "call":
             return self._is_called(function, inner)
         if inner.type != "assignment":
-            return _is_text(statement)
+            return is_text(statement)
         member = text_of(field(inner, "left")).removeprefix("self.")
         if self.silent.is_member(member):
             return True
@@ -227,9 +222,7 @@ class Plumbing:
     def _is_called(self, function: Scope, call: Node) -> bool:
         called, arguments = call_parts(call) or ("", [])
         if called == "self._mailbox.construct" and len(arguments) == 1:
-            passed = arguments[0]
-            given = called_late(passed)
-            _, values = call_parts(given) or ("", [])
+            _, values = passed_on(arguments[0]) or ("", [])
             names = [*(p.name for p in function.parameters[1:]), *self.roles.arguments]
             return [text_of(v) for v in values] == names[-len(values) :] if values else True
         if self.silent.timers.is_idle(call) or self.silent.asked.is_idle(call):
@@ -248,33 +241,6 @@ class Plumbing:
             server = self.roles.served_by(shim)
             return server is not None and key.startswith(graph_name(server))
         return member in self.roles.publishers
-
-
-def odd_at_top(module: Scope, constants: CodeConstants) -> Iterator[Node]:
-    """The statements of a module of a class that are none of the model's."""
-    for statement in named(module.node):
-        inner = expression_in(statement)
-        called, _ = call_parts(inner.child_by_field_name("right") if inner else None) or ("", [])
-        definition = statement.child_by_field_name("definition") or statement
-        if any(c.type == "wildcard_import" for c in statement.children):
-            yield statement
-            continue
-        if statement.type in _AT_TOP or called in _NAMED or _is_text(statement):
-            continue
-        if constants.is_quiet(module, statement) or is_alias(module, statement):
-            continue
-        if (
-            statement.type == "decorated_definition"
-            and definition.type == "function_definition"
-            and is_context(module, constants.code.scope_of(definition, module.py))
-        ):
-            continue
-        is_class = definition.type == "class_definition"
-        if is_class and text_of(field(definition, "name")) not in NO_PYTHON_CLASSES:
-            continue  # of those names generated code means its own
-        if statement.type == "if_statement" and "TYPE_CHECKING" in text_of(statement):
-            continue
-        yield statement
 
 
 def _is_of_type(statement: Node) -> bool:
@@ -313,15 +279,3 @@ def _only_looks(value: Node) -> bool:
         and (node.type != "call" or text_of(field(node, "function")) in _LOOKING)
         for node in nodes_in(value)
     )
-
-
-def _is_text(statement: Node) -> bool:
-    inner = expression_in(statement)
-    return inner is not None and inner.type in ("string", "concatenated_string")
-
-
-def set_in(statement: Node) -> Iterator[str]:
-    """The variable that a statement at the top of a module makes."""
-    inner = named(statement)[0] if named(statement) else statement
-    if inner.type == "assignment":
-        yield text_of(field(inner, "left"))

@@ -296,3 +296,9 @@ def messages_of(owners: list[Scope]) -> Iterator[str]:
             modules = (text_of(n.child_by_field_name("module_name") or n) for n in nodes)
             if any(module.endswith(".msg") for module in modules):
                 yield name
+
+
+def is_text(statement: Node) -> bool:
+    """Whether a statement is a text that stands alone."""
+    inner = expression_in(statement)
+    return inner is not None and inner.type in ("string", "concatenated_string")

@@ -24,7 +24,8 @@ from rebsync.reverse.generated.receivers import Receivers, add_receiver
 from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.python.generated.asked import asked_back
 from rebsync.reverse.python.generated.descriptors import servers_of
-from rebsync.reverse.python.generated.logs import only_describes, only_logs_by_words
+from rebsync.reverse.python.generated.logs import only_describes
+from rebsync.reverse.python.generated.pair_methods import values_given
 from rebsync.reverse.python.generated.parameters import (
     ParameterRead,
     declared_by,
@@ -45,7 +46,7 @@ from rebsync.reverse.python.generated.py_types import (
     without_parentheses,
 )
 from rebsync.reverse.python.generated.queues import PASSED, queue_in
-from rebsync.reverse.python.generated.timers import called_back
+from rebsync.reverse.python.generated.timers import called_back, only_logs_by_words
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
@@ -109,6 +110,7 @@ class PyRoles:
     orders: list[tuple[str, tuple[str, ...]]] = with_default(default_factory=list)  # by shims
     shims: set[str] = with_default(default_factory=set)
     ticking: set[str] = with_default(default_factory=set)
+    pairs: dict[str, list[Node]] = with_default(default_factory=dict)  # what methods give at once
     arguments: dict[str, str] = with_default(default_factory=dict)
     own: dict[str, tuple[OwnParameter, Node]] = with_default(default_factory=dict)
     told: list[OwnParameter] = with_default(default_factory=list)  # that people are told of
@@ -126,9 +128,10 @@ class PyRoles:
     queue: Node | None = None  # the length that heirs may hand on another one for
 
     def leave_out(self, members: Collection[str]) -> None:
-        """Takes those with parameters of the node's own among some members out of the model."""
-        for name in self.own.keys() & members:
-            self.told.append(self.own.pop(name)[0])
+        """Takes some variables out of the model, with parameters of the node's own or not."""
+        self.told += [self.own.pop(name)[0] for name in self.own.keys() & members]
+        self.initial = [each for each in self.initial if each[0] not in members]
+        for name in self.state.keys() & members:
             del self.state[name]
 
     def served_by(self, shim: str) -> str | None:
@@ -141,7 +144,7 @@ class PyRoles:
 
     def is_plumbing(self, name: str) -> bool:
         """Whether a function is none of the model's."""
-        others = (_PLUMBING, self.shims, self.sends, self.ticking)
+        others = (_PLUMBING, self.shims, self.sends, self.ticking, self.pairs)
         return any(name in of for of in others)
 
     @property
@@ -171,11 +174,13 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     handed = [n for n, function in roles.functions.items() if only_logs_by_words(function)]
     for set_up in (roles.functions[n] for n in ("__init__", "_wire") if n in roles.functions):
         handed += [*called_back(set_up), *asked_back(set_up)]
-    roles.ticking.update(n for n in handed if _is_added(roles, n))
+    roles.ticking.update(n for n in handed if is_people_own(roles, n))
+    added = (f for n, f in roles.functions.items() if is_people_own(roles, n))
+    roles.pairs = {f.name: given for f in added if (given := values_given(code, f))}
     return roles
 
 
-def _is_added(roles: PyRoles, name: str) -> bool:
+def is_people_own(roles: PyRoles, name: str) -> bool:
     """Whether a function is one that people added beside what sends and serves."""
     function = roles.functions.get(name)
     is_made = roles.is_plumbing(name) or name in roles.handlers or name.startswith("construct")
@@ -246,7 +251,7 @@ def _member(roles: PyRoles, function: Scope, name: str, statement: Node, value: 
 
 
 def _connected(roles: PyRoles, member: str, method: str, arguments: list[Node]) -> None:
-    first = string_value(arguments[0]) if arguments else None
+    first = _topic(roles, arguments[0]) if arguments else None
     topic = (first or "").removeprefix("~/").removeprefix("~")
     if method == "advertise" and len(arguments) == 2:
         known, _, key = topic.rpartition("/")
@@ -266,6 +271,15 @@ def _connected(roles: PyRoles, member: str, method: str, arguments: list[Node]) 
         name = "Action" if method.startswith("offer_action") else "Service"
         replies = (string_value(arguments[i]) for i in (1, 6) if i < len(arguments))
         roles.offers[shim] = m.Annotation(name, tuple(m.Name(reply or "") for reply in replies))
+
+
+def _topic(roles: PyRoles, node: Node) -> str | None:
+    """A text, or one that the module gives a name to."""
+    bound = roles.owner.module.names.get(text_of(node), [])
+    if len(bound) != 1 or bound[0].how != "value" or bound[0].path:
+        return string_value(node)
+    is_local = any(text_of(node) in f.names for f in roles.functions.values())
+    return None if is_local else string_value(bound[0].value)
 
 
 def _variable(

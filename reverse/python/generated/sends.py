@@ -12,6 +12,7 @@ from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.arrays import array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.overloads import told
+from rebsync.reverse.python.generated.pairs import values_in_place
 from rebsync.reverse.python.generated.py_types import string_value
 from rebsync.reverse.python.generated.roles import PySends
 from rebsync.reverse.syntax.py_tree import named, text_of
@@ -91,6 +92,8 @@ def _unpacked(reader: ModelExpressionReader, node: Node) -> list[m.Expression]:
     """One argument, or the elements of an array behind a star."""
     if node.type != "list_splat":
         return [reader.read(node)]
+    if values := values_in_place(reader, named(node)[0]):
+        return [*map(reader.read, values)]
     elements = array_elements(reader, named(node)[0])
     if elements is None:
         raise reader.unread(node, "nobody knows how many values this gives")

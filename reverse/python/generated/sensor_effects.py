@@ -18,9 +18,9 @@ from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import PyCode
 from rebsync.reverse.syntax.py_module import module_of
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.source import Source, Span
 
 _ASKED = "this runs when it is asked what a sensor saw"

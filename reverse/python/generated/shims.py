@@ -23,10 +23,10 @@ from rebsync.reverse.python.generated.py_types import (
     type_of,
 )
 from rebsync.reverse.python.generated.roles import PyRoles
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 from rebsync.static.types import PRIMITIVES
 

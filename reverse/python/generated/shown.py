@@ -18,9 +18,9 @@ from rebsync.reverse.libraries.python_telling import broadcasters
 from rebsync.reverse.python.generated.module_variables import call_and_arguments, imported_as
 from rebsync.reverse.python.generated.py_types import call_parts, string_value
 from rebsync.reverse.python.generated.told_messages import is_for_people
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
 
 _INTEGERS = frozenset({"byte", "int", "short"})

@@ -6,7 +6,7 @@ A store in such a member shows in no model, as long as nothing else looks at it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
@@ -18,7 +18,14 @@ from rebsync.reverse.libraries.generated_calls import PUBLISHER_METHOD
 from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.generated.asked import Answering
 from rebsync.reverse.python.generated.logs import Looks, only_logs
+from rebsync.reverse.python.generated.member_places import (
+    function_around,
+    is_of_module,
+    makes_member,
+    name_around,
+)
 from rebsync.reverse.python.generated.members import (
+    NUMBERS,
     VALUES,
     is_lock,
     is_own_parameter,
@@ -35,6 +42,12 @@ from rebsync.reverse.python.generated.shown import (
     tells_by,
 )
 from rebsync.reverse.python.generated.timers import Timers
+from rebsync.reverse.python.generated.told_candidates import (
+    candidate_locals,
+    is_candidate,
+    made_once,
+    may_tell,
+)
 from rebsync.reverse.python.generated.told_containers import (
     SET,
     STORING,
@@ -46,16 +59,16 @@ from rebsync.reverse.python.generated.told_containers import (
     member_of,
     stores_in,
 )
+from rebsync.reverse.python.generated.told_effects import ToldEffects
 from rebsync.reverse.python.generated.told_exceptions import ToldExceptions
 from rebsync.reverse.python.generated.told_locals import told_locals
 from rebsync.reverse.python.generated.told_messages import ToldMessages, told_types
-from rebsync.reverse.python.values.py_callbacks import body_of
+from rebsync.reverse.python.generated.told_values import ToldPlaces
 from rebsync.reverse.syntax.ancestors import ancestors, functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import Py, field, is_label, named, text_of
 
-_SET_UP = ("__init__", "_wire")
 _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
 
 
@@ -65,7 +78,8 @@ class Silent:
     `ticking` are timers that only log, as `timers` tells them. `locals` are what a function makes
     or measures for people, by the function's node, and `counters` variables of the module; `form`
     tells who may wait for a lock, and `variables` the state by the names of attributes; `asked`
-    are services and diagnostics; `exceptions` say what may fail of what is told.
+    are services and diagnostics; `exceptions` say what may fail of what is told. `computed` are
+    those that any code makes that only computes, as `effects` tell, and `kept` such locals.
     """
 
     texts: frozenset[str] = frozenset()
@@ -80,6 +94,9 @@ class Silent:
     variables: Mapping[str, m.Type] = with_default(default_factory=dict)
     asked: Answering = Answering()
     exceptions: ToldExceptions = ToldExceptions()
+    computed: frozenset[str] = frozenset()
+    kept: dict[int, frozenset[str]] = with_default(default_factory=dict)
+    effects: ToldEffects | None = None
     messages: ToldMessages = ToldMessages({}, {}, Looks())
 
     @property
@@ -107,6 +124,22 @@ class Silent:
 
     def tells(self, node: Node) -> bool:
         """Whether a statement does nothing but to tell people something, or to keep it for that."""
+        return self._tells_by_words(node) or self._only_computes(node)
+
+    def _only_computes(self, node: Node) -> bool:
+        """Whether the effects of a statement stay where only people look."""
+        place = function_around(node)
+        local = self.kept.get(place, frozenset[str]())
+        told = self.locals.get(place, frozenset[str]()) | (self.texts - self.computed)
+        py = self.exceptions.file_of(node)
+        if self.effects is None or py is None:
+            return False
+        if not may_tell(node, self.texts, local | told, self.publishers):
+            return False
+        places = ToldPlaces(self.computed, local, told, self.publishers, self.looks.is_node)
+        return self.effects.only_tells(py, py.span(node), places)
+
+    def _tells_by_words(self, node: Node) -> bool:
         if only_logs(node, self.looks):
             return True
         if node.type == "if_statement":
@@ -162,13 +195,13 @@ class Silent:
         while node.type == "attribute" and text_of(field(node, "object")) != "self":
             node = field(node, "object")
         if node.type == "attribute":
-            return text_of(field(node, "attribute")) in self.texts
+            return text_of(field(node, "attribute")) in self.texts - self.computed
         if node.type != "identifier":
             return False
         name = text_of(node)
-        if name in self.locals.get(_function(node), ()):
+        if name in self.locals.get(function_around(node), ()):
             return True
-        return name in self.counters and _is_of_module(node, name)
+        return name in self.counters and is_of_module(node, name)
 
     def _stores_element(self, assignment: Node) -> bool:
         """`self._counts["served"] = self._counts.get("served", 0) + 1`."""
@@ -219,11 +252,11 @@ def silent_in(
     hidden = hidden_names(code, owner.module)
     looks = looks_of(code, line, makers, hidden)
     taken |= looks.functions
-    made = {name: value for name, value in _made(functions) if name not in taken}
+    made = {name: value for name, value in made_once(functions) if name not in taken}
     members = {name: value for name, value in made.items() if not is_of_node(name)}
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
-    handed = {n: functions[n] for n in roles[0].ticking}
+    handed = _handed(roles)
     messages = ToldMessages(types, variables, looks)
     exceptions = ToldExceptions.of(code, form, messages)
     timers = Timers.of(code, handed, looks, exceptions)
@@ -246,8 +279,17 @@ def silent_in(
         variables,
         asked,
         exceptions,
+        frozenset(),
+        {},
+        ToldEffects(form, variables, {n for r in roles for n in (*r.known, *r.env)}),
         messages,
     )
+    rest = {n: v for n, v in members.items() if not found.is_member(n)}
+    computed = frozenset(n for n, v in rest.items() if is_candidate(code, owner.module, v))
+    told_ones = found.members | computed
+    kept = {f.node.id: candidate_locals(code, f, told_ones) for f in functions.values()}
+    kept = {place: names - found.locals[place] for place, names in kept.items()}
+    found = replace(found, texts=told | computed, computed=computed, kept=kept)
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)
     timers = found.timers.telling(code, handed, found.holds)
@@ -257,15 +299,22 @@ def silent_in(
     return _consistent(replace(found, timers=timers, ticking=ticking), modules, beside)
 
 
+def _handed(roles: Sequence[PyRoles]) -> dict[str, Scope]:
+    """The methods that may only tell people something, of classes of one module."""
+    here = [r for r in roles if r.owner.module is roles[0].owner.module]
+    functions = {n: f for r in reversed(here) for n, f in r.functions.items()}
+    return {n: functions[n] for r in here for n in r.ticking if functions[n] is r.functions[n]}
+
+
 def _is_told(name: str, value: Node, looks: Looks) -> bool:
     """Whether a member holds nothing but what people are told."""
-    is_kept = value.type in VALUES or is_own_parameter(value) or name in looks.containers
+    is_kept = value.type in VALUES | NUMBERS or is_own_parameter(value) or name in looks.containers
     return is_kept or looks.tells_time(value)
 
 
 def _consistent(found: Silent, modules: Sequence[Scope], beside: Collection[str]) -> Silent:
     """Without what something else names than statements for people."""
-    while found.members or found.counters or any(found.locals.values()):
+    while found.members or found.counters or any((*found.locals.values(), *found.kept.values())):
         wrong = {n for module in modules for n in _odd(found, module.node, beside)}
         if not wrong:
             break
@@ -274,7 +323,10 @@ def _consistent(found: Silent, modules: Sequence[Scope], beside: Collection[str]
 
 
 def _without(silent: Silent, wrong: set[str]) -> Silent:
-    locals_ = {f: frozenset(names - wrong) for f, names in silent.locals.items()}
+    locals_, kept = (
+        {f: frozenset(names - wrong) for f, names in of.items()}
+        for of in (silent.locals, silent.kept)
+    )
     texts, publishers, ticking, locks = (
         names - wrong for names in (silent.texts, silent.publishers, silent.ticking, silent.locks)
     )
@@ -282,28 +334,16 @@ def _without(silent: Silent, wrong: set[str]) -> Silent:
     return replace(
         silent,
         texts=texts,
+        computed=silent.computed & texts,
         publishers=publishers,
         ticking=ticking,
         locks=locks,
         locals=locals_,
+        kept=kept,
         shown=shown,
         counters=silent.counters - wrong,
         asked=replace(silent.asked, updaters=silent.asked.updaters - wrong),
     )
-
-
-def _made(functions: Mapping[str, Scope]) -> Iterator[tuple[str, Node]]:
-    """What the constructor of a class puts into members, into each once only."""
-    found: dict[str, list[Node]] = {}
-    for function in (functions[name] for name in _SET_UP if name in functions):
-        for statement in body_of(function):
-            inner = named(statement)[0] if statement.type == "expression_statement" else statement
-            left, value = inner.child_by_field_name("left"), inner.child_by_field_name("right")
-            if inner.type != "assignment" or left is None or value is None:
-                continue
-            if left.type == "attribute" and text_of(field(left, "object")) == "self":
-                found.setdefault(text_of(field(left, "attribute")), []).append(value)
-    yield from ((name, values[0]) for name, values in found.items() if len(values) == 1)
 
 
 # --- where they are used ------------------------------------------------------------------------
@@ -320,13 +360,15 @@ def _odd(silent: Silent, root: Node, beside: Collection[str]) -> set[str]:
         if node.type == "attribute" and text_of(field(node, "attribute")) in members:
             name = text_of(field(node, "attribute"))
             is_own = text_of(field(node, "object")) == "self"
-            is_apart = name in silent.looks.containers and _name_around(node) in beside
+            is_shared = name in silent.looks.containers or name in silent.computed
+            is_apart = is_shared and name_around(node) in beside
             if is_apart or not (is_own and _is_quiet(silent, node, name)):
                 found.add(name)
         elif node.type == "identifier" and not is_label(node):
             name = text_of(node)
             is_local = name in silent.counters or any(
-                name in silent.locals.get(f.id, ()) for f in functions_around(node)
+                name in silent.locals.get(f.id, ()) or name in silent.kept.get(f.id, ())
+                for f in functions_around(node)
             )
             if is_local and not _is_quiet(silent, node, name):
                 found.add(name)
@@ -340,43 +382,12 @@ def _is_quiet(silent: Silent, node: Node, name: str) -> bool:
     for above in (node, *ancestors(node, lambda n: n.type in _STATEMENTS)):
         if above.type == "with_item":
             return name in silent.locks and text_of(above) == f"self.{name}"
-        if above.type == "expression_statement" and _sets_up(above, name):
-            return True
+        if above.type == "expression_statement" and makes_member(above, name):
+            return name not in silent.computed or silent.holds(above)
         if above.type == "global_statement":
             return name in silent.counters
-        if silent.tells(above) or above.id in silent.asked.bodies:
+        if silent.tells(above):
             return True
+        if above.id in silent.asked.bodies:
+            return name not in silent.computed
     return False
-
-
-def _sets_up(statement: Node, name: str) -> bool:
-    """Whether a statement of the constructor makes the member."""
-    inner = named(statement)[0]
-    function = _enclosing(statement)
-    is_first = function is not None and text_of(field(function, "name")) in _SET_UP
-    left = text_of(field(inner, "left")) if inner.type == "assignment" else ""
-    return (is_first and left == f"self.{name}") or (function is None and left == name)
-
-
-def _name_around(node: Node) -> str:
-    """The function that something is in, by its name."""
-    function = _enclosing(node)
-    return text_of(field(function, "name")) if function is not None else ""
-
-
-def _enclosing(node: Node) -> Node | None:
-    return next(functions_around(node), None)
-
-
-def _is_of_module(node: Node, name: str) -> bool:
-    """Whether a function says that a variable is the module's."""
-    function = _enclosing(node)
-    statements = nodes_in(function) if function is not None else ()
-    said = (n for n in statements if n.type == "global_statement")
-    return any(name in map(text_of, named(n)) for n in said)
-
-
-def _function(node: Node) -> int:
-    """The function that something is in, by its node."""
-    found = _enclosing(node)
-    return found.id if found is not None else 0

@@ -13,6 +13,7 @@ from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.expressions.elements import certain
 from rebsync.reverse.python.generated import arrays, idioms
 from rebsync.reverse.python.generated.inner import leaves
+from rebsync.reverse.python.generated.pairs import values_in_place
 from rebsync.reverse.python.generated.places import is_kept
 from rebsync.reverse.python.generated.py_types import call_parts, string_value
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
@@ -29,7 +30,7 @@ _WHOLE = "say what is stored here element by element"
 
 
 def chained(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
-    """`a = b = e`. Unread: e may be another value the second time."""
+    """`a = b = e`, where `e` is kept if it may be another value the second time."""
     lefts, value = [field(node, "left")], node.child_by_field_name("right")
     while value is not None and value.type == "assignment":
         lefts.append(field(value, "left"))
@@ -38,8 +39,26 @@ def chained(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
         raise reader.expressions.unread(node, "nothing is stored here: give it a value")
     stored = {idioms.base_of(left) for left in lefts}
     if not idioms.is_plain(value) or not stored.isdisjoint(idioms.names_in(value)):
-        raise reader.expressions.unread(node, "store this in one variable after the other")
+        return _computed_once(reader, lefts, value, node)
     return [s for left in lefts for s in _stored(reader, left, value, node)]
+
+
+def _computed_once(
+    reader: ModelStatementReader, lefts: list[Node], value: Node, node: Node
+) -> list[m.Statement]:
+    """`self._x = x = e`: the value goes into a local, and from there into variables of its type."""
+    known = reader.expressions
+    new = [n for n in lefts if n.type == "identifier" and text_of(n) not in known.locals]
+    others = [n for n in lefts if n not in new[:1]]
+    first = reader.implied_local(text_of(new[0]), value, node) if new else None
+    first = first or _kept(reader, lefts[0], value, node)
+    read = [known.read(left) for left in others]  # behind what may hide them
+    type_, name = first.declaration.type, first.declaration.declarators[0].name
+    if any(left.type not in _PLACES for left in others) or {*map(known.kind, read)} - {type_}:
+        raise known.unread(node, "store this in one variable after the other")
+    span = known.py.span(node)
+    stores = (m.Assign("=", target, m.Name(name), span) for target in read)
+    return [first, *(m.ExpressionStatement(each, span=span) for each in stores)]
 
 
 def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
@@ -55,7 +74,9 @@ def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
             raise expressions.unread(node, _WHOLE)
         pairs = zip(lefts, elements, strict=True)
         return [s for left, e in pairs for s in _given(reader, left, e, node)]
-    values = named(right) if right.type in ("expression_list", "tuple") else []
+    values = values_in_place(expressions, right)
+    if not values and right.type in ("expression_list", "tuple"):
+        values = named(right)
     lefts, values = _flat(lefts, values)
     if len(lefts) != len(values) or "list_splat" in {v.type for v in (*lefts, *values)}:
         raise expressions.unread(node, "the model has no such assignment")

@@ -14,13 +14,14 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.generated_calls import (
     DURATIONS,
     SHUTDOWN_HOOKS,
     TIMER_OF_NODE,
     TIMER_OF_ROS_1,
 )
-from rebsync.reverse.python.generated.logs import Looks, only_logs
+from rebsync.reverse.python.generated.logs import Looks, only_logs, own_method
 from rebsync.reverse.python.generated.py_types import (
     call_parts,
     expression_in,
@@ -28,6 +29,7 @@ from rebsync.reverse.python.generated.py_types import (
 )
 from rebsync.reverse.python.generated.told_exceptions import ToldExceptions
 from rebsync.reverse.python.values.py_callbacks import body_of
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -50,6 +52,37 @@ def called_back(function: Scope) -> Iterator[str]:
             holder, _, name = text_of(given).partition(".")
             if holder == "self" and name.isidentifier():
                 yield name
+
+
+def only_logs_by_words(function: Scope) -> bool:
+    """Whether a method does nothing but to log, and to keep in locals what it logs."""
+    nodes = [n for s in body_of(function) for n in nodes_in(s)]
+    is_logging = any(n.type == "call" and _is_log(n) for n in nodes)
+    is_plain = not function.decorators and all(map(_logs_by_words, body_of(function)))
+    return is_plain and is_logging and not any(map(_own_method_but_logs, nodes))
+
+
+def _own_method_but_logs(node: Node) -> str:
+    """The method that a call of one of the object's own calls, if it is not that which logs."""
+    name = own_method(node)
+    return "" if name == "get_logger" else name
+
+
+def _is_log(call: Node) -> bool:
+    return libraries.log_words().match(text_of(field(call, "function"))) is not None
+
+
+def _logs_by_words(node: Node) -> bool:
+    if node.type in ("comment", "pass_statement"):
+        return True
+    if node.type == "if_statement":
+        parts = [node, *node.children_by_field_name("alternative")]
+        bodies = [field(p, "body" if p.type == "else_clause" else "consequence") for p in parts]
+        return all(_logs_by_words(each) for body in bodies for each in named(body))
+    inner = named(node)[0] if node.type == "expression_statement" and named(node) else node
+    if inner.type == "assignment":
+        return field(inner, "left").type == "identifier"
+    return inner.type == "string" or (inner.type == "call" and _is_log(inner))
 
 
 @dataclass(frozen=True, eq=False, slots=True)

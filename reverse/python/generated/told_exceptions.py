@@ -45,6 +45,10 @@ class ToldExceptions:
         files = {s.node.id: s.py for s in code.modules.values()}
         return ToldExceptions(form, files, messages.variables, messages)
 
+    def file_of(self, node: Node) -> Py | None:
+        """The file that something is in."""
+        return self.files.get(_root(node).id)
+
     def raises(self, node: Node) -> bool:
         """Whether an exception may leave a part of a function."""
         return any(self.reasons(node))
@@ -61,7 +65,7 @@ class ToldExceptions:
             return
         if self.messages is not None and not self.messages.fit(node):
             yield "a message has no such field, or one that does not take this"
-        py = self.files.get(_root(node).id)
+        py = self.file_of(node)
         if py is None:
             yield "nobody knows what this does"
             return

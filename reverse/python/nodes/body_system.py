@@ -49,8 +49,8 @@ from rebsync.reverse.python.nodes.own_arguments import list_own_arguments
 from rebsync.reverse.python.nodes.spinning import list_unserved
 from rebsync.reverse.python.values.node_effects import NodeEffects
 from rebsync.reverse.python.values.py_values import PyValues
-from rebsync.reverse.python.values.runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 
 _MOST_ROUNDS = 60
 # Rebecs of a unit that are read alike, by their number.

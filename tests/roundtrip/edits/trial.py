@@ -37,6 +37,7 @@ FILES = (
     *("gate4_cpp.toml", "gate4_python.toml", "gate5_cpp.toml", "gate5_python.toml"),
     *("gate6_python.toml", "gate6_cpp.toml", "gate7_cpp.toml", "gate7_python.toml"),
     *("gate8_cpp.toml", "gate8_python.toml", "gate9_cpp.toml", "gate9_python.toml"),
+    *("gate10_cpp.toml", "gate10_python.toml", "told_python.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
@@ -44,8 +45,15 @@ MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 LATER = {
     "hello": ("delay(2)", "delay(3)"),
     "experiment1": ("delay(e12)", "delay(e12 + 1)"),
+    "experiment1_unsafe": ("delay(e12)", "delay(e12 + 1)"),
+    "experiment3": ("after(2)", "after(3)"),
+    "experiment3_unsafe": ("after(2)", "after(3)"),
     "running_example": ("delay(e11)", "delay(e11 + 1)"),
     "experiment2": (
+        "stopped = true;\n    pos[0] = init_x;",
+        "stopped = false;\n    pos[0] = init_x;",
+    ),
+    "experiment2_unsafe": (
         "stopped = true;\n    pos[0] = init_x;",
         "stopped = false;\n    pos[0] = init_x;",
     ),
