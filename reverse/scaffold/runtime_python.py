@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import builtins
 import re
 from collections.abc import Iterator
 from itertools import zip_longest
@@ -25,11 +26,17 @@ _MAKES = "rospy.init_node"
 _LEVELS = frozenset({"DEBUG", "INFO", "WARN", "ERROR", "FATAL"})
 _SEVERITY = rf"(?:rclpy\.logging\.)?LoggingSeverity\.(?:{'|'.join(_LEVELS)})"
 _DIAGNOSES = re.compile(
-    r"(?:faulthandler\.enable\(\)"
+    r"(?:faulthandler\.enable\(\)|tracemalloc\.start\(\)"
+    r"|warnings\.(?:simplefilter|filterwarnings)\('(?:ignore|default|always|module|once)'"
+    r"(?:, category=\w+Warning)?\)"
     rf"|rebec\.get_logger\(\)\.set_level\({_SEVERITY}\)"
     rf"|rclpy\.logging\.set_logger_level\('\w+', {_SEVERITY}\))\Z"
 )
-_DIAGNOSING = frozenset({"faulthandler", "rclpy", "rclpy.logging", "rclpy.logging.LoggingSeverity"})
+_DIAGNOSING = frozenset(
+    {"faulthandler", "rclpy", "rclpy.logging", "rclpy.logging.LoggingSeverity"}
+    | {"tracemalloc", "warnings"}
+)
+_WARNINGS = frozenset(name for name in dir(builtins) if name.endswith("Warning"))
 _IMPORTS = (ast.Import, ast.ImportFrom)
 _TOLD = frozenset({"__version__", "__author__", "__license__", "__copyright__"})
 
@@ -109,7 +116,9 @@ def _is_told_to_people(statement: ast.stmt) -> bool:
 
 def _without_diagnostics(module: ast.Module) -> ast.Module:
     """A program without what says from which level on it logs, or shows where it crashed."""
-    known = {name for name, (of, _) in bindings(module).items() if of in _DIAGNOSING}
+    bound = bindings(module)
+    known = {name for name, (of, _) in bound.items() if of in _DIAGNOSING}
+    known |= _WARNINGS - bound.keys()
 
     def rest(body: list[ast.stmt]) -> Iterator[ast.stmt]:
         made = False

@@ -83,6 +83,8 @@ class SetupFile:
             case ast.List(elements):
                 texts = [self._text(e) for e in elements]
                 return [t for t in texts if t is not None] if None not in texts else None
+            case ast.Call(ast.Name("sorted"), [files], []) if "sorted" not in bindings(self.tree):
+                return self._listed(files)
             case ast.Call(function, [pattern], []) if self._full(function) == "glob.glob":
                 text = self._text(pattern)
                 return [f for f in self.files if _matches(f, text)] if text is not None else None

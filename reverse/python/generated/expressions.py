@@ -196,8 +196,11 @@ class Expressions(ModelExpressionReader):
         if not holder:
             is_own = self.names.constants.binds(name) or name in self.locals
             return "" if is_own else f"builtins.{name}"
-        is_random = holder == "random" and self.names.imported.get(holder) == holder
-        return text_of(function) if is_random else ""
+        return text_of(function) if holder == "random" and self._is_of_library(holder) else ""
+
+    def _is_of_library(self, name: str) -> bool:
+        """Whether a module of the standard library has its own name here."""
+        return self.names.imported.get(name) == name and name not in self.locals
 
     def may_fail(self, node: Node) -> bool:
         return may_fail(self, node)
@@ -320,6 +323,8 @@ class Expressions(ModelExpressionReader):
             case "square_root", 1:
                 return m.Call(None, "sqrt", (self.read(arguments[0]),), span=span)
             case "copied", 1:
+                return self.read(arguments[0])
+            case "copy.deepcopy", 1 if self._is_of_library("copy"):
                 return self.read(arguments[0])
             case "to_rebec", 2:
                 type_ = m.Type(original(string_value(arguments[0]) or ""))

@@ -22,6 +22,7 @@ DECORATORS = frozenset({"abstractmethod", "final", "override", "staticmethod", "
 # Where decorators come from that leave a function the one that stands there.
 _PLAIN_ROOTS = frozenset({"builtins", "abc", "typing", "typing_extensions"})
 _METACLASS = "abc.ABCMeta"
+_FINAL = frozenset({"typing.final", "typing_extensions.final"})  # only told to type checkers
 _GENERIC = frozenset({"typing.Generic", "typing.Protocol", "typing_extensions.Protocol"})
 # Of the names that Python looks for in a class, those that change no behaviour of its objects.
 _PLAIN_NAMES = frozenset({"__init__", "__str__", "__repr__", "__doc__"})
@@ -49,10 +50,11 @@ def class_departures(
 
     With `libraries` bases of all others are listed as well.
     """
-    for node in decorating(scope.node):
-        yield node, "what decorates this class may change it"
-    yield from unbound_annotations(scope)
     outer = scope.parent or scope
+    for node in decorating(scope.node):
+        if _names(values.ways(named(node)[0], outer)) - _FINAL:
+            yield node, "what decorates this class may change it"
+    yield from unbound_annotations(scope)
     bases = scope.node.child_by_field_name("superclasses")
     for base in named(bases) if bases is not None else ():
         if base.type == "keyword_argument":
