@@ -9,6 +9,7 @@ from rebsync.reverse.findings import Grade
 from rebsync.reverse.graph import ParameterFact, PublisherFact, Resolved
 from rebsync.reverse.libraries.routines import Access
 from rebsync.reverse.nodes.node_joined import Joined
+from rebsync.reverse.nodes.node_spinning import endings_before_serving
 from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.nodes.node_wiring import nobody_publishes, nobody_subscribes
 from rebsync.reverse.recovery import Extracted
@@ -40,7 +41,21 @@ def assumed(extracted: Extracted) -> Iterator[str]:
     texts = (cpp.source.text for cpp in extracted.asking.code.files if b"char" in cpp.words)
     if any(_PLAIN_CHAR.search(text) for text in texts):
         yield "a char that does not say it has a sign, as on x86"
+    if extracted.asking.code.files:
+        yield "nothing is done that C++ leaves undefined: what is looked up is there"
+    yield from dict.fromkeys(_programs(extracted))
     yield "no callback ends by an exception"
+
+
+def _programs(extracted: Extracted) -> Iterator[str]:
+    """Where programs of started nodes of C++ may end before they let messages be served."""
+    for instance in extracted.joined.wiring.instances:
+        program = instance.start.program
+        for node in endings_before_serving(extracted.asking.code, instance.start):
+            if program is not None and not instance.idle:
+                line = node.start_point.row + 1
+                path = program.main.cpp.source.path
+                yield f"{path}:{line}: the program gets past this, and lets messages be served"
 
 
 def _closed_ends(joined: Joined) -> set[str]:

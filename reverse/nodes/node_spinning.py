@@ -33,6 +33,8 @@ _NO_OWNER = "no member is known to keep this group: it ends, and what it has is 
 _GROUP = "no executor is known to get this group: what it has may never be called"
 _ENDED = "the node ends here, before its program lets messages be served"
 _NAMES = ("identifier", "field_identifier", "type_identifier")
+_EXITS = frozenset({"exit", "_exit", "_Exit", "quick_exit", "abort", "terminate"})
+_INPUT = frozenset({"cin", "getchar", "getline", "scanf", "fgets"})  # may wait for somebody
 _LOOPS = frozenset({"while_statement", "do_statement", "for_statement", "for_range_loop"})
 _DECLARING = ("declaration", "field_declaration", "parameter_declaration")
 _SCOPES = frozenset({"std", "boost"})
@@ -52,6 +54,31 @@ def note_spinning(bodies: Bodies, start: Start | None) -> None:
         bodies.unread(*ended, _ENDS)
     elif (found := _unserved(program, start)) is not None:
         bodies.unread(main.cpp, *found)
+
+
+def endings_before_serving(code: Code, start: Start) -> Iterator[Node]:
+    """Where the `main` of a rebec may end, or pass by, before messages are served.
+
+    The model serves them whatever the arguments and the input of the program are.
+    """
+    main = start.program.main if start.program is not None else None
+    if main is None or main.body is None:
+        return
+    program = _Spun(code, main, main.body, start.made.variable if start.made else "")
+    serving = [node for function, node in program.serving() if function is main]
+    if not serving:
+        return
+    first = min(node.start_byte for node in serving)
+    leaving = inside(main.body, "return_statement", "throw_statement", "goto_statement")
+    leaving += [c.node for c in calls_in(main.body) if c.name.removeprefix("std::") in _EXITS]
+    leaving += [n for n in inside(main.body, "identifier") if text_of(n) in _INPUT]
+    for node in leaving:
+        if node.start_byte < first and not in_lambda(node):
+            yield node
+    around = [{n.id: n for n in ancestors(s, lambda n: n == main.body)} for s in serving]
+    for id_, node in around[0].items():
+        if node.type == "if_statement" and all(id_ in each for each in around):
+            yield node
 
 
 def _unserved(program: _Spun, start: Start) -> tuple[Node, str] | None:
