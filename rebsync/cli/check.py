@@ -99,11 +99,9 @@ def _outcome(package: ManagedPackage, checked: Result, given: dict[str, Any]) ->
 
 def _with_refusals(checked: CheckResult) -> CheckResult:
     """The same, with why `rebsync sync` would not take what has moved into the model."""
-    if checked.drift is None or checked.drift.verdict.value not in ("code ahead", "both moved"):
-        return checked
-    from rebsync.roundtrip.sync.sync import makes_no_model
+    from rebsync.roundtrip.sync.refusals import cached_refusals
 
-    return replace(checked, findings=(*checked.findings, *makes_no_model(checked)))
+    return replace(checked, findings=(*checked.findings, *cached_refusals(checked)))
 
 
 def _is_same(checked: CheckResult, most: int | None) -> bool:

@@ -30,6 +30,7 @@ _NAMES = {
     ),
     "rebsync.roundtrip.package.state": "PackageState",
     "rebsync.roundtrip.verdict.cached": "CachedVerdict",
+    "rebsync.roundtrip.sync.refusals": "CachedRefusals",
     "rebsync.roundtrip.package.managed": "ManagedPackage",
     "rebsync.roundtrip.package.models": "CodeModel",
     "rebsync.roundtrip.package.record": "Record",
