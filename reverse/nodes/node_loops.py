@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -93,7 +93,7 @@ def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> NodeL
     statements = named(body) if body.type == "compound_statement" else [body]
     guard = tuple(p for p in parts if p not in runs)
     endless = all(text_of(p) in ("true", "1") for p in parts)
-    if not _may_wait(body.text or b""):
+    if not has_word(body, ("sleep", *libraries.named(Kind.SERVE))):  # it waits for nothing
         whole = NodeLoop(function, node, tuple(statements), (), guard, None, False)
         return None if endless else whole
     at, rate = _sleep(statements, rates)
@@ -110,9 +110,10 @@ def _loop(function: CppFunction, node: Node, rates: Sequence[RateFact]) -> NodeL
     return NodeLoop(function, node, tuple(first), tuple(rest), guard, rate, sleeps)
 
 
-def _may_wait(text: bytes) -> bool:
-    """Whether a loop may sleep or serve messages: others name nothing that does."""
-    return any(word.encode() in text for word in ("sleep", *libraries.named(Kind.SERVE)))
+def has_word(node: Node, words: Iterable[str]) -> bool:
+    """Whether one of some words stands in a node at all, which is quickly told."""
+    text = node.text or b""
+    return any(word.encode() in text for word in words)
 
 
 def _conjuncts(node: Node) -> Iterator[Node]:

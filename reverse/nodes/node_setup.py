@@ -34,6 +34,7 @@ from rebsync.reverse.nodes.node_loops import (
     behind,
     cancels,
     ended_early,
+    has_word,
     later,
     loop_around,
     loops_in,
@@ -305,7 +306,11 @@ class Setup:
     def _loop(self, function: CppFunction, loop: NodeLoop) -> None:
         parts = (*loop.first, *loop.rest)
         self.instead[loop.node.id] = ()
-        if self.servers and _serves(loop.node) and (loop.rate is not None or loop.sleeps):
+        if (
+            self.servers
+            and has_word(loop.node, libraries.serving_once())
+            and (loop.rate is not None or loop.sleeps)
+        ):
             source, span = function.cpp.source, function.cpp.span(loop.node)
             if loop.rate is not None:
                 source, span = loop.rate.site.place.source, loop.rate.site.place.span
@@ -345,7 +350,8 @@ class Setup:
 
     def _waits(self, function: CppFunction) -> None:
         """What waits for messages, or lets ROS serve them, is nothing in the model."""
-        waits = function.body is not None and _may_wait(function.body)
+        words = libraries.waiting() | libraries.named(Kind.AUDIENCE)
+        waits = function.body is not None and has_word(function.body, words)
         for call in self.code.calls_of(function) if waits else ():
             name = call.name.rpartition("::")[2]
             is_asked = name in libraries.named(Kind.AUDIENCE)
@@ -387,15 +393,3 @@ def _is_call(statement: Node, call: Node) -> bool:
     """Whether a statement is nothing but a call."""
     inner = named(statement)
     return len(inner) == 1 and inner[0].id == call.id
-
-
-def _serves(node: Node) -> bool:
-    """Whether the text of a loop has a word of what lets messages be served."""
-    text = node.text or b""
-    return any(name.encode() in text for name in libraries.serving_once())
-
-
-def _may_wait(body: Node) -> bool:
-    """Whether a body has a word of what waits for messages, or for others."""
-    text = body.text or b""
-    return any(n.encode() in text for n in libraries.waiting() | libraries.named(Kind.AUDIENCE))

@@ -249,8 +249,7 @@ class ModelClasses:
         is_whole = self._is_alone(owner) and len(self.findings.all) == before
         self._bodies.list_beyond(owner, constructors if is_whole else None)
         own = (c for c in self.line(owner)[1:] if not is_runtime_file(c.py.source))
-        above = (c for c in own if not self._is_helping(c))
-        bases = [c for c in above if self._is_base(owner, c)]
+        bases = [c for c in own if not self._is_helping(c) and self._is_base(owner, c)]
         extends = [class_name(c.name) for c in bases if self._has_mailbox(c)]
         return m.ReactiveClass(
             class_name(owner.name),
@@ -280,9 +279,8 @@ class ModelClasses:
         return bool(functions) and is_plain and not any(map(is_abstract, functions.values()))
 
     def _shown(self, owner: Scope) -> Iterator[m.Annotation]:
-        markers = markers_above(owner.py, owner.node)
+        roles, markers = self._of(owner), markers_above(owner.py, owner.node)
         is_marked = any(x.startswith("reactiveclass ") for x in markers)
-        roles = self._of(owner)
         marked = annotations_above(owner.py, owner.node) if is_marked else None
         return of_class(marked, has_drive=roles.has_drive, on_bridge=roles.on_bridge)
 
@@ -399,5 +397,4 @@ class ModelClasses:
         if not roles.initial:
             return ()
         reader = self._bodies.reader(owner, roles.initial[0][2], within).expressions
-        found = first_values.stores(roles.initial, roles.state, reader, self.findings, within)
-        return tuple(found)
+        return tuple(first_values.stores(roles.initial, roles.state, reader, self.findings, within))

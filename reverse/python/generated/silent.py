@@ -44,7 +44,7 @@ from rebsync.reverse.python.generated.shown import (
 from rebsync.reverse.python.generated.timers import Timers
 from rebsync.reverse.python.generated.told_candidates import (
     candidate_locals,
-    is_candidate,
+    candidate_members,
     made_once,
     may_tell,
 )
@@ -284,12 +284,7 @@ def silent_in(
         ToldEffects(form, variables, {n for r in roles for n in (*r.known, *r.env)}),
         messages,
     )
-    rest = {n: v for n, v in members.items() if not found.is_member(n)}
-    computed = frozenset(n for n, v in rest.items() if is_candidate(code, owner.module, v))
-    told_ones = found.members | computed
-    kept = {f.node.id: candidate_locals(code, f, told_ones) for f in functions.values()}
-    kept = {place: names - found.locals[place] for place, names in kept.items()}
-    found = replace(found, texts=told | computed, computed=computed, kept=kept)
+    found = _with_candidates(code, found, roles[0], members)
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)
     timers = found.timers.telling(code, handed, found.holds)
@@ -297,6 +292,17 @@ def silent_in(
         return found
     ticking = found.ticking.union(n for n, v in members.items() if timers.is_idle(v))
     return _consistent(replace(found, timers=timers, ticking=ticking), modules, beside)
+
+
+def _with_candidates(
+    code: PyCode, found: Silent, roles: PyRoles, members: Mapping[str, Node]
+) -> Silent:
+    """The same, with other members and locals that people alone may be told of."""
+    rest = {n: v for n, v in members.items() if not found.is_member(n)}
+    computed = candidate_members(code, roles.owner.module, rest)
+    kept = candidate_locals(code, roles.functions.values(), found.members | computed)
+    kept = {place: names - found.locals[place] for place, names in kept.items()}
+    return replace(found, texts=found.texts | computed, computed=computed, kept=kept)
 
 
 def _handed(roles: Sequence[PyRoles]) -> dict[str, Scope]:

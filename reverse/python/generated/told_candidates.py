@@ -5,7 +5,7 @@ To lower code takes time: what has to do with the node itself is known by its wo
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from tree_sitter import Node
 
@@ -31,15 +31,23 @@ _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern"})
 _STORING = frozenset({"assignment", "augmented_assignment"})
 
 
-def is_candidate(code: PyCode, module: Scope, value: Node) -> bool:
-    """Whether a member with a value may be for people: no number, and nothing of the node."""
-    return value.type not in _NUMBERS and _is_computed(code, module, value)
+def candidate_members(code: PyCode, module: Scope, members: Mapping[str, Node]) -> frozenset[str]:
+    """Those of members with values that may be for people: no numbers, nothing of a node."""
+    values = ((n, v) for n, v in members.items() if v.type not in _NUMBERS)
+    return frozenset(name for name, value in values if _is_computed(code, module, value))
 
 
-def candidate_locals(code: PyCode, function: Scope, members: Collection[str]) -> frozenset[str]:
+def candidate_locals(
+    code: PyCode, functions: Iterable[Scope], members: Collection[str]
+) -> dict[int, frozenset[str]]:
+    """By functions the locals of them that may be for people; `members` are told to these."""
+    return {f.node.id: _candidates_in(code, f, members) for f in functions}
+
+
+def _candidates_in(code: PyCode, function: Scope, members: Collection[str]) -> frozenset[str]:
     """The locals of a function that may be for people: none that models declare.
 
-    `members` are told to people. A local that nobody is told of is the model's, though nobody
+    A local that nobody is told of is the model's, though nobody
     reads it.
     """
     computed = frozenset(
