@@ -9,6 +9,7 @@ from warnings import catch_warnings, simplefilter
 
 from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import read_source
+from rebsync.reverse.build.unresolved_imports import unresolved_imports
 from rebsync.reverse.files.packages import MANIFEST
 from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.files.stores import Disk, join
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.build.named import Named
 
 _BUILD = "CMakeLists.txt"
+_DECLARE = "name what has it in package.xml, or import it where ImportError is caught"
 _READ = frozenset({_BUILD, MANIFEST, SETUP})
 
 
@@ -34,9 +36,12 @@ def missing_files(
     package: ManagedPackage, record: Record, now: PackageState
 ) -> tuple[Findings, ...]:
     """What was generated and is gone while the build names it, or code uses it."""
+    codes = dict(_codes(now))
+    failing = unresolved_imports(codes, now.changed, record.files) if now.changed else ()
     return (
         *_files(record, now),
-        *missing_definitions(now, [*_codes(now)]),
+        *missing_definitions(now, [*codes.items()]),
+        *(finding(source, span, why, _DECLARE) for source, span, why in failing),
         *_packages(package, record, now),
         *shadowing(record, now),
         *included_instead(package, record, now),
