@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING
 from warnings import catch_warnings, simplefilter
 
 from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import read_source
-from rebsync.reverse.build.unresolved_imports import unresolved_imports
 from rebsync.reverse.files.packages import MANIFEST
-from rebsync.reverse.files.python_files import SETUP
+from rebsync.reverse.files.python_files import SETUP, is_python
 from rebsync.reverse.files.stores import Disk, join
 from rebsync.reverse.python.generated.unbound import unbound_names
 from rebsync.roundtrip.package.managed import ManagedPackage
@@ -37,17 +36,25 @@ def missing_files(
 ) -> tuple[Findings, ...]:
     """What was generated and is gone while the build names it, or code uses it."""
     codes = dict(_codes(now))
-    failing = unresolved_imports(codes, now.changed, record.files) if now.changed else ()
     return (
         *_files(record, now),
         *missing_definitions(now, [*codes.items()]),
-        *(finding(source, span, why, _DECLARE) for source, span, why in failing),
+        *_failing(record, now, codes),
         *_packages(package, record, now),
         *shadowing(record, now),
         *included_instead(package, record, now),
         *_refused(now),
         *_not_executable(now),
     )
+
+
+def _failing(record: Record, now: PackageState, codes: Mapping[str, Source]) -> Iterator[Findings]:
+    """The imports of Python that fail."""
+    if any(name in codes and is_python(name, codes[name]) for name in now.changed):
+        from rebsync.reverse.build.unresolved_imports import unresolved_imports
+
+        for source, span, why in unresolved_imports(codes, now.changed, record.files):
+            yield finding(source, span, why, _DECLARE)
 
 
 def _refused(now: PackageState) -> Iterator[Findings]:
