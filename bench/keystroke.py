@@ -32,7 +32,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from lsprotocol import types as lsp
 
 from rebsync.cli import main as main_command
-from rebsync.lsp.server import DELAY
+from rebsync.lsp.session import DELAY
 from tests.lsp.client import Editor, at, editor
 
 Question = Callable[[Editor, lsp.TextDocumentIdentifier, lsp.Position], Awaitable[object]]
