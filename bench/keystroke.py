@@ -32,7 +32,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from lsprotocol import types as lsp
 
 from rebsync.cli import main as main_command
-from rebsync.lsp.server import DELAY
+from rebsync.lsp.session import DELAY
 from tests.lsp.client import Editor, at, editor
 
 Question = Callable[[Editor, lsp.TextDocumentIdentifier, lsp.Position], Awaitable[object]]
@@ -153,6 +153,9 @@ async def play(path: Path, text: str, edits: int, times: Times, code: Path | Non
                 times.setdefault(what, []).append(
                     await timed(client, request(client, lsp.TextDocumentIdentifier(uri), place))
                 )
+            await asyncio.sleep(3 * DELAY)
+            while not client.sent.empty():  # those of earlier keystrokes, where answers took long
+                client.sent.get_nowait()
             client.type(uri, lsp.Range(place, place), " ")
             waited, worked = await timed(client, client.diagnostics(uri))
             times.setdefault("diagnostics", []).append((waited - DELAY * 1000, worked))

@@ -38,6 +38,7 @@ def render(
         "CMakeLists.txt": cmake_lists(package, found),
         ".clang-format": fill("ros2_cpp/clang-format.j2"),
         ".flake8": fill("py/flake8.j2"),
+        "ruff.toml": fill("py/ruff.toml.j2", packages=[package.name]),
         "CPPLINT.cfg": fill("ros2_cpp/cpplint.cfg.j2", copyright=package.copyright),
         "README.md": readme(package, model_name, "ros2_cpp", _SENSORS),
         f"launch/{package.name}.launch.py": launch_file(package),

@@ -55,6 +55,7 @@ def runtime_packages(target: str) -> dict[str, str]:
     of_messages = f"{NAME}_interfaces" if is_python and is_ros2 else NAME
     files |= {f"{of_messages}/msg/Announcement.msg": text_of(ANNOUNCEMENT)}
     files |= {f"{of_messages}/msg/Timing.msg": text_of(TIMING)}
+    files |= _layout(dialect, is_python)
     depends = _DEPENDS[target]
     given: dict[str, object] = {"name": NAME, "version": __version__, "python": is_python}
     if not is_ros2:
@@ -77,6 +78,13 @@ def runtime_packages(target: str) -> dict[str, str]:
     files[f"{NAME}/setup.cfg"] = fill("ros2_py/setup.cfg.j2", package=NAME)
     files[f"{NAME}/resource/{NAME}"] = ""
     return files
+
+
+def _layout(dialect: str, is_python: bool) -> dict[str, str]:
+    """What formatters are told, as in the packages that depend on this one."""
+    if is_python:
+        return {f"{NAME}/ruff.toml": fill("py/ruff.toml.j2", packages=packages_of("ros2-py"))}
+    return {f"{NAME}/.clang-format": fill(f"{dialect}/clang-format.j2")}
 
 
 def _ros2(name: str, depends: tuple[str, ...], *, messages: bool) -> dict[str, str]:

@@ -12,6 +12,7 @@ const PLAIN_CODE = "<style>code { background: none; color: inherit; }</style>";
 
 let client;
 let report; // the text of the last check
+const panels = new Map(); // the open pages by their titles
 
 /** The program, which a workspace may not choose: see "scope" in package.json. */
 function program() {
@@ -136,16 +137,31 @@ function workspaceFolder() {
   return (found ?? vscode.workspace.workspaceFolders?.[0])?.uri.fsPath;
 }
 
-/** Runs rebsync, and shows the page that it writes, whatever its verdict. */
-async function showPage(title, args, column = vscode.ViewColumn.Beside) {
+/** Runs rebsync, and shows the page that it writes, whatever its verdict; in its panel, if open. */
+async function showPage(title, args, column = columnOfPages()) {
   const page = await withProgress(title, args);
   if (page !== undefined) {
-    const panel = vscode.window.createWebviewPanel("rebsync", title, column, {
-      enableScripts: true,
-      retainContextWhenHidden: true,
-    });
+    const panel = panels.get(title) ?? newPanel(title, column);
     panel.webview.html = page.replace("<head>", `<head>${PLAIN_CODE}`);
+    panel.reveal();
   }
+}
+
+/** Where pages are open already, beside the editor and not over it. */
+function columnOfPages() {
+  const own = vscode.window.activeTextEditor?.viewColumn;
+  const columns = [...panels.values()].map((panel) => panel.viewColumn);
+  return columns.find((c) => c !== undefined && c !== own) ?? vscode.ViewColumn.Beside;
+}
+
+function newPanel(title, column) {
+  const panel = vscode.window.createWebviewPanel("rebsync", title, column, {
+    enableScripts: true,
+    retainContextWhenHidden: true,
+  });
+  panels.set(title, panel);
+  panel.onDidDispose(() => panels.delete(title));
+  return panel;
 }
 
 function withProgress(title, args) {

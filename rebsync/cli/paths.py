@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.files import STANDARD_INPUT, followed, os_mistake
+from rebsync.files import MODEL, STANDARD_INPUT, followed, os_mistake
+from rebsync.terminal import say
 
 
 def expand(paths: Sequence[str], suffixes: tuple[str, ...]) -> Iterator[str | RebsyncError]:
@@ -20,6 +21,29 @@ def expand(paths: Sequence[str], suffixes: tuple[str, ...]) -> Iterator[str | Re
             elif found not in seen:
                 seen.add(found)
                 yield found
+
+
+def models_in(path: str) -> list[str | RebsyncError]:
+    """The models below a directory that is no package, or why one cannot be used; else none.
+
+    Code without a manifest is a package where no models are beside it; else this is said.
+    """
+    from rebsync.reverse.files.packages import CODE, MANIFEST
+
+    folder = Path(path)
+    if not folder.is_dir() or (folder / MANIFEST).exists():
+        return []
+    found = list(expand((path,), (MODEL,)))
+    if not any(isinstance(each, str) for each in found):
+        return []
+    code = sorted(each.name for each in folder.iterdir() if each.suffix in CODE | {".py"})
+    if code:
+        say(
+            f"{', '.join(code[:3])}{', ...' if len(code) > 3 else ''}: in no package, as there is "
+            f"no {MANIFEST}: only the models are verified (--environment free reads the code)",
+            err=True,
+        )
+    return found
 
 
 def _files(path: str, suffixes: tuple[str, ...]) -> Iterator[str | RebsyncError]:

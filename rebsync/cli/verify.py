@@ -176,17 +176,19 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     """Check everything that can go wrong in a model, and its properties.
 
     Of a package its code is read, with an environment that sends what nobody in it does. Another
-    directory stands for all models below it.
+    directory stands for all models below it; with --environment it is read as a package.
     Always checked: deadlock, missed deadlines, full bags, assertions, array indices, division by
     zero, messages to null, time that cannot advance. Exit status: 0 satisfied, 3 violated,
     4 undetermined.
     """
+    from rebsync.cli.paths import models_in
     from rebsync.cli.spaces import check_name
 
     given = ctx.params
     check_name(given["states"], output)
     check_served(given, output)
-    models = _models_in(model)
+    of_code = given["environment"] or given["written"]
+    models = [] if of_code else models_in(model)
     if not models:
         return _one(model, given, output)
     if len(models) > 1 and ((given["style"], output) != ("text", "-") or given["serve"]):
@@ -194,9 +196,11 @@ def command(ctx: click.Context, /, model: str, output: str, **_: object) -> Stat
     return worst([_of_several(each, given, output) for each in models])
 
 
-def _of_several(model: str, given: dict[str, Any], output: str) -> Status:
+def _of_several(model: str | RebsyncError, given: dict[str, Any], output: str) -> Status:
     """As `_one`; a mistake is told, and is not in the way of other models."""
     try:
+        if isinstance(model, RebsyncError):
+            raise model
         return _one(model, given, output)
     except RebsyncError as error:
         from rebsync.report import print_report
@@ -204,20 +208,6 @@ def _of_several(model: str, given: dict[str, Any], output: str) -> Status:
         sys.stdout.flush()
         print_report(error.findings, sys.stderr)
         return Status.UNUSABLE
-
-
-def _models_in(path: str) -> list[str]:
-    """The models below a directory that is no package; none where it is one, or a file."""
-    from rebsync.cli.paths import expand
-    from rebsync.files import MODEL
-    from rebsync.reverse.files.packages import CODE, MANIFEST
-
-    folder = Path(path)
-    if not folder.is_dir() or any(
-        each.name == MANIFEST or each.suffix in CODE | {".py"} for each in folder.iterdir()
-    ):
-        return []
-    return [found for found in expand((path,), (MODEL,)) if isinstance(found, str)]
 
 
 def _one(model: str, given: dict[str, Any], output: str) -> Status:

@@ -57,7 +57,7 @@ def _broken(proof: Proof) -> str:
 def proof_lines(proof: Proof, drifted: bool, *, is_full: bool) -> Iterator[str]:
     """The verdict; then each run in which something goes wrong, with both places of each step.
 
-    Of long runs only what matters, unless it is `is_full`.
+    Of long runs only what matters, and a run once, unless it is `is_full`.
     """
     yield f"  {outcome_of(proof, drifted)}"
     if proof.verdict == "violated" and proof.reason:
@@ -66,10 +66,15 @@ def proof_lines(proof: Proof, drifted: bool, *, is_full: bool) -> Iterator[str]:
         return
     for caveat in caveats(proof):
         yield f"  caveat: {caveat}"
-    for violation in proof.result.violations:
+    for number, violation in enumerate(proof.result.violations):
         yield ""
         yield f"  {words.title(violation)}: {violation.message}"
-        yield from run_lines(proof, violation, is_full=is_full)
+        before = proof.result.violations[:number]
+        same = next((each for each in before if each.trace == violation.trace), None)
+        if same is None or is_full:
+            yield from run_lines(proof, violation, is_full=is_full)
+        else:
+            yield f"    on the run of {words.title(same)}"
 
 
 def caveats(proof: Proof) -> tuple[str, ...]:

@@ -692,6 +692,18 @@ def test_a_long_run_is_folded_to_what_matters(check: Check) -> None:
     assert "--full" not in full
 
 
+def test_a_run_that_is_wrong_twice_is_told_once(check: Check) -> None:
+    replace(SOURCE, "% 4", "% 6")
+    text = Path("patrol.property").read_text(encoding="utf-8")
+    name = "    Stays_Small: "
+    (line,) = (each for each in text.splitlines(keepends=True) if each.startswith(name))
+    twice = text.replace(line, line + line.replace("Stays_Small", "As_Small"))
+    Path("patrol.property").write_text(twice, encoding="utf-8")
+    tables = [check("--verify", *options)[1].count("  step  time") for options in ((), ("--full",))]
+    assert tables == [1, 2]
+    assert "    on the run of property Stays_Small\n" in check("--verify")[1]
+
+
 def test_places_of_a_run_are_those_from_here(
     check: Check, package: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -461,6 +461,29 @@ def test_a_directory_stands_for_its_models(
     assert "3 models are below .: name one of them" in capsys.readouterr().err
 
 
+def test_code_beside_models_is_in_no_package(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("hello", "experiment3"):
+        main(["examples", str(tmp_path / "all"), name])
+        for path in tmp_path.glob(f"all/{name}/{name}.*"):
+            path.rename(tmp_path / path.name)
+    (tmp_path / "tool.py").write_text("print(1)\n", encoding="utf-8")
+    (tmp_path / "gone.rebeca").symlink_to(tmp_path / "nowhere.rebeca")
+    monkeypatch.chdir(tmp_path)
+    capsys.readouterr()
+    assert main(["verify", ".", "--allow", "deadlock"]) == 2  # of the link
+    shown = capsys.readouterr()
+    assert re.findall(r"^\S+: satisfied$", shown.out, re.MULTILINE) == [
+        "experiment3.rebeca: satisfied",
+        "hello.rebeca: satisfied",
+    ]
+    assert shown.err.startswith("tool.py: in no package")
+    assert "gone.rebeca" in shown.err
+    assert main(["verify", ".", "--environment", "free"]) == 2
+    assert "RS802 several property files" in capsys.readouterr().err
+
+
 def test_properties_are_picked_by_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     main(["examples", str(tmp_path), "experiment3_unsafe"])
     model = str(tmp_path / "experiment3_unsafe/experiment3_unsafe.rebeca")

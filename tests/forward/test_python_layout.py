@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from rebsync import model as m
 from rebsync.config import TARGETS, Config
 from rebsync.forward.generate import generate
+from rebsync.forward.runtime_package import runtime_packages
 from rebsync.grammars.parser import parse_model
 from rebsync.source import Source
 from rebsync.static import analyse
@@ -24,6 +25,7 @@ from tests.strategies import models
 
 pytestmark = pytest.mark.skipif(find_spec("ruff") is None, reason="ruff is not installed")
 
+_WITH_PYTHON = [target for target in TARGETS if target != "ros1-cpp"]
 _CASES = sorted((Path(__file__).parent / "cases").glob("*.rebeca"))
 
 
@@ -47,7 +49,7 @@ def assert_linted(folder: Path) -> None:
     assert (done.returncode, done.stdout) == (0, "")
 
 
-@pytest.mark.parametrize("target", [t for t in TARGETS if t.endswith("-py")])
+@pytest.mark.parametrize("target", _WITH_PYTHON)
 @pytest.mark.parametrize("monitored", [False, True])
 def test_examples(target: str, monitored: bool, tmp_path: Path) -> None:
     for example in EXAMPLES:
@@ -58,7 +60,7 @@ def test_examples(target: str, monitored: bool, tmp_path: Path) -> None:
     assert_linted(tmp_path)
 
 
-@pytest.mark.parametrize("target", ["ros1-py", "ros2-py"])
+@pytest.mark.parametrize("target", _WITH_PYTHON)
 @pytest.mark.parametrize("monitored", [False, True])
 def test_models_of_all_the_language(target: str, monitored: bool, tmp_path: Path) -> None:
     config = Config(target=target, monitor=monitored)
@@ -66,6 +68,12 @@ def test_models_of_all_the_language(target: str, monitored: bool, tmp_path: Path
         model = parse_model(Source(case.name, case.read_text(encoding="utf-8"))).model
         files = generate(model, (), analyse(model), config, case.stem)
         assert_formatted(files, tmp_path / case.stem)
+    assert_linted(tmp_path)
+
+
+@pytest.mark.parametrize("target", ["ros1-py", "ros2-py"])
+def test_the_run_time_part_as_a_package(target: str, tmp_path: Path) -> None:
+    assert_formatted(runtime_packages(target), tmp_path)
     assert_linted(tmp_path)
 
 

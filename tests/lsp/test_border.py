@@ -136,6 +136,7 @@ def test_a_change_of_the_code_is_taken_into_the_model(folder: Path, in_editor: I
         place = lsp.Range(lsp.Position(0, 0), lsp.Position(lines + 1, 0))
         client.type(uri, place, source.read_text(encoding="utf-8"))
         await client.workspace_execute_command_async(command)
+        assert re.fullmatch(r"wrote \S+\.rebeca(; .+)?", client.messages[-1])
         assert not await client.diagnostics(uri)
 
     in_editor(play)

@@ -1,0 +1,1 @@
+"""What the server answers to requests of an editor, by what they are about."""
