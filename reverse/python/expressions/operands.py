@@ -84,6 +84,10 @@ class OperandReader(ABC, Generic[V]):
     ) -> AbstractContextManager[None]:
         """Lets names stand for values meanwhile."""
 
+    def dotted(self, node: Node) -> V:
+        """The constant that a pattern names with dots. Unread: it is none of the model."""
+        raise Unread(self.span(node), "the model has no such case")
+
     @abstractmethod
     def may_fail(self, node: Node) -> bool:
         """Whether the model has it that evaluating an expression may fail."""

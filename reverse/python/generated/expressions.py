@@ -191,6 +191,11 @@ class Expressions(ModelExpressionReader):
         table = self.kept_tables.get(text_of(node))
         return pairs_of(self, table) if table is not None else None
 
+    def dotted(self, node: Node) -> m.Expression:
+        if (constant := self.names.constants.get(text_of(node))) is None:
+            raise self.unread(node, "the model has no such case")
+        return located(constant, self.span(node))
+
     def library(self, function: Node) -> str:
         holder, _, name = text_of(function).rpartition(".")
         if not holder:

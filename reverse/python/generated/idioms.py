@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own, written
-from rebsync.reverse.models.building import located
 from rebsync.reverse.python.generated.cuts import other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
@@ -209,59 +206,13 @@ def names_in(node: Node) -> set[str]:
     return {name for each in named(node) for name in names_in(each)}
 
 
-def cases(
-    reader: ModelExpressionReader, node: Node
-) -> Iterator[tuple[list[m.Expression], tuple[str, Node | None], Node]]:
-    """The values of each case of a `match` (none: all others), its guard, and the block of it.
-
-    With the guard comes the name that the case gives the value, if it does.
-    """
-    subjects = [c for c in named(node) if c.type not in ("block", "case_clause")]
-    if len(subjects) != 1 or not is_plain(subjects[0]):
-        raise reader.unread(node, "what this compares more than once is to be in a variable first")
-    for clause in named(field(node, "body")):
-        patterns = [c for c in named(clause) if c.type == "case_pattern"]
-        guard, block = clause.child_by_field_name("guard"), field(clause, "consequence")
-        if len(patterns) != 1:
-            raise reader.unread(clause, "the model has no such case")
-        test = named(guard)[0] if guard is not None else None
-        name = text_of(patterns[0])
-        if test is None or not name.isidentifier() or name in ("_", "True", "False", "None"):
-            yield list(_values(reader, patterns[0])), ("", test), block
-        elif _lasts(reader, subjects[0], name, block):
-            yield [], (name, test), block
-        else:
-            raise reader.unread(clause, "this name is not that of what is compared all the time")
-
-
-def _lasts(reader: ModelExpressionReader, subject: Node, name: str, block: Node) -> bool:
+def lasts(reader: ModelExpressionReader, subject: Node, name: str, block: Node) -> bool:
     """Whether a name has the value of a local throughout a block, and is no other's."""
     stored = stored_in(block)
     is_free = name not in reader.locals and name not in reader.names.constants
     if is_free and name not in names_in(block):  # only the guard asks it
         return True
     return is_free and subject.type == "identifier" and not stored & {name, text_of(subject)}
-
-
-def _values(reader: ModelExpressionReader, pattern: Node) -> Iterator[m.Expression]:
-    inner = named(pattern)
-    if not inner and text_of(pattern) == "_":
-        return
-    of = inner[0] if len(inner) == 1 and inner[0].type == "union_pattern" else pattern
-    is_below = False
-    for each in of.children:
-        text = text_of(each)
-        if text == "-":  # it stands beside the number
-            is_below = True
-            continue
-        if "." in text and (constant := reader.names.constants.get(text)) is not None:
-            yield located(constant, reader.py.span(of))
-        elif each.type == "integer":
-            read = reader.read(each)
-            yield m.Unary("-", read, reader.py.span(of)) if is_below else read
-        elif text != "|":
-            raise reader.unread(pattern, "the model has no such case")
-        is_below = False
 
 
 def rounds(

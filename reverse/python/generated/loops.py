@@ -11,6 +11,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.models.building import binary, selected
 from rebsync.reverse.python.expressions.elements import rows
+from rebsync.reverse.python.expressions.patterns import asked, cases
 from rebsync.reverse.python.generated import endings, idioms
 from rebsync.reverse.python.generated.arrays import NO_LENGTH, array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
@@ -256,47 +257,25 @@ def _for(
 
 def match(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """`match` as the chain of conditions that it is."""
-    subject = next(c for c in named(node) if c.type not in ("block", "case_clause"))
-    branches: list[tuple[m.Expression | None, m.Block]] = []
-    for values, guard, block in idioms.cases(reader.expressions, node):
-        asked: m.Expression | None = None
-        for value in values:
-            each = binary("==", reader.expressions.read(subject), value)
-            asked = each if asked is None else m.Binary("||", asked, each)
-        branches.append(_guarded(reader, subject, asked, guard, block))
-    found: m.Statement | None = None
-    for asked, body in reversed(branches):
-        if asked is None and found is None:
-            found = body
-        elif asked is None:
-            raise reader.expressions.unread(node, "no case behind this one is ever taken")
-        else:
-            found = m.If(asked, body, found, span=reader.expressions.py.span(node))
-    return [found] if found is not None else []
-
-
-def _guarded(
-    reader: ModelStatementReader,
-    subject: Node,
-    asked: m.Expression | None,
-    guard: tuple[str, Node | None],
-    block: Node,
-) -> tuple[m.Expression | None, m.Block]:
-    """The condition of a case with that behind its `if`, and what the case does."""
-    name, test = guard
-    if test is None:
-        return asked, reader.branch(block)
-    if not idioms.is_quiet(test):
-        raise reader.expressions.unread(test, "what this does may count for the cases behind it")
-    bound = reader.expressions.bound
-    if name:
-        bound[name] = reader.expressions.read(subject)
-    try:
-        condition = reader.expressions.condition(test)
-        whole = condition if asked is None else binary("&&", asked, condition)
-        return whole, reader.branch(block)
-    finally:
-        bound.pop(name, None)
+    expressions, subjects = reader.expressions, node.children_by_field_name("subject")
+    if len(subjects) != 1 or not idioms.is_plain(subjects[0]):
+        why = "what this compares more than once is to be in a variable first"
+        raise expressions.unread(node, why)
+    of, found = expressions.read(subjects[0]), list[tuple[m.Expression | None, m.Block]]()
+    for case in cases(expressions, node):
+        name = text_of(case.name) if case.name is not None else ""
+        if name and not idioms.lasts(expressions, subjects[0], name, case.block):
+            why = "this name is not that of what is compared all the time"
+            raise expressions.unread(case.clause, why)
+        if case.guard is not None and not idioms.is_quiet(case.guard):
+            raise expressions.unread(case.guard, "what this does may count for the cases behind it")
+        with expressions.standing_for([name] if name else [], [of] if name else []):
+            found.append((asked(expressions, case, of), reader.branch(case.block)))
+    chain: m.Statement | None = None
+    for condition, body in reversed(found):
+        span = expressions.py.span(node)
+        chain = body if condition is None else m.If(condition, body, chain, span=span)
+    return [chain] if chain is not None else []
 
 
 def taken_before(

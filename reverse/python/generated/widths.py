@@ -37,7 +37,7 @@ _ASSIGNMENT = re.compile(r"([\w.\[\]]+) (?:([-+*&|^])=|=) ([^=\n]+)")
 
 @dataclass(frozen=True, slots=True)
 class WidthContext:
-    """What is known around a body: the types of names, of what functions give, and what they take."""
+    """The types around a body: of names, of what functions give, and of what they take."""
 
     types: Mapping[str, m.Type]
     results: Mapping[str, m.Type]
