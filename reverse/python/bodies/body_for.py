@@ -14,11 +14,12 @@ from rebsync.reverse.models.building import bare, binary, chosen, is_plain, whol
 from rebsync.reverse.python.bodies.body_effects import is_harmless
 from rebsync.reverse.python.bodies.body_loops import with_else
 from rebsync.reverse.python.bodies.body_rounds import leaves_nothing
-from rebsync.reverse.python.bodies.body_scope import REAL, WHOLE, Key, Value, Var
+from rebsync.reverse.python.bodies.body_scope import Key, Var
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.bodies.body_targets import check_target
 from rebsync.reverse.python.bodies.body_together import is_object, kept
 from rebsync.reverse.python.bodies.body_variables import forget, give
+from rebsync.reverse.python.expressions.values import REAL, WHOLE, Value
 from rebsync.reverse.syntax.ancestors import holds
 from rebsync.reverse.syntax.py_index import arguments_of
 from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of

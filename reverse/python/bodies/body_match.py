@@ -12,12 +12,13 @@ from rebsync import model as m
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import is_calm
-from rebsync.reverse.python.bodies.body_scope import Value, Var
+from rebsync.reverse.python.bodies.body_scope import Var
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.bodies.body_together import is_object, kept
 from rebsync.reverse.python.bodies.body_variables import forget, give, outside
 from rebsync.reverse.python.expressions import patterns
 from rebsync.reverse.python.expressions.patterns import Case, cases
+from rebsync.reverse.python.expressions.values import Value
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 # What is stored before a branch is chosen, and what is asked; None: nothing, it is taken.

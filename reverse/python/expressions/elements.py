@@ -9,9 +9,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.models.building import is_calm, number_literal
-from rebsync.reverse.python.expressions.operands import OperandReader, V
+from rebsync.reverse.python.expressions.operands import OperandReader
+from rebsync.reverse.python.expressions.values import WHOLE, Value
 from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
-from rebsync.static.types import INT
 
 MOST = 32  # elements that are said one by one
 COMPREHENSIONS = ("generator_expression", "list_comprehension")
@@ -20,7 +20,7 @@ _SHORT = frozenset({"any", "all", "in"})
 _OF_SETS = _SHORT | {"min", "max"}
 _ALL_FIRST = 'all of what "{}" goes through is evaluated first'
 # An element, and the condition under which it is there.
-Element: TypeAlias = "tuple[V, m.Expression | None]"
+Element: TypeAlias = "tuple[Value, m.Expression | None]"
 
 
 def arguments_of(call: Node) -> list[Node]:
@@ -36,7 +36,7 @@ def known_range(arguments: list[Node]) -> range | None:
     return range(*whole) if is_known else None
 
 
-def elements(reader: OperandReader[V], node: Node, called: str) -> list[Element[V]]:
+def elements(reader: OperandReader, node: Node, called: str) -> list[Element]:
     """Each value that a function goes through. Unread: nobody knows these."""
     if node.type == "set" and called not in _OF_SETS:
         raise reader.refused(node, "nobody knows how many values this set has, in which order")
@@ -56,7 +56,7 @@ def elements(reader: OperandReader[V], node: Node, called: str) -> list[Element[
     return found
 
 
-def certain(reader: OperandReader[V], node: Node, called: str) -> list[V]:
+def certain(reader: OperandReader, node: Node, called: str) -> list[Value]:
     """Each value that something goes through. Unread: one may not be there."""
     found = elements(reader, node, called)
     if any(condition is not None for _, condition in found):
@@ -64,7 +64,7 @@ def certain(reader: OperandReader[V], node: Node, called: str) -> list[V]:
     return [value for value, _ in found]
 
 
-def _displayed(reader: OperandReader[V], node: Node, called: str) -> list[V]:
+def _displayed(reader: OperandReader, node: Node, called: str) -> list[Value]:
     """The values of `(a, b)`: all are evaluated, where the model may stop at the first."""
     values = [reader.read(part) for part in named(node)]
     if not reader.is_calm(*values) or (called in _SHORT and any(map(reader.may_fail, named(node)))):
@@ -72,7 +72,7 @@ def _displayed(reader: OperandReader[V], node: Node, called: str) -> list[V]:
     return values
 
 
-def _comprehended(reader: OperandReader[V], node: Node) -> Iterator[Element[V]]:
+def _comprehended(reader: OperandReader, node: Node) -> Iterator[Element]:
     """`f(x) for x in values if condition`, of one loop and at most one condition."""
     body, *clauses = named(node)
     loops = [c for c in clauses if c.type == "for_in_clause"]
@@ -91,20 +91,20 @@ def _comprehended(reader: OperandReader[V], node: Node) -> Iterator[Element[V]]:
         yield value, condition
 
 
-def rows(reader: OperandReader[V], node: Node, width: int) -> list[tuple[V, ...]]:
+def rows(reader: OperandReader, node: Node, width: int) -> list[tuple[Value, ...]]:
     """What a loop gives its variables, round by round."""
     name = reader.library(field(node, "function")) if node.type == "call" else ""
     arguments = arguments_of(node) if name else []
     match name.removeprefix("builtins."):
         case "range" | "xrange" if width == 1 and (numbers := known_range(arguments)) is not None:
             if len(numbers) <= MOST:
-                return [(reader.made(number_literal(n), INT),) for n in numbers]
+                return [(Value(number_literal(n), WHOLE),) for n in numbers]
         case "enumerate" if width == 2 and 1 <= len(arguments) <= 2:
             start = _start(arguments[1]) if len(arguments) > 1 else 0
             values = certain(reader, arguments[0], "enumerate")
             if start is not None:
                 numbered = enumerate(values, start)
-                return [(reader.made(number_literal(i), INT), value) for i, value in numbered]
+                return [(Value(number_literal(i), WHOLE), value) for i, value in numbered]
         case "zip" if width == len(arguments):
             each = [certain(reader, a, "zip") for a in arguments]
             return list(zip(*each, strict=False))

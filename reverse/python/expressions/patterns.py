@@ -10,9 +10,9 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import binary
-from rebsync.reverse.python.expressions.operands import OperandReader, V
+from rebsync.reverse.python.expressions.operands import OperandReader
+from rebsync.reverse.python.expressions.values import TRUTH, Value
 from rebsync.reverse.syntax.py_tree import field, named, text_of
-from rebsync.static.types import BOOLEAN, INT
 
 _NUMBERS = frozenset({"integer", "float"})
 _VALUES = _NUMBERS | {"string", "concatenated_string", "true", "false"}
@@ -33,7 +33,7 @@ class Case:
     block: Node
 
 
-def cases(reader: OperandReader[V], node: Node) -> Iterator[Case]:
+def cases(reader: OperandReader, node: Node) -> Iterator[Case]:
     """The branches of a `match`. Unread: a pattern looks into a container or an object, or binds
     several names, or nothing is left for the cases behind it.
     """
@@ -50,9 +50,7 @@ def cases(reader: OperandReader[V], node: Node) -> Iterator[Case]:
         yield case
 
 
-def _pattern(
-    reader: OperandReader[V], pattern: Node
-) -> tuple[Node | None, list[tuple[Node, bool]]]:
+def _pattern(reader: OperandReader, pattern: Node) -> tuple[Node | None, list[tuple[Node, bool]]]:
     inner, values = named(pattern), list[tuple[Node, bool]]()
     if text_of(pattern) == "_":
         return None, values
@@ -72,7 +70,7 @@ def _pattern(
     return None, values
 
 
-def asked(reader: OperandReader[V], case: Case, of: V | None) -> m.Expression | None:
+def asked(reader: OperandReader, case: Case, of: Value | None) -> m.Expression | None:
     """What must hold so that a value takes a branch, if none above it; None: nothing."""
     found: m.Expression | None = None
     if of is None and case.values:
@@ -88,13 +86,13 @@ def asked(reader: OperandReader[V], case: Case, of: V | None) -> m.Expression | 
     return held if found is None else binary("&&", found, held)
 
 
-def _value(reader: OperandReader[V], of: V, value: Node, is_negative: bool) -> V:
+def _value(reader: OperandReader, of: Value, value: Node, is_negative: bool) -> Value:
     """A value of a pattern; True and False are looked for by identity."""
     if value.type == "dotted_name":
         return reader.dotted(value)
-    if value.type in ("true", "false") and reader.kind(of) != BOOLEAN:
+    if value.type in ("true", "false") and of.kind != TRUTH:
         raise Unread(reader.span(value), _NONE)
     read = reader.read(value)
     if not is_negative:
         return read
-    return reader.made(m.Unary("-", reader.shown(read)), reader.kind(read) or INT)
+    return Value(m.Unary("-", read.expression), read.kind)

@@ -6,7 +6,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own, written
-from rebsync.reverse.python.generated.cuts import other_division
+from rebsync.reverse.python.generated.cuts import FUNCTIONS, other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
 from rebsync.reverse.python.generated.moments import is_moment, named_moment
@@ -23,7 +23,6 @@ _AROUND = frozenset(
 )
 _CALM = frozenset({"abs", "min", "max", "bool", "int8", "int16", "int32", "divide", "remainder"})
 _GROWING = frozenset({"+", "-", "*", "<<", ">>", "&", "|", "^"})
-_WHOLE = {"//": "divide", "/": "divide", "%": "remainder"}
 _CHANGES = "how often this is done may change: say it with numbers or locals"
 
 
@@ -87,7 +86,7 @@ def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Bina
 def kind_at(reader: ModelExpressionReader, node: Node) -> m.Type | None:
     """The kind of what is still to be read, as the types of locals are told."""
     divided = dict(reader.cuts.floored)
-    found = reader.kind(reader.read(node))
+    found = reader.kind(reader.expression(node))
     reader.cuts.floored.clear()
     reader.cuts.floored.update(divided)
     return found
@@ -170,7 +169,7 @@ def times(reader: ModelExpressionReader, node: Node) -> dict[str, m.Expression]:
         said[text_of(field(each, "name")) if is_named else name] = value
     if "deadline" in said and text_of(said["deadline"]) == "None":
         del said["deadline"]
-    return {name: reader.read(value) for name, value in said.items()}
+    return {name: reader.expression(value) for name, value in said.items()}
 
 
 # --- statements ---------------------------------------------------------------------------------
@@ -179,11 +178,11 @@ def times(reader: ModelExpressionReader, node: Node) -> dict[str, m.Expression]:
 def augmented(reader: ModelExpressionReader, node: Node) -> m.Expression:
     """`x += e`. Unread: the model has no such operator, or Python means another one."""
     operator = text_of(field(node, "operator")).removesuffix("=")
-    target = reader.read(field(node, "left"))
-    value = reader.read(field(node, "right"))
+    target = reader.expression(field(node, "left"))
+    value = reader.expression(field(node, "right"))
     kinds = reader.kind(target), reader.kind(value)
-    if operator in _WHOLE and not (operator == "/" and is_floating(kinds[0])):
-        right = f"x = {_WHOLE[operator]}(x, e)"
+    if operator in FUNCTIONS and not (operator == "/" and is_floating(kinds[0])):
+        right = f"x = {FUNCTIONS[operator]}(x, e)"
         raise reader.unread(node, f'"{operator}=" of Python is not the model\'s, which is {right}')
     if operator not in _GROWING and operator != "/":
         raise reader.unread(node, f'the model has no operator "{operator}="')
@@ -220,7 +219,7 @@ def rounds(
 ) -> tuple[m.Expression, m.Expression, m.Expression]:
     """Start, end and step of `range(...)`."""
     arguments = named(field(field(node, "right"), "arguments"))
-    read = [reader.read(a) for a in arguments]
+    read = [reader.expression(a) for a in arguments]
     if not 1 <= len(read) <= 3 or any(reader.kind(each) != INT for each in read):
         raise reader.unread(node, _CHANGES)
     start = read[0] if len(read) > 1 else m.IntLiteral(0)

@@ -178,7 +178,7 @@ def _local(
     """The local that a parameter is."""
     name, said = parameter
     own = reader.expressions
-    read = own.read(argument)
+    read = own.expression(argument)
     type_ = said if said is not None else own.kind(read)
     if type_ is None or type_.dimensions:
         raise own.unread(argument, f'say the type of "{name}"')

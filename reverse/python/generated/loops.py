@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from itertools import chain, count
 
 from tree_sitter import Node
 
@@ -107,7 +106,7 @@ def numbered(
 
 def _listed(reader: ModelStatementReader, node: Node, name: str, values: list[Node]) -> m.For:
     """A loop over numbers, each in its turn."""
-    read = [reader.expressions.read(v) for v in values]
+    read = [reader.expressions.expression(v) for v in values]
     kinds = {reader.expressions.kind(e) for e in read}
     if len(kinds) != 1 or not all(idioms.is_literal(reader.expressions, v) for v in values):
         raise reader.expressions.unread(node, "the model has no such loop")
@@ -128,7 +127,7 @@ def _unrolled(reader: ModelStatementReader, node: Node, names: list[str]) -> m.B
         raise expressions.unread(node, "the model has no such loop")
     statements: list[m.Statement] = []
     for values in rows(expressions, field(node, "right"), len(names)):
-        if not all(_is_steady(expressions, v) for v in values):
+        if not all(_is_steady(expressions, v.expression) for v in values):
             raise expressions.unread(node, "the model has no such loop")
         with expressions.standing_for(names, values):
             statements.append(reader.suite(body))
@@ -214,10 +213,8 @@ def _assert_kept(reader: ModelStatementReader, node: Node, array: Node) -> None:
 
 def _free(reader: ModelStatementReader, node: Node, name: str) -> str:
     """A name for the index of a loop, which nothing in it has."""
-    taken = {*reader.expressions.locals.values(), *reader.expressions.names.types}
-    taken |= {name, *idioms.stored_in(field(node, "body"))}
-    numbered = (f"i{number}" for number in count(1))
-    return next(n for n in chain(("i", "j", "k"), numbered) if n not in taken)
+    taken = {name, *idioms.stored_in(field(node, "body"))}
+    return reader.free("i", "j", "k", pattern="i{}", taken=taken)
 
 
 def _times(
