@@ -32,7 +32,8 @@ def with_else(
     if alternative is None or not leaves(field(node, "body")):
         return [*read(), *_behind(reader, alternative)]
     own = reader.expressions
-    flag = reader.free("broke", pattern="broke{}", taken={*own.locals, *own.types, *reader.types})
+    taken = {*own.locals, *own.types, *reader.types}
+    flag = reader.free("broke", pattern="broke{}", first=2, taken=taken)
     reader.expressions.locals[f"else of {node.start_byte}"] = flag
     reader.expressions.types[flag] = m.Type("boolean")
     ended = m.ExpressionStatement(m.Assign("=", m.Name(flag), m.BoolLiteral(True)))

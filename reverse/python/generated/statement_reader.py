@@ -52,10 +52,10 @@ class ModelStatementReader(ABC):
         taken = self.types | {t.removesuffix("_v") for t in self.types}
         return uncarry_local(name, PYTHON_RESERVED | taken, self.types)
 
-    def free(self, *names: str, pattern: str, taken: Collection[str] = ()) -> str:
+    def free(self, *names: str, pattern: str, first: int = 1, taken: Collection[str] = ()) -> str:
         """The first of some names, or of those with a number in a pattern, that nothing has."""
         known = {*self.expressions.locals.values(), *self.expressions.names.types, *taken}
-        numbered = (pattern.format(number) for number in count(1))
+        numbered = (pattern.format(number) for number in count(first))
         return next(name for name in chain(names, numbered) if name not in known)
 
     def without_number(self, name: str) -> str:
