@@ -19,10 +19,11 @@ from rebsync.reverse.models.building import binary, chosen, is_calm
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
 from rebsync.reverse.syntax.cpp_declarations import CppParameter, parameters_in
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
-from rebsync.static.types import INT, is_integer
+from rebsync.static.types import INT, is_boolean, is_integer, is_numeric
 
 EXTREMES = {"std::max_element": ">", "std::min_element": "<"}
 _JOINING = {"==": "&&", "!=": "||"}
+_TUPLES = frozenset({"std::tie", "std::make_tuple", "std::make_pair"})
 _NAMES = ("identifier", "field_expression")
 _BEGINS, _ENDS = ("begin", "cbegin"), ("end", "cend")
 _MOST = 4  # elements of which a choice is written: each one more doubles what is to be said
@@ -155,7 +156,14 @@ def whole_array(bounds: Sequence[Node]) -> Node | None:
 def compared(
     reader: CppExpressionReader, operator: str, sides: Sequence[Node]
 ) -> m.Expression | None:
-    """`a == std::array<int, 2>{x, y}`, or `a == b`, of arrays of the model, element by element."""
+    """`a == std::array<int, 2>{x, y}`, or `a == b`, of arrays of the model, element by element.
+
+    So are tuples that are only made to be compared: `std::tie(x, y) == std::tie(a, b)`.
+    """
+    alone = replace(reader, findings=None, inlines=None)  # nothing is called between them
+    if (pairs := _tuples(alone, operator, sides)) is not None:
+        tests = [alone.binary(side, operator, (side, other)) for side, other in pairs]
+        return _joined(operator, tests) if all(map(is_calm, tests)) else None
     left, right = sides
     type_ = plain_type(reader, left) if operator in _JOINING and left.type in _NAMES else None
     if type_ is None or type_.dimensions[0] > _LONGEST:
@@ -172,8 +180,24 @@ def compared(
     cells = (m.Index(reader.read(left), m.IntLiteral(i)) for i in range(size))
     if not all(map(is_calm, values)):
         return None
-    tests = [binary(operator, c, v) for c, v in zip(cells, values, strict=True)]
+    return _joined(operator, [binary(operator, c, v) for c, v in zip(cells, values, strict=True)])
+
+
+def _joined(operator: str, tests: Sequence[m.Expression]) -> m.Expression:
     return reduce(lambda before, test: binary(_JOINING[operator], before, test), tests)
+
+
+def _tuples(
+    reader: CppExpressionReader, operator: str, sides: Sequence[Node]
+) -> list[tuple[Node, Node]] | None:
+    """The parts of two tuples of numbers that are compared, each with the one that it meets."""
+    calls = [call for call in map(call_of, sides) if call is not None and call.name in _TUPLES]
+    if operator not in _JOINING or len(calls) != len(sides):
+        return None
+    left, right = (call.arguments for call in calls)
+    types = [type_in(reader.scope, reader.read(value)) for value in (*left, *right)]
+    is_plain = all(t is not None and (is_numeric(t) or is_boolean(t)) for t in types)
+    return list(zip(left, right, strict=True)) if is_plain and len(left) == len(right) else None
 
 
 def _elements_of(node: Node) -> list[Node] | None:

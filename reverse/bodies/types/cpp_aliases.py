@@ -86,7 +86,8 @@ def _deduced(reader: CppStatementReader, argument: Node) -> Carried:
         raise unread from None
     place = place_of(reader.scope, bare(read)) if is_place(read) else None
     of = place.type if place is not None else type_in(reader.scope, read)
-    if of is None or of.dimensions or wide or (place is not None and (place.bits or place.wide)):
+    is_cut = place is not None and (place.bits or place.wide)
+    if of is None or (of.dimensions and place is None) or wide or is_cut:
         raise unread
     if place is None and of in (BYTE, SHORT):  # numbers and sums are of type int in C++
         match bare(read):
