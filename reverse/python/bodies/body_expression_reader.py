@@ -105,7 +105,7 @@ class BodyExpressionReader(OperandReader):
     def span(self, node: Node) -> Span:
         return self.frame.span(node)
 
-    def refused(self, node: Node, why: str) -> Unknown:
+    def unread(self, node: Node, why: str) -> Unknown:
         return Unknown(self.span(node), why, "")
 
     def library(self, function: Node) -> str:

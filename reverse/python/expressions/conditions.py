@@ -28,7 +28,7 @@ def connected(reader: OperandReader, node: Node) -> Value:
         sides = reader.truth(one, left), reader.truth(other, right)
         return Value(binary(word, *sides, reader.span(node)), TRUTH)
     if not reader.is_calm(one) or (len(kinds) > 1 and not reader.mixes):
-        raise reader.refused(node, "this is one of two values, which are to be in variables")
+        raise reader.unread(node, "this is one of two values, which are to be in variables")
     ways = (other, one) if word == "&&" else (one, other)
     return reader.joined(reader.truth(one, left), *ways, node)
 
@@ -44,10 +44,10 @@ def comparison(reader: OperandReader, node: Node) -> m.Expression:
     if signs in (["in"], ["not in"]):
         return _is_in(reader, node, signs == ["in"])
     if len(signs) != len(operands) - 1 or not set(signs) <= _SIGNS:
-        raise reader.refused(node, "the model has no such comparison")
+        raise reader.unread(node, "the model has no such comparison")
     values = [reader.read(operand) for operand in operands]
     if not reader.is_calm(*values[1:-1]):
-        raise reader.refused(node, "what stands in the middle would run twice")
+        raise reader.unread(node, "what stands in the middle would run twice")
     pairs = zip(signs, values, values[1:], strict=False)
     return _all(reader, node, "&&", [(sign, one, other) for sign, one, other in pairs])
 
@@ -59,7 +59,7 @@ def _is_in(reader: OperandReader, node: Node, holds: bool) -> m.Expression:
     found = known_range(named(field(listed, "arguments"))) if called in _RANGES else None
     if found is not None and found.step == 1:
         if value.kind != WHOLE:
-            raise reader.refused(node, "only whole numbers are in a range")
+            raise reader.unread(node, "only whole numbers are in a range")
         ends = [Value(number_literal(end), WHOLE) for end in (found.start, found.stop)]
         signs, word = ((">=", "<"), "&&") if holds else (("<", ">="), "||")
         pairs = [(sign, value, end) for sign, end in zip(signs, ends, strict=True)]
@@ -67,7 +67,7 @@ def _is_in(reader: OperandReader, node: Node, holds: bool) -> m.Expression:
         sign, word = ("==", "||") if holds else ("!=", "&&")
         pairs = [(sign, value, other) for other in certain(reader, listed, "in")]
     if not pairs or (len(pairs) > 1 and not reader.is_calm(value)):
-        raise reader.refused(node, "what this compares more than once is to be in a variable first")
+        raise reader.unread(node, "what this compares more than once is to be in a variable first")
     return _all(reader, node, word, pairs)
 
 

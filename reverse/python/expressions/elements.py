@@ -39,9 +39,9 @@ def known_range(arguments: list[Node]) -> range | None:
 def elements(reader: OperandReader, node: Node, called: str) -> list[Element]:
     """Each value that a function goes through. Unread: nobody knows these."""
     if node.type == "set" and called not in _OF_SETS:
-        raise reader.refused(node, "nobody knows how many values this set has, in which order")
+        raise reader.unread(node, "nobody knows how many values this set has, in which order")
     if node.type == "list_comprehension" and called in _SHORT and reader.may_fail(node):
-        raise reader.refused(node, _ALL_FIRST.format(called))
+        raise reader.unread(node, _ALL_FIRST.format(called))
     if node.type in COMPREHENSIONS:
         found = list(_comprehended(reader, node))
     elif node.type in ("list", "tuple", "set"):
@@ -49,10 +49,10 @@ def elements(reader: OperandReader, node: Node, called: str) -> list[Element]:
     else:
         values = reader.container(node, called not in _OF_SETS)
         if values is None:
-            raise reader.refused(node, f'nobody knows what "{called}" goes through here')
+            raise reader.unread(node, f'nobody knows what "{called}" goes through here')
         found = [(value, None) for value in values]
     if len(found) > MOST:
-        raise reader.refused(node, "this goes through too many values to say each")
+        raise reader.unread(node, "this goes through too many values to say each")
     return found
 
 
@@ -60,7 +60,7 @@ def certain(reader: OperandReader, node: Node, called: str) -> list[Value]:
     """Each value that something goes through. Unread: one may not be there."""
     found = elements(reader, node, called)
     if any(condition is not None for _, condition in found):
-        raise reader.refused(node, f'nobody knows how many values "{called}" goes through here')
+        raise reader.unread(node, f'nobody knows how many values "{called}" goes through here')
     return [value for value, _ in found]
 
 
@@ -68,7 +68,7 @@ def _displayed(reader: OperandReader, node: Node, called: str) -> list[Value]:
     """The values of `(a, b)`: all are evaluated, where the model may stop at the first."""
     values = [reader.read(part) for part in named(node)]
     if not reader.is_calm(*values) or (called in _SHORT and any(map(reader.may_fail, named(node)))):
-        raise reader.refused(node, _ALL_FIRST.format(called))
+        raise reader.unread(node, _ALL_FIRST.format(called))
     return values
 
 
@@ -79,7 +79,7 @@ def _comprehended(reader: OperandReader, node: Node) -> Iterator[Element]:
     tests = [named(c)[0] for c in clauses if c.type == "if_clause"]
     is_plain = len(loops) == 1 and len(tests) <= 1 and len(loops) + len(tests) == len(clauses)
     if not is_plain or not reader.hides(node):
-        raise reader.refused(node, "the model has no such expression")
+        raise reader.unread(node, "the model has no such expression")
     left, right = field(loops[0], "left"), field(loops[0], "right")
     names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]
     for values in rows(reader, right, len(names)):
@@ -87,7 +87,7 @@ def _comprehended(reader: OperandReader, node: Node) -> Iterator[Element]:
             condition = reader.condition(tests[0]) if tests else None
             value = reader.read(body)
         if not reader.is_calm(value) or (condition is not None and not is_calm(condition)):
-            raise reader.refused(node, "what this does may count for what stands behind it")
+            raise reader.unread(node, "what this does may count for what stands behind it")
         yield value, condition
 
 
@@ -110,7 +110,7 @@ def rows(reader: OperandReader, node: Node, width: int) -> list[tuple[Value, ...
             return list(zip(*each, strict=False))
         case _ if width == 1 and node.type not in COMPREHENSIONS:
             return [(value,) for value in certain(reader, node, name or "this")]
-    raise reader.refused(node, "nobody knows what this goes through")
+    raise reader.unread(node, "nobody knows what this goes through")
 
 
 def _start(node: Node) -> int | None:

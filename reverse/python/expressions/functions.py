@@ -88,14 +88,14 @@ def _whole(reader: OperandReader, value: Value, node: Node) -> Value | None:
 
 def _certainly_whole(reader: OperandReader, value: Value, node: Node) -> Value:
     if (found := _whole(reader, value, node)) is None:
-        raise reader.refused(node, "this is to be a whole number")
+        raise reader.unread(node, "this is to be a whole number")
     return found
 
 
 def _absolute(reader: OperandReader, node: Node, value: Value) -> Value:
     kind = value.kind
     if kind not in (WHOLE, REAL) or not reader.is_calm(value):
-        raise reader.refused(node, "this is to be a number that is in a variable")
+        raise reader.unread(node, "this is to be a number that is in a variable")
     zero = Value(exact_literal_of(0 if kind == WHOLE else 0.0), kind)
     minus = m.Unary("-", tight(value.expression, precedence.PREFIX))
     below = reader.compared("<", value, zero, node, 0)
@@ -106,7 +106,7 @@ def _extreme(reader: OperandReader, node: Node, name: str, values: list[Value]) 
     """The least or greatest value, of equal ones the first."""
     _check_ordered(reader, node, values)
     if not values or not reader.is_calm(*values):
-        raise reader.refused(node, "what this compares is to be in a variable first")
+        raise reader.unread(node, "what this compares is to be in a variable first")
     return _first(reader, node, name, values, lambda value: value)
 
 
@@ -114,7 +114,7 @@ def _check_ordered(reader: OperandReader, node: Node, values: Sequence[Value]) -
     """Unread: the model does not compare values as Python does."""
     kinds = {value.kind for value in values}
     if kinds - {WHOLE, REAL} or (len(kinds) > 1 and not reader.mixes):
-        raise reader.refused(node, "nobody knows which of these is less")
+        raise reader.unread(node, "nobody knows which of these is less")
 
 
 def _first(
@@ -128,7 +128,7 @@ def _first(
     found, sign = values[0], "<" if name == "min" else ">"
     for number, value in enumerate(values[1:]):
         if len(list(m.walk(found.expression))) > _LARGEST:
-            raise reader.refused(node, "the model compares two values at a time")
+            raise reader.unread(node, "the model compares two values at a time")
         asked = reader.compared(sign, measured(value), measured(found), node, number)
         found = reader.joined(asked, value, found, node)
     return found
@@ -140,19 +140,19 @@ def _best(reader: OperandReader, node: Node, name: str, given: Node, key: Node) 
     parameters = function.child_by_field_name("parameters")
     names = [text_of(n) for n in named(parameters)] if parameters is not None else []
     if text_of(field(key, "name")) != "key" or function.type != "lambda" or len(names) != 1:
-        raise reader.refused(node, "the model has no such expression")
+        raise reader.unread(node, "the model has no such expression")
 
     def measured(value: Value) -> Value:
         with reader.standing_for(names, [value]):
             read = reader.read(field(function, "body"))
         _check_ordered(reader, node, [read])
         if not reader.is_calm(read):
-            raise reader.refused(node, "what this compares is to be in a variable first")
+            raise reader.unread(node, "what this compares is to be in a variable first")
         return read
 
     values = [value for (value,) in elements.rows(reader, given, 1)]
     if len(values) < 2 and (not values or reader.may_fail(function)):
-        raise reader.refused(node, "there is no least or greatest of no values")
+        raise reader.unread(node, "there is no least or greatest of no values")
     return _first(reader, node, name, values, measured)
 
 
@@ -180,5 +180,5 @@ def _one_of(reader: OperandReader, values: Sequence[Value], node: Node) -> Value
         return None
     options = tuple(value.expression for value in values)
     if any(isinstance(n, m.Name | m.Index) for each in options for n in m.walk(each)):
-        raise reader.refused(node, "what is drawn here is to be written out")
+        raise reader.unread(node, "what is drawn here is to be written out")
     return Value(m.Choice(options, reader.span(node)), kind)

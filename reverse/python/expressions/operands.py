@@ -90,7 +90,7 @@ class OperandReader(ABC):
         """The place of a node."""
 
     @abstractmethod
-    def refused(self, node: Node, why: str) -> Unread:
+    def unread(self, node: Node, why: str) -> Unread:
         """What is raised where the model has no such value."""
 
     def is_calm(self, *values: Value) -> bool:

@@ -57,7 +57,7 @@ def selected(
 ) -> Value:
     """The value of a key in a table, or another one if the table has no such key."""
     if asked.kind not in (WHOLE, STRING) or not reader.is_calm(asked):
-        raise reader.refused(node, "what this looks for is to be a whole number in a variable")
+        raise reader.unread(node, "what this looks for is to be a whole number in a variable")
     found = otherwise
     for number, (known, value) in reversed(list(enumerate(pairs))):
         is_it = reader.compared("==", asked, known, node, number)

@@ -55,9 +55,6 @@ class ModelExpressionReader(OperandReader):
     def unread(self, node: Node, why: str) -> Unread:
         return Unread(self.py.span(node), why)
 
-    def refused(self, node: Node, why: str) -> Unread:
-        return self.unread(node, why)
-
     def span(self, node: Node) -> Span:
         return self.py.span(node)
 
