@@ -17,7 +17,7 @@ from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementRea
 from rebsync.reverse.python.bodies.body_together import is_object, kept
 from rebsync.reverse.python.bodies.body_variables import forget, give, outside
 from rebsync.reverse.python.expressions import patterns
-from rebsync.reverse.python.expressions.patterns import Case, cases
+from rebsync.reverse.python.expressions.patterns import MatchCase, cases
 from rebsync.reverse.python.expressions.values import Value
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -87,7 +87,7 @@ def ways(reader: BodyStatementReader, node: Node, of: Value | None) -> list[Way]
     return [(case.clause, partial(_asked, reader, of, case), case.block) for case in found]
 
 
-def _asked(reader: BodyStatementReader, of: Value | None, case: Case) -> Asked:
+def _asked(reader: BodyStatementReader, of: Value | None, case: MatchCase) -> Asked:
     """Whether a branch is taken, if none above it is."""
     first = _stored(reader, case.name, of) if case.name is not None else []
     return first, patterns.asked(reader.expressions, case, of)

@@ -20,7 +20,7 @@ _NONE = "the model has no such case"
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class MatchCase:
     """A branch of a `match`: the name that takes everything, or some values; then what is done.
 
     A value is negative where a minus stands before it.
@@ -33,7 +33,7 @@ class Case:
     block: Node
 
 
-def cases(reader: OperandReader, node: Node) -> Iterator[Case]:
+def cases(reader: OperandReader, node: Node) -> Iterator[MatchCase]:
     """The branches of a `match`. Unread: a pattern looks into a container or an object, or binds
     several names, or nothing is left for the cases behind it.
     """
@@ -44,7 +44,7 @@ def cases(reader: OperandReader, node: Node) -> Iterator[Case]:
             raise Unread(reader.span(clause), _NONE)
         guard = clause.child_by_field_name("guard")
         test = named(guard)[0] if guard is not None else None
-        case = Case(clause, *_pattern(reader, patterns[0]), test, field(clause, "consequence"))
+        case = MatchCase(clause, *_pattern(reader, patterns[0]), test, field(clause, "consequence"))
         if not case.values and test is None and clause != clauses[-1]:
             raise Unread(reader.span(clause), "no case behind this one is ever taken")
         yield case
@@ -70,7 +70,7 @@ def _pattern(reader: OperandReader, pattern: Node) -> tuple[Node | None, list[tu
     return None, values
 
 
-def asked(reader: OperandReader, case: Case, of: Value | None) -> m.Expression | None:
+def asked(reader: OperandReader, case: MatchCase, of: Value | None) -> m.Expression | None:
     """What must hold so that a value takes a branch, if none above it; None: nothing."""
     found: m.Expression | None = None
     if of is None and case.values:

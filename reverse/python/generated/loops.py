@@ -9,7 +9,7 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.models.building import binary, selected
-from rebsync.reverse.python.expressions.elements import rows
+from rebsync.reverse.python.expressions.elements import known_range, rows
 from rebsync.reverse.python.expressions.patterns import asked, cases
 from rebsync.reverse.python.generated import endings, idioms
 from rebsync.reverse.python.generated.arrays import NO_LENGTH, array_elements
@@ -17,7 +17,7 @@ from rebsync.reverse.python.generated.expression_reader import ModelExpressionRe
 from rebsync.reverse.python.generated.py_types import call_parts, markers_above
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _STEP = "step"
 
@@ -147,15 +147,13 @@ def _backwards(reader: ModelStatementReader, node: Node, name: str, inner: Node)
         if array_elements(reader.expressions, inner) is not None:
             raise reader.expressions.unread(node, NO_LENGTH.format("reversed"))
         raise reader.expressions.unread(node, "the model has no such loop")
-    ends = [n for n in map(whole_number_of, arguments) if n is not None]
-    if len(ends) != len(arguments):
+    if (numbers := known_range(arguments)) is None:
         raise reader.expressions.unread(node, "say with numbers how often this is done")
-    low, high = (0, *ends) if len(ends) == 1 else (ends[0], ends[1])
     index = _counter(reader, node, name)
     place = m.Name(index)
     body = _round(reader, node, [(name, m.Type("int"))], index, [])
-    declared = m.Declaration(m.Type("int"), (m.Declarator(index, m.IntLiteral(high - 1)),))
-    condition = binary(">=", place, m.IntLiteral(low))
+    declared = m.Declaration(m.Type("int"), (m.Declarator(index, m.IntLiteral(numbers.stop - 1)),))
+    condition = binary(">=", place, m.IntLiteral(numbers.start))
     span = reader.expressions.py.span(node)
     return m.For(declared, condition, (m.Postfix("--", place),), body, span=span)
 
