@@ -118,3 +118,17 @@ COMMON: dict[str, str] = {
     "example_interfaces/AddTwoInts_Request": "a int64, b int64",
     "example_interfaces/AddTwoInts_Response": "sum int64",
 }
+
+_ARRAYS = (
+    "Byte",
+    "Float32",
+    "Float64",
+    *(f"{k}{n}" for k in ("Int", "UInt") for n in (8, 16, 32, 64)),
+)
+# All types of those packages that are known whole.
+WHOLE: dict[str, frozenset[str]] = {
+    "std_msgs": frozenset(
+        {*_PLAIN, "Empty", "Header", "ColorRGBA", "MultiArrayDimension", "MultiArrayLayout"}
+        | {f"{name}MultiArray" for name in _ARRAYS}
+    )
+}

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 from rebsync.reverse.build.cmake import BUILD, read_build
 from rebsync.reverse.build.manifests import read_manifest
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import SUFFIX
 from rebsync.reverse.libraries.cpp import including
+from rebsync.reverse.libraries.python import brings
 from rebsync.source import Source
 
 _CODE = (*sorted(CODE), SUFFIX)
 _INTERFACES = (".msg", ".srv", ".action")
+# Modules whose packages rosdep names otherwise.
+_OTHERWISE = {"cv2": "opencv", "google": "protobuf", "sklearn": "scikit", "RPi": "rpi.gpio"}
 _OF_INTERFACES = re.compile(r"message_(?:generation|runtime)|rosidl_default_\w+")
 
 
@@ -32,3 +36,15 @@ def uses(path: str, source: Source, package: str) -> bool:
     word = re.escape(including().get(package, package))
     asks = rf"(?:#\s*include\s*[<\"]|\bfrom\s+|\bimport\s+){word}\b"
     return re.search(asks, source.text) is not None
+
+
+def gives_module(depends: Collection[str], module: str) -> bool:
+    """Whether one of some dependencies gives a module of Python: one of ROS, or of the system.
+
+    Those of the system are named by rosdep after what they give, as `python3-numpy`.
+    """
+    brought = {m for name in depends for m in brings().get(name, ())}
+    word = _OTHERWISE.get(module, module).lower().replace("_", "-")
+    return module in (*depends, *brought) or any(
+        word in name.lower().replace("_", "-") for name in depends
+    )

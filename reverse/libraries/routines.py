@@ -261,7 +261,8 @@ class Library:
     `threads`, callbacks run beside each other; with `strict`, a field of a message takes no number
     of another kind. `threaded` are the last names of what makes callbacks run beside each other
     in other libraries. `versions` are macros that compare the library's version with their
-    arguments; `included` is the folder that its headers are in where that has another name. What
+    arguments; `included` is the folder that its headers are in where that has another name, and
+    `brings` are modules that are installed with it. What
     is `generated` is called by code that rebsync makes, and its names mean
     something there only. `unmodelled` make what has no place in a model, by their full names: ends
     of actions, what sends and gets transforms, what lets others change parameters. They are no
@@ -296,5 +297,6 @@ class Library:
     included: str = ""
     strict: bool = False
     generated: bool = False
+    brings: frozenset[str] = frozenset()
     unmodelled: Mapping[str, Routine] = field(default_factory=dict)
     own_arguments: Mapping[str, str] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""Headers and modules that are gone while code needs them, and names that they no longer define.
+"""Headers and modules that are gone while code needs them, and what sensors are asked by.
 
 Users write in some generated files: what these say no model tells, but code is built of them.
 """
@@ -15,8 +15,6 @@ from rebsync.roundtrip.package.state import PackageState
 from rebsync.source import NOWHERE, Source, Span
 
 _HINT = "put it back, or take out by hand all that belongs to it"
-_IMPORTED = r"[ \t]+import[ \t]+(?:\(([^)]*)\)|([^\n]*))"
-_NAMES = re.compile(r"(\w+)(?:\s+as\s+\w+)?\s*(?:#[^\n]*)?(?:,|$)")
 _SEEN = re.compile(r"\.seen\(&(\w+)\)")
 _Codes = Sequence[tuple[str, Source]]
 
@@ -28,10 +26,6 @@ def missing_definitions(now: PackageState, codes: _Codes) -> Iterator[Findings]:
             path = join(now.listing.root, name)
             yield finding(Source(path, ""), NOWHERE, f"this is gone, and {user.path} needs it")
     if now.changed or now.missing:
-        texts = dict(codes)
-        for name in now.changed:
-            if name in texts:
-                yield from _imported(name, texts[name].text, codes)
         yield from _seen(codes)
 
 
@@ -56,20 +50,6 @@ def _parts(name: str) -> tuple[str, str, str]:
     inside, _, last = name.rpartition("/")
     stem, _, suffix = last.rpartition(".")
     return re.escape(inside.rpartition("/")[2]), re.escape(stem), suffix
-
-
-def _imported(name: str, text: str, codes: _Codes) -> Iterator[Findings]:
-    """The names that code imports from a module which does not have them."""
-    folder, stem, suffix = _parts(name)
-    if suffix != "py":
-        return
-    use = re.compile(rf"^[ \t]*from[ \t]+{folder}\.{stem}{_IMPORTED}", re.M)
-    for _, source in codes:
-        for found in use.finditer(source.text):
-            for each in _NAMES.findall(found[1] or found[2]):
-                if not re.search(rf"\b{each}\b", text):
-                    at = Span(*found.span())
-                    yield finding(source, at, f'"{name}" does not define "{each}"')
 
 
 def _seen(codes: _Codes) -> Iterator[Findings]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING
 from warnings import catch_warnings, simplefilter
@@ -10,7 +10,7 @@ from warnings import catch_warnings, simplefilter
 from rebsync.diagnostics import Findings, RebsyncError
 from rebsync.files import read_source
 from rebsync.reverse.files.packages import MANIFEST
-from rebsync.reverse.files.python_files import SETUP
+from rebsync.reverse.files.python_files import SETUP, is_python
 from rebsync.reverse.files.stores import Disk, join
 from rebsync.reverse.python.generated.unbound import unbound_names
 from rebsync.roundtrip.package.managed import ManagedPackage
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from rebsync.reverse.build.named import Named
 
 _BUILD = "CMakeLists.txt"
+_DECLARE = "name what has it in package.xml, or import it where ImportError is caught"
 _READ = frozenset({_BUILD, MANIFEST, SETUP})
 
 
@@ -34,15 +35,26 @@ def missing_files(
     package: ManagedPackage, record: Record, now: PackageState
 ) -> tuple[Findings, ...]:
     """What was generated and is gone while the build names it, or code uses it."""
+    codes = dict(_codes(now))
     return (
         *_files(record, now),
-        *missing_definitions(now, [*_codes(now)]),
+        *missing_definitions(now, [*codes.items()]),
+        *_failing(record, now, codes),
         *_packages(package, record, now),
         *shadowing(record, now),
         *included_instead(package, record, now),
         *_refused(now),
         *_not_executable(now),
     )
+
+
+def _failing(record: Record, now: PackageState, codes: Mapping[str, Source]) -> Iterator[Findings]:
+    """The imports of Python that fail."""
+    if any(name in codes and is_python(name, codes[name]) for name in now.changed):
+        from rebsync.reverse.build.unresolved_imports import unresolved_imports
+
+        for source, span, why in unresolved_imports(codes, now.changed, record.files):
+            yield finding(source, span, why, _DECLARE)
 
 
 def _refused(now: PackageState) -> Iterator[Findings]:

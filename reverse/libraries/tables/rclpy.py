@@ -197,6 +197,16 @@ LIBRARIES = (
         Language.PYTHON,
         _FUNCTIONS,
         _METHODS,
+        brings=frozenset(
+            {
+                "ament_index_python",
+                "builtin_interfaces",
+                "rcl_interfaces",
+                "rosgraph_msgs",
+                "rpyutils",
+            }
+            | {"action_msgs", "lifecycle_msgs", "unique_identifier_msgs", "yaml"}
+        ),
         unmodelled={
             "rclpy.action.ActionServer": Routine(
                 Kind.ACTION_SERVER, ("", "type", "name"), _ACTION_KEYWORDS, flat=True

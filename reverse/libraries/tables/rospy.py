@@ -112,6 +112,9 @@ LIBRARIES = (
         plain=frozenset({"rospy.AnyMsg", "rospy.msg.AnyMsg"}),
         flat=False,
         threads=True,
+        brings=frozenset(
+            {"genpy", "roslib", "rospkg", "rosgraph", "roscpp", "rosgraph_msgs", "std_msgs", "yaml"}
+        ),
         unmodelled={
             **dict.fromkeys(
                 ("actionlib.SimpleActionServer", "actionlib.ActionServer"),
