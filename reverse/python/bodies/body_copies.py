@@ -19,9 +19,10 @@ from rebsync.reverse.python.bodies import body_messages
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.bodies.body_presence import is_there, presence_key, presence_name
 from rebsync.reverse.python.bodies.body_reading import Reading, field_key
-from rebsync.reverse.python.bodies.body_scope import OTHER, TRUTH, TYPES, Frame, Message, Var
+from rebsync.reverse.python.bodies.body_scope import Frame, Message, Var
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.bodies.body_variables import store
+from rebsync.reverse.python.expressions.values import OTHER, TRUTH, TYPES
 from rebsync.reverse.python.values.interfaces import interface_of
 from rebsync.reverse.python.values.py_worth import External
 from rebsync.reverse.syntax.ancestors import ancestors

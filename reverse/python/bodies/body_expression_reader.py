@@ -19,19 +19,9 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, cast
 from rebsync.reverse.models.texts import text_literal
 from rebsync.reverse.python.bodies.body_reading import Reading
-from rebsync.reverse.python.bodies.body_scope import (
-    STRING,
-    TYPES,
-    WHOLE,
-    Frame,
-    Meaning,
-    Message,
-    Nobody,
-    Own,
-    Value,
-    unknown,
-)
+from rebsync.reverse.python.bodies.body_scope import Frame, Meaning, Message, Nobody, Own, unknown
 from rebsync.reverse.python.expressions.operands import OperandReader
+from rebsync.reverse.python.expressions.values import STRING, WHOLE, Value
 from rebsync.reverse.python.values.interfaces import interface_of
 from rebsync.reverse.syntax.py_tree import field, text_of
 from rebsync.source import Span
@@ -39,7 +29,7 @@ from rebsync.static.types import DOUBLE
 
 
 @dataclass(eq=False, slots=True)
-class BodyExpressionReader(OperandReader[Value]):
+class BodyExpressionReader(OperandReader):
     """Reads the expressions of one run of a function."""
 
     reading: Reading
@@ -115,17 +105,8 @@ class BodyExpressionReader(OperandReader[Value]):
     def span(self, node: Node) -> Span:
         return self.frame.span(node)
 
-    def refused(self, node: Node, why: str) -> Unknown:
+    def unread(self, node: Node, why: str) -> Unknown:
         return Unknown(self.span(node), why, "")
-
-    def made(self, expression: m.Expression, type_: m.Type) -> Value:
-        return Value(expression, type_.name)
-
-    def shown(self, value: Value) -> m.Expression:
-        return value.expression
-
-    def kind(self, value: Value) -> m.Type | None:
-        return TYPES.get(value.kind)
 
     def library(self, function: Node) -> str:
         return self.reading.external(function, self.frame)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rebsync import model as m
 from rebsync.reverse.models.building import bare, binary, cast, chosen
-from rebsync.reverse.python.bodies.body_scope import TRUTH, WHOLE, Value
+from rebsync.reverse.python.expressions.values import TRUTH, WHOLE, Value
 from rebsync.source import Span
 from rebsync.static.types import DOUBLE
 

@@ -10,15 +10,16 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.models.building import bare, binary, chosen, is_plain, whole_number
+from rebsync.reverse.models.building import bare, binary, is_plain, selected, whole_number
 from rebsync.reverse.python.bodies.body_effects import is_harmless
 from rebsync.reverse.python.bodies.body_loops import with_else
 from rebsync.reverse.python.bodies.body_rounds import leaves_nothing
-from rebsync.reverse.python.bodies.body_scope import REAL, WHOLE, Key, Value, Var
+from rebsync.reverse.python.bodies.body_scope import Key, Var
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.bodies.body_targets import check_target
 from rebsync.reverse.python.bodies.body_together import is_object, kept
 from rebsync.reverse.python.bodies.body_variables import forget, give
+from rebsync.reverse.python.expressions.values import REAL, WHOLE, Value
 from rebsync.reverse.syntax.ancestors import holds
 from rebsync.reverse.syntax.py_index import arguments_of
 from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
@@ -107,12 +108,10 @@ def _elements(
         values.append(value)
 
     def element(counter: m.Expression) -> Value:
-        found = values[-1].expression
-        for number in reversed(range(len(values) - 1)):
-            asked = binary("==", counter, m.IntLiteral(number))
-            found = chosen(asked, values[number].expression, found)
+        found = selected(counter, dict(enumerate(plain[:-1])), plain[-1])
         return Value(found, values[0].kind, mixed=mixed)
 
+    plain = [value.expression for value in values]
     high = m.IntLiteral(len(values))
     yield from _counted(reader, node, m.IntLiteral(0), high, 1, element)
 

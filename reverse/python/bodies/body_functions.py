@@ -18,15 +18,8 @@ from rebsync.reverse.python.bodies.body_effects import (
 )
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.bodies.body_reading import has_nonlocals
-from rebsync.reverse.python.bodies.body_scope import (
-    Frame,
-    Meaning,
-    Message,
-    Nobody,
-    Own,
-    Pending,
-    Value,
-)
+from rebsync.reverse.python.bodies.body_scope import Frame, Meaning, Message, Nobody, Own, Pending
+from rebsync.reverse.python.expressions.values import Value
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.py_index import Scope, arguments_of, has_splat
 from rebsync.reverse.syntax.py_tree import field, named, text_of

@@ -8,7 +8,8 @@ from typing import TypeAlias, TypeVar
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.intervals.needs import Mark
-from rebsync.reverse.python.bodies.body_scope import OTHER, REAL, WHOLE, Key, Kind
+from rebsync.reverse.python.bodies.body_scope import Key
+from rebsync.reverse.python.expressions.values import OTHER, REAL, WHOLE, Kind
 
 _T = TypeVar("_T")
 # A question about what is known, with what it is about.

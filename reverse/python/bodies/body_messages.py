@@ -20,16 +20,9 @@ from rebsync.reverse.python.bodies.body_effects import is_harmless
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.bodies.body_reading import Reading, field_key, zero
 from rebsync.reverse.python.bodies.body_scope import (
-    OTHER,
-    REAL,
-    STRING,
-    TRUTH,
-    TYPES,
-    WHOLE,
     Message,
     Pending,
     PyTarget,
-    Value,
     Var,
     bounds,
     field_kind,
@@ -37,6 +30,15 @@ from rebsync.reverse.python.bodies.body_scope import (
 )
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.bodies.body_variables import store
+from rebsync.reverse.python.expressions.values import (
+    OTHER,
+    REAL,
+    STRING,
+    TRUTH,
+    TYPES,
+    WHOLE,
+    Value,
+)
 from rebsync.reverse.syntax.py_index import arguments_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.source import NOWHERE

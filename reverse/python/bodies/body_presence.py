@@ -9,8 +9,9 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import binary, is_calm
 from rebsync.reverse.python.bodies import body_texts
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
-from rebsync.reverse.python.bodies.body_scope import STRING, TRUTH, Key, Message, Value, Var
+from rebsync.reverse.python.bodies.body_scope import Key, Message, Var
 from rebsync.reverse.python.bodies.body_timers import is_timer
+from rebsync.reverse.python.expressions.values import STRING, TRUTH, Value
 from rebsync.reverse.syntax.py_tree import text_of
 
 

@@ -22,11 +22,6 @@ from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.bodies.body_learnt import Learnt
 from rebsync.reverse.python.bodies.body_scope import (
-    OTHER,
-    REAL,
-    STRING,
-    TRUTH,
-    WHOLE,
     Frame,
     Key,
     Meaning,
@@ -35,11 +30,11 @@ from rebsync.reverse.python.bodies.body_scope import (
     Own,
     PyTarget,
     PyUnit,
-    Value,
     Var,
     field_kind,
     unknown,
 )
+from rebsync.reverse.python.expressions.values import OTHER, REAL, STRING, TRUTH, WHOLE, Value
 from rebsync.reverse.python.values.interfaces import interface_of
 from rebsync.reverse.python.values.node_effects import NodeEffects
 from rebsync.reverse.python.values.py_imports import star_imported

@@ -16,37 +16,18 @@ from rebsync.reverse.bodies.scope import Target
 from rebsync.reverse.build.message_types import Fields
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries.routines import Library
-from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.nodes.node_units import Unit
+from rebsync.reverse.python.expressions.values import REAL, STRING, TRUTH, WHOLE, Kind, Value
 from rebsync.reverse.syntax.py_index import Scope
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
-from rebsync.static.types import BOOLEAN, DOUBLE, INT
 
-# What a variable holds in all of a program: a kind of value, a message by its type, or anything.
-Kind: TypeAlias = str
-TRUTH, WHOLE, REAL, STRING, OTHER = "boolean", "int", "double", TEXT.name, "other"
-TYPES = {TRUTH: BOOLEAN, WHOLE: INT, REAL: DOUBLE, STRING: TEXT}
 # A variable: the class, module or function that it is in, and its name, with that of a field.
 Key: TypeAlias = tuple[str, int, str]
 
 
 class Pending(Unread):
     """Something stands on a variable of which nothing is known yet."""
-
-
-@dataclass(frozen=True, slots=True)
-class Value:
-    """An expression of the model, and what kind of value it is in Python.
-
-    `single` says that the model has 32 bits of a float; `mixed` that it may be a whole number, or
-    None instead of a text.
-    """
-
-    expression: m.Expression
-    kind: Kind
-    single: bool = False
-    mixed: bool = False
 
 
 # --- meanings -----------------------------------------------------------------------------------

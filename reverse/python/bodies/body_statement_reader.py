@@ -13,9 +13,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.python.bodies.body_expressions import PyExpressions
 from rebsync.reverse.python.bodies.body_node_loops import EndlessLoop
 from rebsync.reverse.python.bodies.body_reading import Reading
-from rebsync.reverse.python.bodies.body_scope import (
-    Frame,
-)
+from rebsync.reverse.python.bodies.body_scope import Frame
 from rebsync.reverse.syntax.py_tree import named
 
 

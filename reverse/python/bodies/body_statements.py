@@ -34,9 +34,7 @@ from rebsync.reverse.python.bodies.body_expressions import short
 from rebsync.reverse.python.bodies.body_locks import contexts_of, is_lock, waits_for_itself
 from rebsync.reverse.python.bodies.body_match import Way
 from rebsync.reverse.python.bodies.body_raising import raised
-from rebsync.reverse.python.bodies.body_scope import (
-    Pending,
-)
+from rebsync.reverse.python.bodies.body_scope import Pending
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.statements import UNREADABLE

@@ -22,16 +22,11 @@ from rebsync.reverse.python.bodies import (
 )
 from rebsync.reverse.python.bodies.body_effects import is_still, may_be_of_message
 from rebsync.reverse.python.bodies.body_reading import field_key
-from rebsync.reverse.python.bodies.body_scope import (
-    OTHER,
-    STRING,
-    Message,
-    Value,
-    Var,
-)
+from rebsync.reverse.python.bodies.body_scope import Message, Var
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.bodies.body_targets import check_target
 from rebsync.reverse.python.bodies.body_variables import change, forget, give, outside
+from rebsync.reverse.python.expressions.values import OTHER, STRING, Value
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _CONTAINERS = frozenset({"dictionary", "list", "tuple"})

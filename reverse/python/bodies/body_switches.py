@@ -10,7 +10,6 @@ from rebsync import model as m
 from rebsync.reverse.bodies.cpp_timers import again, changed
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.graph import TimerFact
-from rebsync.reverse.python.bodies.body_scope import OTHER, TRUTH, WHOLE
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.bodies.body_timers import (
     MADE,
@@ -20,6 +19,7 @@ from rebsync.reverse.python.bodies.body_timers import (
     switch_for,
     timer_of,
 )
+from rebsync.reverse.python.expressions.values import OTHER, TRUTH, WHOLE
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_index import arguments_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of

@@ -8,9 +8,10 @@ from tree_sitter import Node
 
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
 from rebsync.reverse.python.bodies.body_reading import Reading
-from rebsync.reverse.python.bodies.body_scope import STRING, TRUTH, WHOLE, Value, unknown
+from rebsync.reverse.python.bodies.body_scope import unknown
 from rebsync.reverse.python.bodies.body_units import scope_around
 from rebsync.reverse.python.expressions.tables import pairs_of, selected
+from rebsync.reverse.python.expressions.values import STRING, TRUTH, WHOLE, Value
 from rebsync.reverse.python.values.py_worth import External, Items, Table
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, text_of

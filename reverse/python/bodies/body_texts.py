@@ -8,7 +8,8 @@ from rebsync import model as m
 from rebsync.reverse.models.building import bare, binary, is_calm, negated
 from rebsync.reverse.models.texts import MEMBER, is_constant, is_plain, no_text, same, text_literal
 from rebsync.reverse.python.bodies.body_expression_reader import BodyExpressionReader
-from rebsync.reverse.python.bodies.body_scope import STRING, Value, Var, unknown
+from rebsync.reverse.python.bodies.body_scope import Var, unknown
+from rebsync.reverse.python.expressions.values import STRING, Value
 from rebsync.reverse.syntax.py_tree import field, is_literal_text, named, text_of
 
 

@@ -12,7 +12,8 @@ from rebsync import model as m
 from rebsync.reverse.bodies.scope import Switch
 from rebsync.reverse.graph import Fact, TimerFact
 from rebsync.reverse.python.bodies.body_reading import Reading
-from rebsync.reverse.python.bodies.body_scope import TRUTH, Frame, Key
+from rebsync.reverse.python.bodies.body_scope import Frame, Key
+from rebsync.reverse.python.expressions.values import TRUTH
 from rebsync.reverse.python.values.py_lookup import bound
 from rebsync.reverse.python.values.py_worth import Made, NoneValue, Ways
 from rebsync.reverse.syntax.py_tree import field, text_of

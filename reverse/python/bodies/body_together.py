@@ -16,9 +16,10 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.bodies import body_messages
 from rebsync.reverse.python.bodies.body_effects import may_be_of_message
-from rebsync.reverse.python.bodies.body_scope import OTHER, Message, Nobody, Value, Var
+from rebsync.reverse.python.bodies.body_scope import Message, Nobody, Var
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
 from rebsync.reverse.python.bodies.body_variables import forget, give, outside
+from rebsync.reverse.python.expressions.values import OTHER, Value
 from rebsync.reverse.syntax.py_tree import text_of
 
 LITERALS = frozenset({"integer", "float", "true", "false", "none"})

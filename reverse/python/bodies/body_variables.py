@@ -12,16 +12,9 @@ from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.bodies.body_effects import is_harmless
 from rebsync.reverse.python.bodies.body_expressions import short
 from rebsync.reverse.python.bodies.body_reading import field_key
-from rebsync.reverse.python.bodies.body_scope import (
-    OTHER,
-    REAL,
-    TYPES,
-    WHOLE,
-    Message,
-    Value,
-    Var,
-)
+from rebsync.reverse.python.bodies.body_scope import Message, Var
 from rebsync.reverse.python.bodies.body_statement_reader import BodyStatementReader
+from rebsync.reverse.python.expressions.values import OTHER, REAL, TYPES, WHOLE, Value
 from rebsync.reverse.syntax.py_tree import named
 
 

@@ -9,9 +9,9 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.models.building import is_calm, number_literal
-from rebsync.reverse.python.expressions.operands import OperandReader, V
+from rebsync.reverse.python.expressions.operands import OperandReader
+from rebsync.reverse.python.expressions.values import WHOLE, Value
 from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
-from rebsync.static.types import INT
 
 MOST = 32  # elements that are said one by one
 COMPREHENSIONS = ("generator_expression", "list_comprehension")
@@ -20,7 +20,7 @@ _SHORT = frozenset({"any", "all", "in"})
 _OF_SETS = _SHORT | {"min", "max"}
 _ALL_FIRST = 'all of what "{}" goes through is evaluated first'
 # An element, and the condition under which it is there.
-Element: TypeAlias = "tuple[V, m.Expression | None]"
+Element: TypeAlias = "tuple[Value, m.Expression | None]"
 
 
 def arguments_of(call: Node) -> list[Node]:
@@ -36,12 +36,12 @@ def known_range(arguments: list[Node]) -> range | None:
     return range(*whole) if is_known else None
 
 
-def elements(reader: OperandReader[V], node: Node, called: str) -> list[Element[V]]:
+def elements(reader: OperandReader, node: Node, called: str) -> list[Element]:
     """Each value that a function goes through. Unread: nobody knows these."""
     if node.type == "set" and called not in _OF_SETS:
-        raise reader.refused(node, "nobody knows how many values this set has, in which order")
+        raise reader.unread(node, "nobody knows how many values this set has, in which order")
     if node.type == "list_comprehension" and called in _SHORT and reader.may_fail(node):
-        raise reader.refused(node, _ALL_FIRST.format(called))
+        raise reader.unread(node, _ALL_FIRST.format(called))
     if node.type in COMPREHENSIONS:
         found = list(_comprehended(reader, node))
     elif node.type in ("list", "tuple", "set"):
@@ -49,37 +49,37 @@ def elements(reader: OperandReader[V], node: Node, called: str) -> list[Element[
     else:
         values = reader.container(node, called not in _OF_SETS)
         if values is None:
-            raise reader.refused(node, f'nobody knows what "{called}" goes through here')
+            raise reader.unread(node, f'nobody knows what "{called}" goes through here')
         found = [(value, None) for value in values]
     if len(found) > MOST:
-        raise reader.refused(node, "this goes through too many values to say each")
+        raise reader.unread(node, "this goes through too many values to say each")
     return found
 
 
-def certain(reader: OperandReader[V], node: Node, called: str) -> list[V]:
+def certain(reader: OperandReader, node: Node, called: str) -> list[Value]:
     """Each value that something goes through. Unread: one may not be there."""
     found = elements(reader, node, called)
     if any(condition is not None for _, condition in found):
-        raise reader.refused(node, f'nobody knows how many values "{called}" goes through here')
+        raise reader.unread(node, f'nobody knows how many values "{called}" goes through here')
     return [value for value, _ in found]
 
 
-def _displayed(reader: OperandReader[V], node: Node, called: str) -> list[V]:
+def _displayed(reader: OperandReader, node: Node, called: str) -> list[Value]:
     """The values of `(a, b)`: all are evaluated, where the model may stop at the first."""
     values = [reader.read(part) for part in named(node)]
     if not reader.is_calm(*values) or (called in _SHORT and any(map(reader.may_fail, named(node)))):
-        raise reader.refused(node, _ALL_FIRST.format(called))
+        raise reader.unread(node, _ALL_FIRST.format(called))
     return values
 
 
-def _comprehended(reader: OperandReader[V], node: Node) -> Iterator[Element[V]]:
+def _comprehended(reader: OperandReader, node: Node) -> Iterator[Element]:
     """`f(x) for x in values if condition`, of one loop and at most one condition."""
     body, *clauses = named(node)
     loops = [c for c in clauses if c.type == "for_in_clause"]
     tests = [named(c)[0] for c in clauses if c.type == "if_clause"]
     is_plain = len(loops) == 1 and len(tests) <= 1 and len(loops) + len(tests) == len(clauses)
     if not is_plain or not reader.hides(node):
-        raise reader.refused(node, "the model has no such expression")
+        raise reader.unread(node, "the model has no such expression")
     left, right = field(loops[0], "left"), field(loops[0], "right")
     names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]
     for values in rows(reader, right, len(names)):
@@ -87,30 +87,30 @@ def _comprehended(reader: OperandReader[V], node: Node) -> Iterator[Element[V]]:
             condition = reader.condition(tests[0]) if tests else None
             value = reader.read(body)
         if not reader.is_calm(value) or (condition is not None and not is_calm(condition)):
-            raise reader.refused(node, "what this does may count for what stands behind it")
+            raise reader.unread(node, "what this does may count for what stands behind it")
         yield value, condition
 
 
-def rows(reader: OperandReader[V], node: Node, width: int) -> list[tuple[V, ...]]:
+def rows(reader: OperandReader, node: Node, width: int) -> list[tuple[Value, ...]]:
     """What a loop gives its variables, round by round."""
     name = reader.library(field(node, "function")) if node.type == "call" else ""
     arguments = arguments_of(node) if name else []
     match name.removeprefix("builtins."):
         case "range" | "xrange" if width == 1 and (numbers := known_range(arguments)) is not None:
             if len(numbers) <= MOST:
-                return [(reader.made(number_literal(n), INT),) for n in numbers]
+                return [(Value(number_literal(n), WHOLE),) for n in numbers]
         case "enumerate" if width == 2 and 1 <= len(arguments) <= 2:
             start = _start(arguments[1]) if len(arguments) > 1 else 0
             values = certain(reader, arguments[0], "enumerate")
             if start is not None:
                 numbered = enumerate(values, start)
-                return [(reader.made(number_literal(i), INT), value) for i, value in numbered]
+                return [(Value(number_literal(i), WHOLE), value) for i, value in numbered]
         case "zip" if width == len(arguments):
             each = [certain(reader, a, "zip") for a in arguments]
             return list(zip(*each, strict=False))
         case _ if width == 1 and node.type not in COMPREHENSIONS:
             return [(value,) for value in certain(reader, node, name or "this")]
-    raise reader.refused(node, "nobody knows what this goes through")
+    raise reader.unread(node, "nobody knows what this goes through")
 
 
 def _start(node: Node) -> int | None:

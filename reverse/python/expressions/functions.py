@@ -11,16 +11,16 @@ from rebsync import precedence
 from rebsync.literals import exact_literal_of
 from rebsync.reverse.models.building import bare, binary, negated, tight, whole_number
 from rebsync.reverse.python.expressions import elements
-from rebsync.reverse.python.expressions.operands import OperandReader, V
+from rebsync.reverse.python.expressions.operands import OperandReader
+from rebsync.reverse.python.expressions.values import OTHER, REAL, TRUTH, WHOLE, Value
 from rebsync.reverse.syntax.py_tree import field, named, text_of
-from rebsync.static.types import BOOLEAN, DOUBLE, INT
 
 _LARGEST = 64  # parts of what is repeated where values are compared
 _DRAWN = 64  # numbers, one of which is drawn
 _TESTS = {"any": "||", "all": "&&"}
 
 
-def called(reader: OperandReader[V], node: Node) -> V | None:
+def called(reader: OperandReader, node: Node) -> Value | None:
     """What a function of Python gives; None for another. Unread: the model cannot say it."""
     module, _, name = reader.library(field(node, "function")).rpartition(".")
     arguments = elements.arguments_of(node)
@@ -30,7 +30,7 @@ def called(reader: OperandReader[V], node: Node) -> V | None:
         return None
     match name, arguments:
         case (("any" | "all"), [given]):
-            return reader.made(_tested(reader, node, name, given), BOOLEAN)
+            return Value(_tested(reader, node, name, given), TRUTH)
         case "sum", [given, *start] if len(start) < 2:
             return _summed(reader, node, given, [reader.read(each) for each in start])
         case (("min" | "max"), [given, key]) if key.type == "keyword_argument":
@@ -42,16 +42,16 @@ def called(reader: OperandReader[V], node: Node) -> V | None:
         case "abs", [given]:
             return _absolute(reader, node, reader.read(given))
         case "bool", [given]:
-            return reader.made(reader.condition(given), BOOLEAN)
+            return Value(reader.condition(given), TRUTH)
         case "int", [given]:
             return _whole(reader, reader.read(given), node)
         case "len", [given] if given.type in ("list", "tuple"):
-            return reader.made(m.IntLiteral(len(elements.certain(reader, given, name))), INT)
+            return Value(m.IntLiteral(len(elements.certain(reader, given, name))), WHOLE)
         case _:
             return None
 
 
-def _tested(reader: OperandReader[V], node: Node, name: str, given: Node) -> m.Expression:
+def _tested(reader: OperandReader, node: Node, name: str, given: Node) -> m.Expression:
     """`any` and `all` of some elements."""
     found: m.Expression | None = None
     for value, condition in elements.elements(reader, given, name):
@@ -64,9 +64,9 @@ def _tested(reader: OperandReader[V], node: Node, name: str, given: Node) -> m.E
     return m.BoolLiteral(name == "all") if found is None else found
 
 
-def _summed(reader: OperandReader[V], node: Node, given: Node, start: Sequence[V]) -> V:
+def _summed(reader: OperandReader, node: Node, given: Node, start: Sequence[Value]) -> Value:
     """`sum` of whole numbers: of others Python does not round each step as the model does."""
-    zero = reader.made(m.IntLiteral(0), INT)
+    zero = Value(m.IntLiteral(0), WHOLE)
     values = [_certainly_whole(reader, each, node) for each in start]
     for value, condition in elements.elements(reader, given, "sum"):
         whole = _certainly_whole(reader, value, node)
@@ -78,87 +78,91 @@ def _summed(reader: OperandReader[V], node: Node, given: Node, start: Sequence[V
     return found
 
 
-def _whole(reader: OperandReader[V], value: V, node: Node) -> V | None:
+def _whole(reader: OperandReader, value: Value, node: Node) -> Value | None:
     """A whole number, as which a truth value is 1 or 0; None for another value."""
-    if reader.kind(value) == BOOLEAN:
-        one, zero = (reader.made(m.IntLiteral(number), INT) for number in (1, 0))
-        return reader.joined(reader.shown(value), one, zero, node)
-    return value if reader.kind(value) == INT else None
+    if value.kind == TRUTH:
+        one, zero = (Value(m.IntLiteral(number), WHOLE) for number in (1, 0))
+        return reader.joined(value.expression, one, zero, node)
+    return value if value.kind == WHOLE else None
 
 
-def _certainly_whole(reader: OperandReader[V], value: V, node: Node) -> V:
+def _certainly_whole(reader: OperandReader, value: Value, node: Node) -> Value:
     if (found := _whole(reader, value, node)) is None:
-        raise reader.refused(node, "this is to be a whole number")
+        raise reader.unread(node, "this is to be a whole number")
     return found
 
 
-def _absolute(reader: OperandReader[V], node: Node, value: V) -> V:
-    type_ = reader.kind(value)
-    if type_ not in (INT, DOUBLE) or not reader.is_calm(value):
-        raise reader.refused(node, "this is to be a number that is in a variable")
-    zero = reader.made(exact_literal_of(0 if type_ == INT else 0.0), type_)
-    minus = m.Unary("-", tight(reader.shown(value), precedence.PREFIX))
+def _absolute(reader: OperandReader, node: Node, value: Value) -> Value:
+    kind = value.kind
+    if kind not in (WHOLE, REAL) or not reader.is_calm(value):
+        raise reader.unread(node, "this is to be a number that is in a variable")
+    zero = Value(exact_literal_of(0 if kind == WHOLE else 0.0), kind)
+    minus = m.Unary("-", tight(value.expression, precedence.PREFIX))
     below = reader.compared("<", value, zero, node, 0)
-    return reader.joined(below, reader.made(minus, type_), value, node)
+    return reader.joined(below, Value(minus, kind), value, node)
 
 
-def _extreme(reader: OperandReader[V], node: Node, name: str, values: list[V]) -> V:
+def _extreme(reader: OperandReader, node: Node, name: str, values: list[Value]) -> Value:
     """The least or greatest value, of equal ones the first."""
     _check_ordered(reader, node, values)
     if not values or not reader.is_calm(*values):
-        raise reader.refused(node, "what this compares is to be in a variable first")
+        raise reader.unread(node, "what this compares is to be in a variable first")
     return _first(reader, node, name, values, lambda value: value)
 
 
-def _check_ordered(reader: OperandReader[V], node: Node, values: Sequence[V]) -> None:
+def _check_ordered(reader: OperandReader, node: Node, values: Sequence[Value]) -> None:
     """Unread: the model does not compare values as Python does."""
-    kinds = {reader.kind(value) for value in values}
-    if kinds - {INT, DOUBLE} or (len(kinds) > 1 and not reader.mixes):
-        raise reader.refused(node, "nobody knows which of these is less")
+    kinds = {value.kind for value in values}
+    if kinds - {WHOLE, REAL} or (len(kinds) > 1 and not reader.mixes):
+        raise reader.unread(node, "nobody knows which of these is less")
 
 
 def _first(
-    reader: OperandReader[V], node: Node, name: str, values: list[V], measured: Callable[[V], V]
-) -> V:
+    reader: OperandReader,
+    node: Node,
+    name: str,
+    values: list[Value],
+    measured: Callable[[Value], Value],
+) -> Value:
     """The first value of which what is measured is the least or greatest."""
     found, sign = values[0], "<" if name == "min" else ">"
     for number, value in enumerate(values[1:]):
-        if len(list(m.walk(reader.shown(found)))) > _LARGEST:
-            raise reader.refused(node, "the model compares two values at a time")
+        if len(list(m.walk(found.expression))) > _LARGEST:
+            raise reader.unread(node, "the model compares two values at a time")
         asked = reader.compared(sign, measured(value), measured(found), node, number)
         found = reader.joined(asked, value, found, node)
     return found
 
 
-def _best(reader: OperandReader[V], node: Node, name: str, given: Node, key: Node) -> V:
+def _best(reader: OperandReader, node: Node, name: str, given: Node, key: Node) -> Value:
     """The first value of which a function of it is the least or greatest."""
     function = field(key, "value")
     parameters = function.child_by_field_name("parameters")
     names = [text_of(n) for n in named(parameters)] if parameters is not None else []
     if text_of(field(key, "name")) != "key" or function.type != "lambda" or len(names) != 1:
-        raise reader.refused(node, "the model has no such expression")
+        raise reader.unread(node, "the model has no such expression")
 
-    def measured(value: V) -> V:
+    def measured(value: Value) -> Value:
         with reader.standing_for(names, [value]):
             read = reader.read(field(function, "body"))
         _check_ordered(reader, node, [read])
         if not reader.is_calm(read):
-            raise reader.refused(node, "what this compares is to be in a variable first")
+            raise reader.unread(node, "what this compares is to be in a variable first")
         return read
 
     values = [value for (value,) in elements.rows(reader, given, 1)]
     if len(values) < 2 and (not values or reader.may_fail(function)):
-        raise reader.refused(node, "there is no least or greatest of no values")
+        raise reader.unread(node, "there is no least or greatest of no values")
     return _first(reader, node, name, values, measured)
 
 
-def _drawn(reader: OperandReader[V], name: str, arguments: list[Node], node: Node) -> V | None:
+def _drawn(reader: OperandReader, name: str, arguments: list[Node], node: Node) -> Value | None:
     """`random.choice([1, 2])` and `random.randint(1, 3)`; None for another call."""
     match name, arguments:
         case "choice", [given] if given.type in ("list", "tuple"):
             return _one_of(reader, elements.certain(reader, given, name), node)
         case ("randint", [_, _]) | ("randrange", [_] | [_, _]):
-            ends = [whole_number(bare(reader.shown(reader.read(each)))) for each in arguments]
+            ends = [whole_number(bare(reader.read(each).expression)) for each in arguments]
         case _:
             return None
     whole = [end for end in ends if end is not None]
@@ -167,14 +171,14 @@ def _drawn(reader: OperandReader[V], name: str, arguments: list[Node], node: Nod
     numbers = range(whole[0], whole[1] + 1) if name == "randint" else range(*whole)
     if not 0 < len(numbers) <= _DRAWN:
         return None
-    return _one_of(reader, [reader.made(exact_literal_of(n), INT) for n in numbers], node)
+    return _one_of(reader, [Value(exact_literal_of(n), WHOLE) for n in numbers], node)
 
 
-def _one_of(reader: OperandReader[V], values: Sequence[V], node: Node) -> V | None:
-    kinds = {reader.kind(value) for value in values}
-    if len(kinds) != 1 or (type_ := kinds.pop()) is None:
+def _one_of(reader: OperandReader, values: Sequence[Value], node: Node) -> Value | None:
+    kinds = {value.kind for value in values}
+    if len(kinds) != 1 or (kind := kinds.pop()) == OTHER:
         return None
-    options = tuple(reader.shown(value) for value in values)
+    options = tuple(value.expression for value in values)
     if any(isinstance(n, m.Name | m.Index) for each in options for n in m.walk(each)):
-        raise reader.refused(node, "what is drawn here is to be written out")
-    return reader.made(m.Choice(options, reader.span(node)), type_)
+        raise reader.unread(node, "what is drawn here is to be written out")
+    return Value(m.Choice(options, reader.span(node)), kind)

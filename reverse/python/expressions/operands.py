@@ -8,19 +8,18 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
-from typing import ClassVar, Generic, TypeVar
+from typing import ClassVar
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import is_calm
+from rebsync.reverse.python.expressions.values import Value
 from rebsync.source import Span
 
-V = TypeVar("V")
 
-
-class OperandReader(ABC, Generic[V]):
+class OperandReader(ABC):
     """Reads operands; `mixes` says whether it compares whole numbers with others as Python does.
 
     `asking` are functions for which only the truth of what they are given matters.
@@ -31,7 +30,7 @@ class OperandReader(ABC, Generic[V]):
     asking: ClassVar[frozenset[str]] = frozenset()
 
     @abstractmethod
-    def read(self, node: Node) -> V:
+    def read(self, node: Node) -> Value:
         """The value of an expression. Unread: the model has none for it."""
 
     @abstractmethod
@@ -39,31 +38,21 @@ class OperandReader(ABC, Generic[V]):
         """What must hold."""
 
     @abstractmethod
-    def made(self, expression: m.Expression, type_: m.Type) -> V:
-        """An expression of a type as a value."""
-
-    @abstractmethod
-    def shown(self, value: V) -> m.Expression:
-        """The expression that a value is."""
-
-    @abstractmethod
-    def kind(self, value: V) -> m.Type | None:
-        """The widest type of the kind of a value, if it can be told."""
-
-    @abstractmethod
-    def truth(self, value: V, node: Node) -> m.Expression:
+    def truth(self, value: Value, node: Node) -> m.Expression:
         """What Python takes for true."""
 
     @abstractmethod
-    def compared(self, sign: str, left: V, right: V, node: Node, number: int) -> m.Expression:
+    def compared(
+        self, sign: str, left: Value, right: Value, node: Node, number: int
+    ) -> m.Expression:
         """The comparison with a number in `node`."""
 
     @abstractmethod
-    def operation(self, operator: str, left: V, right: V, node: Node) -> V:
+    def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
         """An operation on two numbers."""
 
     @abstractmethod
-    def joined(self, asked: m.Expression, one: V, other: V, node: Node) -> V:
+    def joined(self, asked: m.Expression, one: Value, other: Value, node: Node) -> Value:
         """One of two values, as a condition says."""
 
     @abstractmethod
@@ -71,18 +60,22 @@ class OperandReader(ABC, Generic[V]):
         """The full name of a function that is not of the code, as `builtins.min`; else empty."""
 
     @abstractmethod
-    def container(self, node: Node, ordered: bool) -> Sequence[V] | None:
+    def container(self, node: Node, ordered: bool) -> Sequence[Value] | None:
         """The elements of what has a name, or the keys of a table; None if nobody knows these."""
 
     @abstractmethod
-    def table(self, node: Node) -> Sequence[tuple[V, V]] | None:
+    def table(self, node: Node) -> Sequence[tuple[Value, Value]] | None:
         """The keys and values of a table that has a name."""
 
     @abstractmethod
     def standing_for(
-        self, names: Sequence[str], values: Sequence[V]
+        self, names: Sequence[str], values: Sequence[Value]
     ) -> AbstractContextManager[None]:
         """Lets names stand for values meanwhile."""
+
+    def dotted(self, node: Node) -> Value:
+        """The constant that a pattern names with dots. Unread: it is none of the model."""
+        raise Unread(self.span(node), "the model has no such case")
 
     @abstractmethod
     def may_fail(self, node: Node) -> bool:
@@ -97,9 +90,9 @@ class OperandReader(ABC, Generic[V]):
         """The place of a node."""
 
     @abstractmethod
-    def refused(self, node: Node, why: str) -> Unread:
+    def unread(self, node: Node, why: str) -> Unread:
         """What is raised where the model has no such value."""
 
-    def is_calm(self, *values: V) -> bool:
+    def is_calm(self, *values: Value) -> bool:
         """Whether evaluating values changes nothing, however often it is done."""
-        return all(is_calm(self.shown(value)) for value in values)
+        return all(is_calm(value.expression) for value in values)

@@ -8,14 +8,13 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.models.building import whole_number
-from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.python.expressions.elements import MOST
-from rebsync.reverse.python.expressions.operands import OperandReader, V
+from rebsync.reverse.python.expressions.operands import OperandReader
+from rebsync.reverse.python.expressions.values import STRING, WHOLE, Value
 from rebsync.reverse.syntax.py_tree import field, named, text_of
-from rebsync.static.types import INT
 
 
-def looked_up(reader: OperandReader[V], call: Node) -> V | None:
+def looked_up(reader: OperandReader, call: Node) -> Value | None:
     """`TABLE.get(key, otherwise)`; None for another call."""
     function, arguments = field(call, "function"), named(field(call, "arguments"))
     is_get = function.type == "attribute" and text_of(field(function, "attribute")) == "get"
@@ -31,17 +30,17 @@ def looked_up(reader: OperandReader[V], call: Node) -> V | None:
 _OTHERS = ("keyword_argument", "list_splat", "dictionary_splat")
 
 
-def pairs_of(reader: OperandReader[V], node: Node) -> Sequence[tuple[V, V]] | None:
+def pairs_of(reader: OperandReader, node: Node) -> Sequence[tuple[Value, Value]] | None:
     """The keys and values of a table, no key twice; None where nobody knows these."""
     if node.type != "dictionary":
         return reader.table(node)
     parts = [part for part in named(node) if part.type == "pair"]
     if len(parts) != len(named(node)) or not 0 < len(parts) <= MOST:
         return None
-    found: dict[m.Expression, tuple[V, V]] = {}
+    found: dict[m.Expression, tuple[Value, Value]] = {}
     for part in parts:
         key, value = reader.read(field(part, "key")), reader.read(field(part, "value"))
-        known = reader.shown(key)
+        known = key.expression
         is_known = whole_number(known) is not None or isinstance(known, m.StringLiteral)
         if not is_known or not reader.is_calm(value) or reader.may_fail(field(part, "value")):
             return None
@@ -50,11 +49,15 @@ def pairs_of(reader: OperandReader[V], node: Node) -> Sequence[tuple[V, V]] | No
 
 
 def selected(
-    reader: OperandReader[V], node: Node, asked: V, pairs: Sequence[tuple[V, V]], otherwise: V
-) -> V:
+    reader: OperandReader,
+    node: Node,
+    asked: Value,
+    pairs: Sequence[tuple[Value, Value]],
+    otherwise: Value,
+) -> Value:
     """The value of a key in a table, or another one if the table has no such key."""
-    if reader.kind(asked) not in (INT, TEXT) or not reader.is_calm(asked):
-        raise reader.refused(node, "what this looks for is to be a whole number in a variable")
+    if asked.kind not in (WHOLE, STRING) or not reader.is_calm(asked):
+        raise reader.unread(node, "what this looks for is to be a whole number in a variable")
     found = otherwise
     for number, (known, value) in reversed(list(enumerate(pairs))):
         is_it = reader.compared("==", asked, known, node, number)

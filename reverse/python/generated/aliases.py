@@ -12,13 +12,15 @@ from typing import Any
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.python.generated.member_places import name_around
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.python.generated.told_candidates import SET_UP
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
 
-_SET_UP = frozenset({"__init__", "_wire"})
 _STORES = frozenset({"assignment", "augmented_assignment", "named_expression"})
 _UNSAFE = SCOPES | {"augmented_assignment", "named_expression", "delete_statement"}
 _NO_ARRAY = frozenset(
@@ -81,7 +83,7 @@ def _is_put(code: PyCode, attribute: str) -> bool:
         if node.type == "string_content" and text_of(node) == attribute:
             return True  # as setattr names it
         is_it = node.type == "attribute" and text_of(field(node, "attribute")) == attribute
-        if is_it and _is_target(node) and _function_name(node) not in _SET_UP:
+        if is_it and _is_target(node) and name_around(node) not in SET_UP:
             return True
     return False
 
@@ -104,9 +106,7 @@ def _is_target(node: Node) -> bool:
 
 def _is_alias(node: Node, name: str) -> bool:
     """Whether a local is bound once, and else only its elements are looked at or stored."""
-    function = node.parent
-    while function is not None and function.type not in SCOPES:
-        function = function.parent
+    function = climb(node, lambda n: n.type in SCOPES)
     if function is None:
         return False
     uses = [n for n in nodes_in(function) if n.type == "identifier" and text_of(n) == name]
@@ -147,13 +147,6 @@ def _is_simple(assignment: Node) -> bool:
     is_one = left.type == "pattern_list" or left.type in ("identifier", "attribute", "subscript")
     is_alone = above is not None and above.type == "expression_statement"
     return is_one and is_alone and value is not None and value.type != "assignment"
-
-
-def _function_name(node: Node) -> str:
-    above = node.parent
-    while above is not None and above.type != "function_definition":
-        above = above.parent
-    return text_of(field(above, "name")) if above is not None else ""
 
 
 # --- reading twice ------------------------------------------------------------------------------

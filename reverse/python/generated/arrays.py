@@ -35,6 +35,6 @@ def _array(reader: ModelExpressionReader, node: Node) -> tuple[m.Expression, int
     plain = reader.locals.get(name) or reader.names.variables.get(name.removeprefix("self."))
     if not {plain} & (reader.types.keys() | reader.names.types.keys()):
         return None
-    read = reader.read(node)
+    read = reader.expression(node)
     type_ = type_of(reader, read)
     return None if type_ is None or len(type_.dimensions) != 1 else (read, type_.dimensions[0])

@@ -31,7 +31,7 @@ from rebsync.reverse.python.generated.helpers import (
     own_name,
     without_object,
 )
-from rebsync.reverse.python.generated.kinds import kind_of, literal_kind
+from rebsync.reverse.python.generated.kinds import literal_kind
 from rebsync.reverse.python.generated.named_constants import CodeConstants, NamedConstants
 from rebsync.reverse.python.generated.names import Filling, Helper, ModelNames
 from rebsync.reverse.python.generated.overloads import resolved
@@ -128,7 +128,6 @@ class ModelBodies:
             {**names.types, **own},
             names.results,
             self._passed_types(owner),
-            lambda e, types: kind_of(e, types.get, names.results),
             *(cuts.of, cuts.rounded, cuts.called, cuts.floored),
         )
         source = function.py.source

@@ -16,12 +16,12 @@ def value_of_call(
 ) -> m.Expression:
     """What a function of the body gives, which does nothing."""
     closure = reader.closures[called]
-    values = [reader.read(a) for a in arguments_of(reader, node, closure, arguments)]
+    values = [reader.expression(a) for a in arguments_of(reader, node, closure, arguments)]
     if not all(map(is_calm, values)):
         raise reader.unread(node, "this is evaluated once there, and not so often here")
     plain = [v if isinstance(v, m.Name | m.IntLiteral | m.Index) else m.Paren(v) for v in values]
-    with reader.standing_for([name for name, _ in closure.parameters], plain):
-        return idioms.grouped(node, reader.read(closure.body))
+    with reader.standing_for([name for name, _ in closure.parameters], [*map(reader.value, plain)]):
+        return idioms.grouped(node, reader.expression(closure.body))
 
 
 def arguments_of(

@@ -6,7 +6,6 @@ The model counts them in a loop, as its author would: `sum(1 for x in xs if x > 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import chain, count
 
 from tree_sitter import Node
 
@@ -49,7 +48,7 @@ def before(
     stands: dict[str, m.Expression] = {}
     for call in _calls(condition):
         if _counted(reader.expressions, call) is not None and text_of(call) not in stands:
-            name = _free(reader, ("number", "count"))
+            name = reader.free("number", "count", pattern="number{}")
             found += _loop(reader, call, name)
             stands[text_of(call)] = m.Name(reader.expressions.locals[name])
     return found, stands
@@ -94,13 +93,13 @@ def _counted(
 def _loop(reader: ModelStatementReader, call: Node, name: str) -> list[m.Statement]:
     expressions, span = reader.expressions, reader.expressions.py.span(call)
     elements, each, test = _counted(expressions, call) or ([], "", None)
-    index = reader.local(each) if each else _free(reader, ("i", "j", "k"))
+    index = reader.local(each) if each else reader.free("i", "j", "k", pattern="i{}")
     first = elements[0]
     assert isinstance(first, m.Index)
     element = m.Index(first.target, m.Name(index))
-    with expressions.standing_for([each] if each else [], [element] if each else []):
-        read = expressions.read(test) if test is not None else element
-        holds = expressions.truth(read, call)
+    value = expressions.value(element)
+    with expressions.standing_for([each] if each else [], [value] if each else []):
+        holds = expressions.truth(expressions.read(test) if test is not None else value, call)
     plain = reader.local(reader.without_number(name))
     expressions.locals[name] = plain
     expressions.types[plain] = m.Type("int")
@@ -116,10 +115,3 @@ def _loop(reader: ModelStatementReader, call: Node, name: str) -> list[m.Stateme
         begin, end, (step,), m.Block((m.If(holds, counted, None, span=span),)), span=span
     )
     return [m.Local(zero, span=span), rounds]
-
-
-def _free(reader: ModelStatementReader, names: tuple[str, ...]) -> str:
-    """A name that nothing else has in the body."""
-    taken = {*reader.expressions.locals.values(), *reader.expressions.names.types}
-    numbered = (f"{names[0]}{number}" for number in count(1))
-    return next(n for n in chain(names, numbered) if n not in taken)

@@ -13,7 +13,7 @@ from rebsync.intervals import INT32, INTEGERS, Interval
 from rebsync.records import dataclass
 
 _WIDTHS = {"int8": INTEGERS["byte"], "int16": INTEGERS["short"], "int32": INT32}
-_FUNCTIONS = {"/": "divide", "//": "divide", "%": "remainder"}
+FUNCTIONS = {"/": "divide", "//": "divide", "%": "remainder"}
 _OPERATIONS = frozenset({"divide", "remainder", "shift_left", "shift_right"})
 
 
@@ -93,4 +93,4 @@ class Cuts:
 
 def other_division(operator: str) -> str:
     """Why a division of Python is none of the model."""
-    return f'"{operator}" of Python is not the model\'s, which is {_FUNCTIONS[operator]}(a, b)'
+    return f'"{operator}" of Python is not the model\'s, which is {FUNCTIONS[operator]}(a, b)'

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from itertools import chain, count
 
 from tree_sitter import Node
 
@@ -32,7 +31,9 @@ def with_else(
         alternative = None
     if alternative is None or not leaves(field(node, "body")):
         return [*read(), *_behind(reader, alternative)]
-    flag = _free(reader)
+    own = reader.expressions
+    taken = {*own.locals, *own.types, *reader.types}
+    flag = reader.free("broke", pattern="broke{}", first=2, taken=taken)
     reader.expressions.locals[f"else of {node.start_byte}"] = flag
     reader.expressions.types[flag] = m.Type("boolean")
     ended = m.ExpressionStatement(m.Assign("=", m.Name(flag), m.BoolLiteral(True)))
@@ -101,14 +102,6 @@ def leaves(node: Node, jump: str = "break_statement") -> bool:
 def _leaves_behind(loop: Node, jump: str) -> bool:
     alternative = loop.child_by_field_name("alternative")
     return alternative is not None and leaves(alternative, jump)
-
-
-def _free(reader: ModelStatementReader) -> str:
-    """A name that no variable has."""
-    own = reader.expressions
-    taken = {*own.locals, *own.locals.values(), *own.names.types, *own.types, *reader.types}
-    numbered = (f"broke{number}" for number in count(2))
-    return next(n for n in chain(("broke",), numbered) if n not in taken)
 
 
 def _first(reader: ModelStatementReader, node: Node) -> m.Expression | None:

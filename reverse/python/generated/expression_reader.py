@@ -14,17 +14,19 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.expressions.operands import OperandReader
+from rebsync.reverse.python.expressions.values import OTHER, Value
 from rebsync.reverse.python.generated.cuts import Cuts
 from rebsync.reverse.python.generated.kinds import kind_of
 from rebsync.reverse.python.generated.names import Closure, ModelNames
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
+from rebsync.static.types import BOOLEAN, DOUBLE, INT
 
 _ASKING = frozenset({"bool", "boolean", "to_boolean", "assertion", "any", "all"})
 
 
 @dataclass(eq=False, slots=True)
-class ModelExpressionReader(OperandReader[m.Expression]):
+class ModelExpressionReader(OperandReader):
     """Reads the expressions of one body; `locals` are its variables by their names in Python.
 
     `types` are those of the locals, by their names in the model; `bound` names that stand for an
@@ -53,31 +55,35 @@ class ModelExpressionReader(OperandReader[m.Expression]):
     def unread(self, node: Node, why: str) -> Unread:
         return Unread(self.py.span(node), why)
 
-    def refused(self, node: Node, why: str) -> Unread:
-        return self.unread(node, why)
-
     def span(self, node: Node) -> Span:
         return self.py.span(node)
 
     def hides(self, comprehension: Node) -> bool:
         return True
 
-    def made(self, expression: m.Expression, type_: m.Type) -> m.Expression:
-        return expression
+    def value(self, expression: m.Expression) -> Value:
+        """An expression with its kind."""
+        kind = self.kind(expression)
+        return Value(expression, kind.name if kind in (INT, DOUBLE, BOOLEAN) else OTHER)
 
-    def shown(self, value: m.Expression) -> m.Expression:
-        return value
+    def read(self, node: Node) -> Value:
+        return self.value(self.expression(node))
 
-    def kind(self, value: m.Expression) -> m.Type | None:
+    @abstractmethod
+    def expression(self, node: Node) -> m.Expression:
+        """An expression. Unread: the model has none for it."""
+
+    def kind(self, expression: m.Expression) -> m.Type | None:
+        """The widest type of the kind of an expression, if it can be told."""
         return kind_of(
-            value, lambda n: self.types.get(n, self.names.types.get(n)), self.names.results
+            expression, lambda n: self.types.get(n, self.names.types.get(n)), self.names.results
         )
 
     @contextmanager
-    def standing_for(self, names: Sequence[str], values: Sequence[m.Expression]) -> Iterator[None]:
+    def standing_for(self, names: Sequence[str], values: Sequence[Value]) -> Iterator[None]:
         """Lets names stand for expressions meanwhile."""
         outer = dict(self.bound)
-        self.bound.update(zip(names, values, strict=True))
+        self.bound.update(zip(names, (v.expression for v in values), strict=True))
         try:
             yield
         finally:

@@ -14,6 +14,7 @@ from rebsync.reverse.models.building import binary, chosen, located
 from rebsync.reverse.python.expressions import functions
 from rebsync.reverse.python.expressions.conditions import comparison, connected, signs_of
 from rebsync.reverse.python.expressions.tables import looked_up, pairs_of
+from rebsync.reverse.python.expressions.values import WHOLE, Value
 from rebsync.reverse.python.generated import arrays, closures, formats, idioms, places, tuples
 from rebsync.reverse.python.generated.decorators import is_cast
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
@@ -29,25 +30,10 @@ from rebsync.reverse.python.generated.py_types import (
 )
 from rebsync.reverse.python.generated.sends import of_mailbox, sent
 from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of, whole_number_of
-from rebsync.static.types import INT
+from rebsync.static.types import PRIMITIVES
 from rebsync.terminal import with_escapes
 
-_CASTS = {
-    "to_byte": "byte",
-    "to_short": "short",
-    "to_int": "int",
-    "to_float": "float",
-    "to_double": "double",
-    "to_boolean": "boolean",
-}
-_OPERATIONS = {
-    "divide": "/",
-    "quotient": "/",
-    "remainder": "%",
-    "modulus": "%",
-    "shift_left": "<<",
-    "shift_right": ">>",
-}
+_CASTS = {f"to_{name}": type_ for name, type_ in PRIMITIVES.items()}
 _LEVELS = {"|": 6, "^": 7, "&": 8, "<<": 9, ">>": 9, "+": 10, "-": 10}
 _LEVELS |= dict.fromkeys(("*", "/", "%", "//"), 11)
 _NOT, _COMPARISON, _PRODUCT, _UNARY = 4, 5, 11, 12
@@ -57,7 +43,7 @@ _NOT, _COMPARISON, _PRODUCT, _UNARY = 4, 5, 11, 12
 class Expressions(ModelExpressionReader):
     """Reads the expressions of one body."""
 
-    def read(self, node: Node) -> m.Expression:
+    def expression(self, node: Node) -> m.Expression:
         """An expression. Unread: the model has none for it."""
         span = self.py.span(node)
         match node.type:
@@ -78,7 +64,7 @@ class Expressions(ModelExpressionReader):
             case "subscript":
                 return self._element(node)
             case "parenthesized_expression" if only_breaks_lines(node):
-                return self.read(named(node)[0])
+                return self.expression(named(node)[0])
             case "parenthesized_expression":
                 return self._in_parentheses(node)
             case "call":
@@ -103,7 +89,7 @@ class Expressions(ModelExpressionReader):
                 operator = text_of(field(node, "operator"))
                 return m.Unary(operator, self._operand(field(node, "argument"), _UNARY), span)
             case "boolean_operator":
-                return connected(self, node)
+                return connected(self, node).expression
             case "binary_operator":
                 operator = text_of(field(node, "operator"))
                 level = _LEVELS.get(operator)
@@ -121,7 +107,7 @@ class Expressions(ModelExpressionReader):
                 return self._comparison(node)
             case "conditional_expression":
                 then, condition, otherwise = named(node)
-                parts = self.condition(condition), self.read(then), self.read(otherwise)
+                parts = self.condition(condition), self.expression(then), self.expression(otherwise)
                 return m.Conditional(*parts, span)
             case "named_expression":
                 target = self._name(field(node, "name"))
@@ -152,44 +138,49 @@ class Expressions(ModelExpressionReader):
                 core = named(core)[0]
             level = {"not_operator": _NOT, "comparison_operator": _COMPARISON}.get(core.type)
             if level is not None and level < least:
-                return self.read(named(node)[0])
+                return self.expression(named(node)[0])
             return self._in_parentheses(node)
-        return self.read(node)
+        return self.expression(node)
 
     def _in_parentheses(self, node: Node) -> m.Expression:
         inner = named(node)[0]
         if inner.type == "named_expression":
-            return self.read(inner)
-        return m.Paren(self.read(inner), self.py.span(node))
+            return self.expression(inner)
+        return m.Paren(self.expression(inner), self.py.span(node))
 
     # --- what the rules of Python ask -----------------------------------------------------------
 
-    def truth(self, value: m.Expression, node: Node) -> m.Expression:
+    def truth(self, value: Value, node: Node) -> m.Expression:
         """What an integer says as a condition."""
-        return binary("!=", value, m.IntLiteral(0)) if self.kind(value) == INT else value
+        if value.kind != WHOLE:
+            return value.expression
+        return binary("!=", value.expression, m.IntLiteral(0))
 
     def compared(
-        self, sign: str, left: m.Expression, right: m.Expression, node: Node, number: int
+        self, sign: str, left: Value, right: Value, node: Node, number: int
     ) -> m.Expression:
-        idioms.assert_alike(self, node, sign, (left, right))
-        return binary("!=" if sign == "<>" else sign, left, right, self.span(node))
+        sides = left.expression, right.expression
+        idioms.assert_alike(self, node, sign, sides)
+        return binary("!=" if sign == "<>" else sign, *sides, self.span(node))
 
-    def operation(
-        self, operator: str, left: m.Expression, right: m.Expression, node: Node
-    ) -> m.Expression:
-        return binary(operator, left, right)
+    def operation(self, operator: str, left: Value, right: Value, node: Node) -> Value:
+        return self.value(binary(operator, left.expression, right.expression))
 
-    def joined(
-        self, asked: m.Expression, one: m.Expression, other: m.Expression, node: Node
-    ) -> m.Expression:
-        return chosen(asked, one, other)
+    def joined(self, asked: m.Expression, one: Value, other: Value, node: Node) -> Value:
+        return self.value(chosen(asked, one.expression, other.expression))
 
-    def container(self, node: Node, ordered: bool) -> list[m.Expression] | None:
-        return arrays.array_elements(self, node)
+    def container(self, node: Node, ordered: bool) -> list[Value] | None:
+        found = arrays.array_elements(self, node)
+        return None if found is None else [*map(self.value, found)]
 
-    def table(self, node: Node) -> Sequence[tuple[m.Expression, m.Expression]] | None:
+    def table(self, node: Node) -> Sequence[tuple[Value, Value]] | None:
         table = self.kept_tables.get(text_of(node))
         return pairs_of(self, table) if table is not None else None
+
+    def dotted(self, node: Node) -> Value:
+        if (constant := self.names.constants.get(text_of(node))) is None:
+            raise self.unread(node, "the model has no such case")
+        return self.value(located(constant, self.span(node)))
 
     def library(self, function: Node) -> str:
         holder, _, name = text_of(function).rpartition(".")
@@ -214,7 +205,7 @@ class Expressions(ModelExpressionReader):
         if text in self.bound:
             return self.bound[text]
         if text in self.kept:
-            return self.read(self.kept[text])
+            return self.expression(self.kept[text])
         if text not in self.locals:
             if (constant := self.names.constants.get(text)) is None:
                 raise self.unread(node, f'the model has no variable "{text}"')
@@ -240,7 +231,7 @@ class Expressions(ModelExpressionReader):
     def _element(self, node: Node) -> m.Expression:
         if (constant := self.names.constants.get(text_of(node))) is not None:
             return located(constant, self.py.span(node))
-        target = self.read(field(node, "value"))
+        target = self.expression(field(node, "value"))
         return m.Index(target, self.index(field(node, "subscript")), self.py.span(node))
 
     def index(self, node: Node) -> m.Expression:
@@ -249,8 +240,8 @@ class Expressions(ModelExpressionReader):
             return self.index(self.kept[text_of(node)])
         called, arguments = call_parts(node) or ("", [])
         if called.endswith(".at") and called.removesuffix(".at") in self.kept:
-            return self.read(arguments[0])
-        return self.read(node)
+            return self.expression(arguments[0])
+        return self.expression(node)
 
     # --- assignments ----------------------------------------------------------------------------
 
@@ -266,7 +257,7 @@ class Expressions(ModelExpressionReader):
                 updated = m.Postfix(updated.operator, target)
             changed = replace(updated, span=span)
             return self.cuts.converted(called.partition(".")[0], changed, update=True)
-        read = self.read(value)
+        read = self.expression(value)
         idioms.check_copied(self, value, read)
         if called in formats.NARROW and not formats.is_kept(self, target, called):
             read = located(formats.cast(called, read), self.py.span(value))
@@ -289,11 +280,7 @@ class Expressions(ModelExpressionReader):
         if called in formats.FORMATS and len(arguments) == 1:
             return self._converted(called, arguments[0])
         if called in _CASTS and len(arguments) == 1:
-            return m.Cast(m.Type(_CASTS[called]), self.read(arguments[0]), self.py.span(node))
-        if called in _OPERATIONS and len(arguments) == 2:
-            left, right = map(self.read, arguments)
-            made = binary(_OPERATIONS[called], left, right, self.py.span(node))
-            return self.cuts.operated(called, made)
+            return m.Cast(_CASTS[called], self.expression(arguments[0]), self.py.span(node))
         if (operated := formats.operation(self, node, called, arguments)) is not None:
             return operated
         if called.startswith((f"{self.own}.", "super().")):
@@ -308,7 +295,7 @@ class Expressions(ModelExpressionReader):
         if node.type == "float" and called in ("float32", "float64"):
             suffix = "d" if called == "float64" else ""
             return m.FloatLiteral(f"{text_of(node)}{suffix}", self.py.span(node))
-        read = self.read(node)
+        read = self.expression(node)
         call = node.parent.parent if node.parent is not None else None
         if called in formats.NARROW and call is not None and idioms.is_within(call):
             cast = formats.cast(called, read)  # the model narrows only what it stores
@@ -319,16 +306,16 @@ class Expressions(ModelExpressionReader):
         span = self.py.span(node)
         match called, len(arguments):
             case "power", 2:
-                return m.Call(None, "pow", tuple(map(self.read, arguments)), span=span)
+                return m.Call(None, "pow", tuple(map(self.expression, arguments)), span=span)
             case "square_root", 1:
-                return m.Call(None, "sqrt", (self.read(arguments[0]),), span=span)
+                return m.Call(None, "sqrt", (self.expression(arguments[0]),), span=span)
             case "copied", 1:
-                return self.read(arguments[0])
+                return self.expression(arguments[0])
             case "copy.deepcopy", 1 if self._is_of_library("copy"):
-                return self.read(arguments[0])
+                return self.expression(arguments[0])
             case "to_rebec", 2:
                 type_ = m.Type(original(string_value(arguments[0]) or ""))
-                return m.Cast(type_, self.read(arguments[1]), span)
+                return m.Cast(type_, self.expression(arguments[1]), span)
             case "put", 3:
                 name = string_value(arguments[1]) or ""
                 variable = self.names.variables.get(name)
@@ -354,15 +341,15 @@ class Expressions(ModelExpressionReader):
         if (stands := self.bound.get(text_of(node))) is not None:
             return stands
         if len(arguments) == 2 and is_cast(self.names.constants.module, called):
-            return self.read(arguments[1])
+            return self.expression(arguments[1])
         if len(arguments) == 1 and is_new_type(self.names.constants.module, called):
-            return self.read(arguments[0])
+            return self.expression(arguments[0])
         if arrays.is_length(self, called, arguments):
             raise self.unread(node, arrays.NO_LENGTH.format(called))
         found = functions.called(self, node) or looked_up(self, node)
         if found is None:
             raise self.unread(node, f'the model has no function "{called}"')
-        return located(idioms.grouped(node, found), self.py.span(node))
+        return located(idioms.grouped(node, found.expression), self.py.span(node))
 
     def _own_call(self, node: Node, called: str, arguments: list[Node]) -> m.Expression:
         if called.startswith("self._mailbox."):
@@ -380,7 +367,7 @@ class Expressions(ModelExpressionReader):
             raise self.unread(node, "this serves a message at once; the model only sends them")
         target = m.Super(span) if holder == "super()" else None
         arguments = idioms.in_order(self, node, arguments, self.names.parameters.get(name, ()))
-        given = tuple(map(self.read, arguments))
+        given = tuple(map(self.expression, arguments))
         return self.cuts.passing(m.Call(target, function, given, span=span), name)
 
 

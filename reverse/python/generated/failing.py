@@ -76,14 +76,14 @@ def failing(expressions: ModelExpressionReader, node: Node) -> Iterator[m.Statem
         yield from _guarded(expressions, left, *((right, None) if is_and else (None, right)))
         return
     if _is_method(expressions, node):
-        yield m.ExpressionStatement(expressions.read(node), span=expressions.py.span(node))
+        yield m.ExpressionStatement(expressions.expression(node), span=expressions.py.span(node))
         return
     for child in node.named_children:
         yield from failing(expressions, child)
     if (by := _divisor(node)) is not None:
         yield _divided(expressions, by)
     elif _is_element(expressions, node):
-        yield m.ExpressionStatement(expressions.read(node), span=expressions.py.span(node))
+        yield m.ExpressionStatement(expressions.expression(node), span=expressions.py.span(node))
 
 
 def unmodelled(
@@ -120,7 +120,7 @@ def _guarded(
 
 def _divided(expressions: ModelExpressionReader, divisor: Node) -> m.Statement:
     """A division by what the code divides by."""
-    read, span = expressions.read(divisor), expressions.py.span(divisor)
+    read, span = expressions.expression(divisor), expressions.py.span(divisor)
     match expressions.kind(read):
         case m.Type("int", ()):
             return m.ExpressionStatement(
@@ -163,7 +163,7 @@ def _is_element(expressions: ModelExpressionReader, node: Node) -> bool:
     if node.type != "subscript" or field(node, "subscript").type == "integer":
         return False
     try:
-        held = expressions.read(field(node, "value"))
+        held = expressions.expression(field(node, "value"))
     except Unread:
         return False
     type_ = idioms.type_of(expressions, held)

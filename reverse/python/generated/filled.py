@@ -149,7 +149,7 @@ def _value(reader: ModelExpressionReader, node: Node, around: str) -> m.Expressi
     """A value of a field, in what a generated function puts around it."""
     called, arguments = call_parts(node) or ("", [])
     if around and called == around and len(arguments) == 1:
-        return reader.read(arguments[0])
+        return reader.expression(arguments[0])
     if around:
         raise reader.unread(node, f"this is to be {around}(...)")
-    return reader.read(node)
+    return reader.expression(node)

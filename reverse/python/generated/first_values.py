@@ -33,7 +33,7 @@ def stores(
     """
     given: set[str] = set()
     for attribute, value, function in values:
-        read = reader.read(value)
+        read = reader.expression(value)
         if attribute in given or not is_default(read):
             span = function.py.span(value)
             if function.name != "__init__":

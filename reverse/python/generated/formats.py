@@ -31,6 +31,9 @@ _UPDATES = {
     "any_of": "|",
     "one_of": "^",
 }
+# Those of whole numbers and numbers with a point alike, without a format.
+_ALONE = {name: _UPDATES[name] for name in ("divide", "remainder", "shift_left", "shift_right")}
+_ALONE |= {"quotient": "/", "modulus": "%"}
 
 
 def updated(
@@ -38,24 +41,32 @@ def updated(
 ) -> m.Unary | m.Assign | None:
     """`x = int32.add(x, 1)` as `++x` or `x += e`; None for another value of the target `x`."""
     operator = _operator(called, arguments)
-    holder = called.partition(".")[0]
-    if not operator or reader.read(arguments[0]) != target or not is_kept(reader, target, holder):
+    holder = called.rpartition(".")[0]
+    if (
+        not (holder and operator)
+        or reader.expression(arguments[0]) != target
+        or not is_kept(reader, target, holder)
+    ):
         return None
     if operator in "+-" and text_of(arguments[1]) == "1":
         return m.Unary(operator * 2, target)
-    return m.Assign(f"{operator}=", target, reader.read(arguments[1]))
+    return m.Assign(f"{operator}=", target, reader.expression(arguments[1]))
 
 
 def operation(
     reader: ModelExpressionReader, node: Node, called: str, arguments: list[Node]
 ) -> m.Expression | None:
-    """`int32.add(a, b)` as `a + b`, cut where the model would not; None for another call."""
+    """`divide(a, b)` as `a / b`; `int32.add(a, b)` as `a + b`, cut where the model would not; None
+    for another call.
+    """
     operator = _operator(called, arguments)
     if not operator:
         return None
-    left, right = map(reader.read, arguments)
+    left, right = map(reader.expression, arguments)
     made = binary(operator, left, right, reader.py.span(node))
-    holder = called.partition(".")[0]
+    holder = called.rpartition(".")[0]
+    if not holder:
+        return reader.cuts.operated(called, made)
     if holder in NARROW:
         return cast(holder, made)
     return idioms.grouped(node, reader.cuts.converted(holder, made, update=True))
@@ -63,8 +74,8 @@ def operation(
 
 def _operator(called: str, arguments: list[Node]) -> str:
     holder, _, method = called.partition(".")
-    is_update = holder in FORMATS and len(arguments) == 2
-    return _UPDATES.get(method, "") if is_update else ""
+    table = _ALONE if not method else _UPDATES if holder in FORMATS else {}
+    return table.get(method or holder, "") if len(arguments) == 2 else ""
 
 
 def is_kept(reader: ModelExpressionReader, target: m.Expression, called: str) -> bool:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Literal
 from tree_sitter import Node
 
 from rebsync.reverse.python.generated.py_types import call_parts
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 if TYPE_CHECKING:
@@ -26,10 +27,8 @@ def goes_on(reader: ModelStatementReader, node: Node, after: Sequence[Node]) -> 
     is_last = bool(after) and after[0].type == "break_statement"
     if not is_last or not reader.cases or _called(node) != f"{reader.cases[-1]}.go_on":
         return False
-    at: Node | None = node
-    while at is not None and not _is_switch(at, reader.cases[-1]):
-        at = at.parent
-    behind = _beside(at, "next_named_sibling")
+    switch = climb(node, lambda at: _is_switch(at, reader.cases[-1]))
+    behind = _beside(switch, "next_named_sibling")
     if behind is None or _asked(behind) != reader.cases[-1]:
         raise reader.expressions.unread(node, "behind its switch, nothing goes on with the loop")
     return True

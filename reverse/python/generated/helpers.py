@@ -43,7 +43,7 @@ def arguments_for(
     given = in_order(reader, node, arguments, names)
     if len(given) != len(names) or any(a.type == "list_splat" for a in given):
         raise reader.unread(node, f'"{helper.name}" is called with other arguments')
-    return tuple(map(reader.read, given))
+    return tuple(map(reader.expression, given))
 
 
 def first_of(function: Scope) -> int:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own, written
-from rebsync.reverse.models.building import located
-from rebsync.reverse.python.generated.cuts import other_division
+from rebsync.reverse.python.generated.cuts import FUNCTIONS, other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
 from rebsync.reverse.python.generated.moments import is_moment, named_moment
@@ -26,7 +23,6 @@ _AROUND = frozenset(
 )
 _CALM = frozenset({"abs", "min", "max", "bool", "int8", "int16", "int32", "divide", "remainder"})
 _GROWING = frozenset({"+", "-", "*", "<<", ">>", "&", "|", "^"})
-_WHOLE = {"//": "divide", "/": "divide", "%": "remainder"}
 _CHANGES = "how often this is done may change: say it with numbers or locals"
 
 
@@ -90,7 +86,7 @@ def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Bina
 def kind_at(reader: ModelExpressionReader, node: Node) -> m.Type | None:
     """The kind of what is still to be read, as the types of locals are told."""
     divided = dict(reader.cuts.floored)
-    found = reader.kind(reader.read(node))
+    found = reader.kind(reader.expression(node))
     reader.cuts.floored.clear()
     reader.cuts.floored.update(divided)
     return found
@@ -173,7 +169,7 @@ def times(reader: ModelExpressionReader, node: Node) -> dict[str, m.Expression]:
         said[text_of(field(each, "name")) if is_named else name] = value
     if "deadline" in said and text_of(said["deadline"]) == "None":
         del said["deadline"]
-    return {name: reader.read(value) for name, value in said.items()}
+    return {name: reader.expression(value) for name, value in said.items()}
 
 
 # --- statements ---------------------------------------------------------------------------------
@@ -182,11 +178,11 @@ def times(reader: ModelExpressionReader, node: Node) -> dict[str, m.Expression]:
 def augmented(reader: ModelExpressionReader, node: Node) -> m.Expression:
     """`x += e`. Unread: the model has no such operator, or Python means another one."""
     operator = text_of(field(node, "operator")).removesuffix("=")
-    target = reader.read(field(node, "left"))
-    value = reader.read(field(node, "right"))
+    target = reader.expression(field(node, "left"))
+    value = reader.expression(field(node, "right"))
     kinds = reader.kind(target), reader.kind(value)
-    if operator in _WHOLE and not (operator == "/" and is_floating(kinds[0])):
-        right = f"x = {_WHOLE[operator]}(x, e)"
+    if operator in FUNCTIONS and not (operator == "/" and is_floating(kinds[0])):
+        right = f"x = {FUNCTIONS[operator]}(x, e)"
         raise reader.unread(node, f'"{operator}=" of Python is not the model\'s, which is {right}')
     if operator not in _GROWING and operator != "/":
         raise reader.unread(node, f'the model has no operator "{operator}="')
@@ -209,32 +205,7 @@ def names_in(node: Node) -> set[str]:
     return {name for each in named(node) for name in names_in(each)}
 
 
-def cases(
-    reader: ModelExpressionReader, node: Node
-) -> Iterator[tuple[list[m.Expression], tuple[str, Node | None], Node]]:
-    """The values of each case of a `match` (none: all others), its guard, and the block of it.
-
-    With the guard comes the name that the case gives the value, if it does.
-    """
-    subjects = [c for c in named(node) if c.type not in ("block", "case_clause")]
-    if len(subjects) != 1 or not is_plain(subjects[0]):
-        raise reader.unread(node, "what this compares more than once is to be in a variable first")
-    for clause in named(field(node, "body")):
-        patterns = [c for c in named(clause) if c.type == "case_pattern"]
-        guard, block = clause.child_by_field_name("guard"), field(clause, "consequence")
-        if len(patterns) != 1:
-            raise reader.unread(clause, "the model has no such case")
-        test = named(guard)[0] if guard is not None else None
-        name = text_of(patterns[0])
-        if test is None or not name.isidentifier() or name in ("_", "True", "False", "None"):
-            yield list(_values(reader, patterns[0])), ("", test), block
-        elif _lasts(reader, subjects[0], name, block):
-            yield [], (name, test), block
-        else:
-            raise reader.unread(clause, "this name is not that of what is compared all the time")
-
-
-def _lasts(reader: ModelExpressionReader, subject: Node, name: str, block: Node) -> bool:
+def lasts(reader: ModelExpressionReader, subject: Node, name: str, block: Node) -> bool:
     """Whether a name has the value of a local throughout a block, and is no other's."""
     stored = stored_in(block)
     is_free = name not in reader.locals and name not in reader.names.constants
@@ -243,33 +214,12 @@ def _lasts(reader: ModelExpressionReader, subject: Node, name: str, block: Node)
     return is_free and subject.type == "identifier" and not stored & {name, text_of(subject)}
 
 
-def _values(reader: ModelExpressionReader, pattern: Node) -> Iterator[m.Expression]:
-    inner = named(pattern)
-    if not inner and text_of(pattern) == "_":
-        return
-    of = inner[0] if len(inner) == 1 and inner[0].type == "union_pattern" else pattern
-    is_below = False
-    for each in of.children:
-        text = text_of(each)
-        if text == "-":  # it stands beside the number
-            is_below = True
-            continue
-        if "." in text and (constant := reader.names.constants.get(text)) is not None:
-            yield located(constant, reader.py.span(of))
-        elif each.type == "integer":
-            read = reader.read(each)
-            yield m.Unary("-", read, reader.py.span(of)) if is_below else read
-        elif text != "|":
-            raise reader.unread(pattern, "the model has no such case")
-        is_below = False
-
-
 def rounds(
     reader: ModelExpressionReader, node: Node
 ) -> tuple[m.Expression, m.Expression, m.Expression]:
     """Start, end and step of `range(...)`."""
     arguments = named(field(field(node, "right"), "arguments"))
-    read = [reader.read(a) for a in arguments]
+    read = [reader.expression(a) for a in arguments]
     if not 1 <= len(read) <= 3 or any(reader.kind(each) != INT for each in read):
         raise reader.unread(node, _CHANGES)
     start = read[0] if len(read) > 1 else m.IntLiteral(0)

@@ -6,8 +6,6 @@ locals, or stand for the arguments where it only gives a value.
 
 from __future__ import annotations
 
-from itertools import count
-
 from tree_sitter import Node
 
 from rebsync import model as m
@@ -178,13 +176,11 @@ def _local(
     """The local that a parameter is."""
     name, said = parameter
     own = reader.expressions
-    read = own.read(argument)
+    read = own.expression(argument)
     type_ = said if said is not None else own.kind(read)
     if type_ is None or type_.dimensions:
         raise own.unread(argument, f'say the type of "{name}"')
-    taken = {*own.locals.values(), *own.names.types, *own.types}
-    free = next(n for i in count(1) if (n := name if i == 1 else f"{name}_{i}") not in taken)
-    plain = reader.local(free)
+    plain = reader.local(reader.free(name, pattern=f"{name}_{{}}", first=2, taken=own.types))
     own.types[plain] = type_
     span = own.py.span(argument)
     declaration = m.Declaration(type_, (m.Declarator(plain, read, span),), span=span)

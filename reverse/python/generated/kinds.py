@@ -14,7 +14,8 @@ from rebsync.reverse.analysis.intervals.writes import is_own, own, variable_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.source import NOWHERE, Span
 
-_INT, _DOUBLE, _BOOLEAN = m.Type("int"), m.Type("double"), m.Type("boolean")
+_INT, _FLOAT, _DOUBLE, _BOOLEAN = map(m.Type, ("int", "float", "double", "boolean"))
+_REALS = _DOUBLE, _FLOAT  # one of which makes the other numbers of an operation one
 _INTEGERS = frozenset({"byte", "short", "int"})
 _FLOATING = frozenset({"float", "double"})
 _TIMES = frozenset({"now", *(f"currentMessage{n}" for n in ("Arrival", "Deadline", "WaitingTime"))})
@@ -24,85 +25,59 @@ _MADE = dict.fromkeys(("int8", "int16", "int32", "divide", "remainder", "abs", "
 _MADE |= {"bool": _BOOLEAN, "any": _BOOLEAN, "all": _BOOLEAN, "float64": _DOUBLE}
 
 Known: TypeAlias = Callable[[str], "m.Type | None"]
-TypeOf: TypeAlias = Callable[[m.Expression], "m.Type | None"]
 
 
 def kind_of(expression: m.Expression, known: Known, results: Mapping[str, m.Type]) -> m.Type | None:
     """The widest type of the kind of an expression's value; None where it cannot be told.
 
+    A variable of Python holds any integer and numbers of 64 bits, so that it is an `int` or a
+    `double` whatever is stored in it.
+    """
+    return _widest(type_of(expression, known, results))
+
+
+def type_of(expression: m.Expression, known: Known, results: Mapping[str, m.Type]) -> m.Type | None:
+    """The type in which the model computes an expression; None where it cannot be told.
+
     `known` tells those of variables, by `self.x` of those that others hide, `results` those of
-    functions. A variable of Python holds any integer and numbers of 64 bits, so that it is an `int`
-    or a `double` whatever is stored in it.
+    functions.
     """
 
     def of(inner: m.Expression) -> m.Type | None:
-        return kind_of(inner, known, results)
+        return type_of(inner, known, results)
 
     match expression:
         case m.IntLiteral():
             return _INT
-        case m.FloatLiteral():
-            return _DOUBLE
+        case m.FloatLiteral(text):
+            return _DOUBLE if text[-1] in "dD" else _FLOAT
         case m.BoolLiteral() | m.Unary("!") | m.InstanceOf():
             return _BOOLEAN
-        case m.Paren(inner) | m.Unary(_, inner) | m.Postfix(_, inner):
+        case m.Paren(inner) | m.Unary(_, inner) | m.Postfix(_, inner) | m.Assign(_, inner):
             return of(inner)
         case m.Name(name) if name in _TIMES and known(name) is None:
             return _INT
         case m.Name(name):
-            return _widest(known(name))
+            return known(name)
         case m.Member(m.Self(), name):
-            return _widest(known(own(name)))
+            return known(own(name))
         case m.Index(target):
             return _element(target, known)
         case m.Cast(type_):
-            return _widest(type_)
+            return type_
         case m.Call(None, "pow" | "sqrt" as name) if name not in results:
             return _DOUBLE
         case m.Call(None, name):
-            return _widest(results.get(name))
-        case m.Conditional(_, then, otherwise):
-            return _joined(of(then), of(otherwise))
+            return results.get(name)
         case m.Choice(options):
             return reduce(_joined, map(of, options))
-        case m.Binary(operator, left, right):
-            kinds = of(left), of(right)
-            is_real = operator not in _TESTS and _DOUBLE in kinds
-            return _BOOLEAN if operator in _TESTS else _DOUBLE if is_real else _joined(*kinds)
-        case _:
-            return None
-
-
-def real_type(
-    expression: m.Expression, type_of: TypeOf, results: Mapping[str, m.Type]
-) -> str | None:
-    """Whether the model computes an expression as `float` or `double`; None for other numbers.
-
-    `type_of` tells the types of variables and their elements.
-    """
-
-    def of(inner: m.Expression) -> str | None:
-        return real_type(inner, type_of, results)
-
-    match expression:
-        case m.Paren(inner) | m.Unary(_, inner) | m.Assign(_, inner) | m.Postfix(_, inner):
-            return of(inner)
-        case m.FloatLiteral(text):
-            return "double" if text[-1] in "dD" else "float"
-        case m.Cast(type_):
-            return type_.name if type_.name in _FLOATING else None
         case m.Binary(operator) if operator in _TESTS:
-            return None
+            return _BOOLEAN
         case m.Conditional(_, one, other) | m.Binary(_, one, other):
-            types = {of(one), of(other)}
-            return "double" if "double" in types else "float" if "float" in types else None
-        case m.Call(None, "pow" | "sqrt" as name) if name not in results:
-            return "double"
-        case m.Call(None, name):
-            found = results.get(name)
+            types = of(one), of(other)
+            return next((real for real in _REALS if real in types), _joined(*types))
         case _:
-            found = type_of(expression)
-    return found.name if found is not None and found.name in _FLOATING else None
+            return None
 
 
 def float_literal(text: str, span: Span = NOWHERE) -> m.FloatLiteral:
@@ -157,7 +132,7 @@ def _element(target: m.Expression, known: Known) -> m.Type | None:
     type_ = known(own(name) if is_own(target) else name)
     if type_ is None or len(type_.dimensions) != depth:
         return None
-    return _widest(m.Type(type_.name))
+    return m.Type(type_.name)
 
 
 def is_kind(type_: m.Type, kind: m.Type | None) -> bool:
@@ -175,6 +150,8 @@ def _widest(type_: m.Type | None) -> m.Type | None:
 
 
 def _joined(left: m.Type | None, right: m.Type | None) -> m.Type | None:
-    if left == right or None in (left, right):
-        return left if left == right else None
-    return _DOUBLE if {left, right} == {_INT, _DOUBLE} else None
+    """The type of what is one of two."""
+    one, other = _widest(left), _widest(right)
+    if left == right or one == other:
+        return left if left == right else one
+    return _DOUBLE if {one, other} == {_INT, _DOUBLE} else None

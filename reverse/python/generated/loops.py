@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from itertools import chain, count
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.models.building import binary, selected
-from rebsync.reverse.python.expressions.elements import rows
+from rebsync.reverse.python.expressions.elements import known_range, rows
+from rebsync.reverse.python.expressions.patterns import asked, cases
 from rebsync.reverse.python.generated import endings, idioms
 from rebsync.reverse.python.generated.arrays import NO_LENGTH, array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.py_types import call_parts, markers_above
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _STEP = "step"
 
@@ -106,7 +106,7 @@ def numbered(
 
 def _listed(reader: ModelStatementReader, node: Node, name: str, values: list[Node]) -> m.For:
     """A loop over numbers, each in its turn."""
-    read = [reader.expressions.read(v) for v in values]
+    read = [reader.expressions.expression(v) for v in values]
     kinds = {reader.expressions.kind(e) for e in read}
     if len(kinds) != 1 or not all(idioms.is_literal(reader.expressions, v) for v in values):
         raise reader.expressions.unread(node, "the model has no such loop")
@@ -127,7 +127,7 @@ def _unrolled(reader: ModelStatementReader, node: Node, names: list[str]) -> m.B
         raise expressions.unread(node, "the model has no such loop")
     statements: list[m.Statement] = []
     for values in rows(expressions, field(node, "right"), len(names)):
-        if not all(_is_steady(expressions, v) for v in values):
+        if not all(_is_steady(expressions, v.expression) for v in values):
             raise expressions.unread(node, "the model has no such loop")
         with expressions.standing_for(names, values):
             statements.append(reader.suite(body))
@@ -147,15 +147,13 @@ def _backwards(reader: ModelStatementReader, node: Node, name: str, inner: Node)
         if array_elements(reader.expressions, inner) is not None:
             raise reader.expressions.unread(node, NO_LENGTH.format("reversed"))
         raise reader.expressions.unread(node, "the model has no such loop")
-    ends = [n for n in map(whole_number_of, arguments) if n is not None]
-    if len(ends) != len(arguments):
+    if (numbers := known_range(arguments)) is None:
         raise reader.expressions.unread(node, "say with numbers how often this is done")
-    low, high = (0, *ends) if len(ends) == 1 else (ends[0], ends[1])
     index = _counter(reader, node, name)
     place = m.Name(index)
     body = _round(reader, node, [(name, m.Type("int"))], index, [])
-    declared = m.Declaration(m.Type("int"), (m.Declarator(index, m.IntLiteral(high - 1)),))
-    condition = binary(">=", place, m.IntLiteral(low))
+    declared = m.Declaration(m.Type("int"), (m.Declarator(index, m.IntLiteral(numbers.stop - 1)),))
+    condition = binary(">=", place, m.IntLiteral(numbers.start))
     span = reader.expressions.py.span(node)
     return m.For(declared, condition, (m.Postfix("--", place),), body, span=span)
 
@@ -213,10 +211,8 @@ def _assert_kept(reader: ModelStatementReader, node: Node, array: Node) -> None:
 
 def _free(reader: ModelStatementReader, node: Node, name: str) -> str:
     """A name for the index of a loop, which nothing in it has."""
-    taken = {*reader.expressions.locals.values(), *reader.expressions.names.types}
-    taken |= {name, *idioms.stored_in(field(node, "body"))}
-    numbered = (f"i{number}" for number in count(1))
-    return next(n for n in chain(("i", "j", "k"), numbered) if n not in taken)
+    taken = {name, *idioms.stored_in(field(node, "body"))}
+    return reader.free("i", "j", "k", pattern="i{}", taken=taken)
 
 
 def _times(
@@ -256,47 +252,25 @@ def _for(
 
 def match(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """`match` as the chain of conditions that it is."""
-    subject = next(c for c in named(node) if c.type not in ("block", "case_clause"))
-    branches: list[tuple[m.Expression | None, m.Block]] = []
-    for values, guard, block in idioms.cases(reader.expressions, node):
-        asked: m.Expression | None = None
-        for value in values:
-            each = binary("==", reader.expressions.read(subject), value)
-            asked = each if asked is None else m.Binary("||", asked, each)
-        branches.append(_guarded(reader, subject, asked, guard, block))
-    found: m.Statement | None = None
-    for asked, body in reversed(branches):
-        if asked is None and found is None:
-            found = body
-        elif asked is None:
-            raise reader.expressions.unread(node, "no case behind this one is ever taken")
-        else:
-            found = m.If(asked, body, found, span=reader.expressions.py.span(node))
-    return [found] if found is not None else []
-
-
-def _guarded(
-    reader: ModelStatementReader,
-    subject: Node,
-    asked: m.Expression | None,
-    guard: tuple[str, Node | None],
-    block: Node,
-) -> tuple[m.Expression | None, m.Block]:
-    """The condition of a case with that behind its `if`, and what the case does."""
-    name, test = guard
-    if test is None:
-        return asked, reader.branch(block)
-    if not idioms.is_quiet(test):
-        raise reader.expressions.unread(test, "what this does may count for the cases behind it")
-    bound = reader.expressions.bound
-    if name:
-        bound[name] = reader.expressions.read(subject)
-    try:
-        condition = reader.expressions.condition(test)
-        whole = condition if asked is None else binary("&&", asked, condition)
-        return whole, reader.branch(block)
-    finally:
-        bound.pop(name, None)
+    expressions, subjects = reader.expressions, node.children_by_field_name("subject")
+    if len(subjects) != 1 or not idioms.is_plain(subjects[0]):
+        why = "what this compares more than once is to be in a variable first"
+        raise expressions.unread(node, why)
+    of, found = expressions.read(subjects[0]), list[tuple[m.Expression | None, m.Block]]()
+    for case in cases(expressions, node):
+        name = text_of(case.name) if case.name is not None else ""
+        if name and not idioms.lasts(expressions, subjects[0], name, case.block):
+            why = "this name is not that of what is compared all the time"
+            raise expressions.unread(case.clause, why)
+        if case.guard is not None and not idioms.is_quiet(case.guard):
+            raise expressions.unread(case.guard, "what this does may count for the cases behind it")
+        with expressions.standing_for([name] if name else [], [of] if name else []):
+            found.append((asked(expressions, case, of), reader.branch(case.block)))
+    chain: m.Statement | None = None
+    for condition, body in reversed(found):
+        span = expressions.py.span(node)
+        chain = body if condition is None else m.If(condition, body, chain, span=span)
+    return [chain] if chain is not None else []
 
 
 def taken_before(

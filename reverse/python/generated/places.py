@@ -56,8 +56,8 @@ def before(reader: ModelExpressionReader, node: Node, arguments: Sequence[Node])
             target: m.Expression = _element(reader, node, array, index, names)
             step = _step_of_kept(second, names)
     else:
-        target, step = reader.read(first), _STEP.search(text_of(second))
-        stored = reader.read(second)
+        target, step = reader.expression(first), _STEP.search(text_of(second))
+        stored = reader.expression(second)
         if not isinstance(stored, m.Unary | m.Postfix) or stored.operand != target:
             step = None
     if step is None:
@@ -88,7 +88,7 @@ def _element(
     if called.endswith(".at") and called.removesuffix(".at") != names[0]:
         raise reader.unread(at, _NO_EXPRESSION)
     kept = _walrus(without_parentheses(place))
-    array = reader.read(place if kept is None else kept[1])
+    array = reader.expression(place if kept is None else kept[1])
     return m.Index(array, reader.index(at), reader.py.span(node))
 
 

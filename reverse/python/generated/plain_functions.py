@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from tree_sitter import Node
 
 from rebsync.reverse.python.generated.log_words import LOOKS
+from rebsync.reverse.python.generated.py_types import is_text
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope, module_named, module_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of
@@ -58,7 +59,7 @@ def _describes(function: Scope) -> bool:
     taken = {p.name for p in function.parameters}
     nodes = named(field(function.node, "parameters"))
     is_plain = all(n.type in ("identifier", "typed_parameter") for n in nodes)
-    body = [s for s in body_of(function) if not _is_docstring(s)]
+    body = [s for s in body_of(function) if not is_text(s)]
     return is_plain and taken.isdisjoint(LOOKS) and _gives_text(body, taken)
 
 
@@ -116,8 +117,3 @@ def _is_condition(node: Node, taken: set[str]) -> bool:
 def _is_taken(node: Node, taken: set[str]) -> bool:
     is_literal = node.type in ("integer", "string", "true", "false")
     return is_literal or (node.type == "identifier" and text_of(node) in taken)
-
-
-def _is_docstring(statement: Node) -> bool:
-    inner = named(statement)
-    return statement.type == "expression_statement" and inner[0].type == "string"

@@ -31,8 +31,9 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
     if given is None or any(f"{name}_{f}" in reader.expressions.locals for f in fields):
         return None
     found: list[m.Statement] = [reader.implied_local(f"{name}_{f}", v, node) for f, v in given]
-    local = [m.Name(reader.local(f"{name}_{f}")) for f, _ in given]
-    with reader.expressions.standing_for([f"{name}.{f}" for f, _ in given], local):
+    own = reader.expressions
+    local = [own.value(m.Name(reader.local(f"{name}_{f}"))) for f, _ in given]
+    with own.standing_for([f"{name}.{f}" for f, _ in given], local):
         return [*found, *reader.block(rest, node).statements]
 
 

@@ -31,14 +31,14 @@ def of_mailbox(
         case _, 0 if name in _CLOCK:
             return m.Name(_CLOCK[name], span)
         case "choose", 1 | 2 if arguments[0].type in ("list", "tuple"):
-            return m.Choice(tuple(map(reader.read, named(arguments[0]))), span)
+            return m.Choice(tuple(map(reader.expression, named(arguments[0]))), span)
         case "choose", 1 | 2 if options := _constants(reader, text_of(arguments[0])):
             return m.Choice(options, span)
         case "is_a", 2:
             type_ = m.Type(original(string_value(arguments[1]) or ""))
-            return m.InstanceOf(reader.read(arguments[0]), type_, span)
+            return m.InstanceOf(reader.expression(arguments[0]), type_, span)
         case "delay" | "assertion", _:
-            return m.Call(None, name, tuple(map(reader.read, arguments)), span=span)
+            return m.Call(None, name, tuple(map(reader.expression, arguments)), span=span)
         case "post", 4:
             return _posted(reader, node)
         case _:
@@ -59,7 +59,7 @@ def _posted(reader: ModelExpressionReader, node: Node) -> m.Expression:
     if not post.is_held:
         raise reader.unread(node, "this is evaluated when it is served: send it by `send_self_...`")
     times, span = idioms.times(reader, post.when), reader.py.span(node)
-    given = tuple(map(reader.read, post.given))
+    given = tuple(map(reader.expression, post.given))
     after, deadline = times.get("after"), times.get("deadline")
     call = m.Call(m.Self(span), post.server, given, after, deadline, span)
     return reader.cuts.passing(call, post.handler)
@@ -91,9 +91,9 @@ def sent(
 def _unpacked(reader: ModelExpressionReader, node: Node) -> list[m.Expression]:
     """One argument, or the elements of an array behind a star."""
     if node.type != "list_splat":
-        return [reader.read(node)]
+        return [reader.expression(node)]
     if values := values_in_place(reader, named(node)[0]):
-        return [*map(reader.read, values)]
+        return [*map(reader.expression, values)]
     elements = array_elements(reader, named(node)[0])
     if elements is None:
         raise reader.unread(node, "nobody knows how many values this gives")
@@ -102,5 +102,5 @@ def _unpacked(reader: ModelExpressionReader, node: Node) -> list[m.Expression]:
 
 def _receiver(reader: ModelExpressionReader, node: Node) -> m.Expression:
     """Who gets a message: what is no name or call stands in parentheses."""
-    found = reader.read(node)
+    found = reader.expression(node)
     return m.Paren(found) if isinstance(found, (m.Cast, m.Conditional, m.Choice)) else found

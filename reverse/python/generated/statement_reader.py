@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
+from collections.abc import Collection
 from dataclasses import field as with_default
+from itertools import chain, count
 
 from tree_sitter import Node
 
@@ -49,6 +51,12 @@ class ModelStatementReader(ABC):
         """The model's name of a local variable or parameter."""
         taken = self.types | {t.removesuffix("_v") for t in self.types}
         return uncarry_local(name, PYTHON_RESERVED | taken, self.types)
+
+    def free(self, *names: str, pattern: str, first: int = 1, taken: Collection[str] = ()) -> str:
+        """The first of some names, or of those with a number in a pattern, that nothing has."""
+        known = {*self.expressions.locals.values(), *self.expressions.names.types, *taken}
+        numbered = (pattern.format(number) for number in count(first))
+        return next(name for name in chain(names, numbered) if name not in known)
 
     def without_number(self, name: str) -> str:
         """The name of a local that Python must tell from another of this name: `i` for `i__2`."""

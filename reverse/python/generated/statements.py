@@ -148,7 +148,7 @@ class Statements(ModelStatementReader):
         values = [v for v in named(node) if v.type != "none"]
         if values and is_unset(without_parentheses(values[0])):
             return []  # only Python wants one here
-        value = self.expressions.read(values[0]) if values else None
+        value = self.expressions.expression(values[0]) if values else None
         return [m.Return(value, span=self.expressions.py.span(node))]
 
     # --- effects --------------------------------------------------------------------------------
@@ -170,10 +170,10 @@ class Statements(ModelStatementReader):
         if called == "self._drive.move" and len(arguments) == 2:
             cells = tuple(map(self._cell, ("X", "Y"), arguments))
             return [m.Empty((m.Annotation("Move", cells, span),), span)]
-        return [m.ExpressionStatement(self.expressions.read(inner), span=span)]
+        return [m.ExpressionStatement(self.expressions.expression(inner), span=span)]
 
     def _cell(self, axis: str, node: Node) -> m.Expression:
-        found = bare(self.expressions.read(node))
+        found = bare(self.expressions.expression(node))
         if isinstance(found, m.Unary) and node.type != "unary_operator":
             return m.Binary("+", m.Name(axis), found)
         return cell(axis, found)
@@ -210,7 +210,7 @@ class Statements(ModelStatementReader):
             return elements
         if left.type == "identifier" and name not in self.expressions.locals:
             return [self.implied_local(name, value, node)]
-        target = self.expressions.read(left)
+        target = self.expressions.expression(left)
         changed = self.expressions.stored(target, left, value, node, statement=True)
         self.in_order(changed)
         return [m.ExpressionStatement(changed, span=span)]
@@ -244,7 +244,7 @@ class Statements(ModelStatementReader):
         if called == "Array" and len(arguments) == 1 and arguments[0].type == "list":
             values = tuple(v for a in named(arguments[0]) if (v := self._initial(a)) is not None)
             return m.ArrayInitializer(values, self.expressions.py.span(value))
-        read = self.expressions.read(value)
+        read = self.expressions.expression(value)
         idioms.check_copied(self.expressions, value, read)
         return read
 
@@ -259,7 +259,9 @@ class Statements(ModelStatementReader):
         otherwise: m.Statement | None = None
         counted, stands = counts.before(self, node, field(node, "condition"))
         asked = [field(p, "condition") for p in parts if p.type != "else_clause"]
-        with self.expressions.standing_for([*stands], [*stands.values()]):
+        with self.expressions.standing_for(
+            [*stands], [*map(self.expressions.value, stands.values())]
+        ):
             conditions = [*map(self.expressions.condition, asked)]
         bodies = []
         for part in parts:
@@ -325,7 +327,7 @@ class Statements(ModelStatementReader):
         if nodes and nodes[0].type == "if_statement" and _ends(nodes[0]):
             asked = field(nodes.pop(0), "condition")
             inner = field(without_parentheses(asked), "argument")
-            read = self.expressions.read(inner)
+            read = self.expressions.expression(inner)
             condition = read.inner if isinstance(read, m.Paren) else read
         body = self.suite(field(node, "body"), nodes)
         initial = self._initially(before, condition, updates)
@@ -347,7 +349,7 @@ class Statements(ModelStatementReader):
         return initial
 
     def _switch(self, node: Node, name: str, subject: Node) -> m.Switch:
-        read = self.expressions.read(subject)
+        read = self.expressions.expression(subject)
         self.cases.append(name)
         silent = self.expressions.names.silent
         inside = (c for c in named(field(node, "body")) if not silent.holds(c))
@@ -362,7 +364,7 @@ class Statements(ModelStatementReader):
         if not is_case or node.child_by_field_name("alternative") is not None:
             raise self.expressions.unread(node, "only cases stand in a switch")
         is_default = called.endswith(".default")
-        value = None if is_default else self.expressions.read(arguments[0])
+        value = None if is_default else self.expressions.expression(arguments[0])
         body = self.branch(field(node, "consequence"))
         return m.Case(
             value,

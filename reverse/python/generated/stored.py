@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import count
 
 from tree_sitter import Node
 
@@ -52,7 +51,7 @@ def _computed_once(
     others = [n for n in lefts if n not in new[:1]]
     first = reader.implied_local(text_of(new[0]), value, node) if new else None
     first = first or _kept(reader, lefts[0], value, node)
-    read = [known.read(left) for left in others]  # behind what may hide them
+    read = [known.expression(left) for left in others]  # behind what may hide them
     type_, name = first.declaration.type, first.declaration.declarators[0].name
     if any(left.type not in _PLACES for left in others) or {*map(known.kind, read)} - {type_}:
         raise known.unread(node, "store this in one variable after the other")
@@ -118,13 +117,12 @@ def _is_needed(before: list[Node], value: Node) -> bool:
 
 def _kept(reader: ModelStatementReader, left: Node, value: Node, node: Node) -> m.Local:
     """A local that keeps a value until it is its turn."""
-    read = reader.expressions.read(value)
+    read = reader.expressions.expression(value)
     type_ = reader.expressions.kind(read)
     if type_ is None:
         raise reader.expressions.unread(node, "store one after the other, with a variable between")
-    taken = {*reader.expressions.locals.values(), *reader.expressions.names.types}
     plain = idioms.base_of(left).removeprefix("self.").strip("_")
-    name = next(n for n in (f"{plain}_{i}" for i in count(1)) if n not in taken)
+    name = reader.free(pattern=f"{plain}_{{}}")
     reader.expressions.locals[f"kept as {name}"] = name
     reader.expressions.types[name] = type_
     span = reader.expressions.py.span(node)
@@ -135,7 +133,7 @@ def _stored(reader: ModelStatementReader, left: Node, value: Node, node: Node) -
     name = text_of(left)
     if left.type == "identifier" and name not in reader.expressions.locals:
         return [reader.implied_local(name, value, node)]
-    target = reader.expressions.read(left)
+    target = reader.expressions.expression(left)
     stored = reader.expressions.stored(target, left, value, node, statement=True)
     reader.in_order(stored)
     return [m.ExpressionStatement(stored, span=reader.expressions.py.span(node))]
@@ -147,7 +145,7 @@ def _given(
     """A value of the model that is stored."""
     name, span = text_of(left), reader.expressions.py.span(node)
     if left.type != "identifier" or name in reader.expressions.locals:
-        stored = m.Assign("=", reader.expressions.read(left), value, span)
+        stored = m.Assign("=", reader.expressions.expression(left), value, span)
         reader.in_order(stored)
         return [m.ExpressionStatement(stored, span=span)]
     type_ = reader.expressions.kind(value)
@@ -182,7 +180,7 @@ def all_elements(reader: ModelStatementReader, left: Node, value: Node) -> list[
     if idioms.base_of(left) in idioms.names_in(arguments[0]):
         raise reader.expressions.unread(value, _WHOLE)
     span = reader.expressions.py.span(value)
-    stored = (m.Assign("=", p, v, span) for p, v in zip(places, values, strict=True))
+    stored = (m.Assign("=", p, v.expression, span) for p, v in zip(places, values, strict=True))
     return [m.ExpressionStatement(each, span=span) for each in stored]
 
 
@@ -205,14 +203,16 @@ def _filled(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Sta
             return None
         if not idioms.is_literal(reader.expressions, named(given)[0]):
             return None
-        read = reader.expressions.read(named(given)[0])
+        read = reader.expressions.expression(named(given)[0])
         stores = [m.Assign("=", place, read, span) for place in places]
         return [m.ExpressionStatement(each, span=span) for each in stores]
     others = arrays.array_elements(reader.expressions, value)
     kinds = {reader.expressions.kind(each) for each in (*places, *(others or ()))}
     if others is None or len(others) != len(places) or len(kinds) != 1:
         return None
-    copied = m.Assign("=", reader.expressions.read(target), reader.expressions.read(value), span)
+    copied = m.Assign(
+        "=", reader.expressions.expression(target), reader.expressions.expression(value), span
+    )
     return [m.ExpressionStatement(copied, span=span)]
 
 
@@ -329,7 +329,7 @@ def asserted(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
         raise reader.expressions.unread(node, "Python without assertions does not do this")
     if len(parts) > 1 and string_value(parts[1]) is not None:
         is_formatted = any(c.type == "interpolation" for c in parts[1].children)
-        given += [] if is_formatted else [reader.expressions.read(parts[1])]
+        given += [] if is_formatted else [reader.expressions.expression(parts[1])]
     return [m.ExpressionStatement(m.Call(None, "assertion", tuple(given), span=span), span=span)]
 
 
@@ -343,7 +343,7 @@ def _is_of_its_type(reader: ModelStatementReader, node: Node) -> bool:
     is_own = any(binds(word) or word in local for word in ("isinstance", "int"))
     if called != "isinstance" or len(arguments) != 2 or is_own or arguments[0].type not in _PLACES:
         return False
-    kind = reader.expressions.kind(reader.expressions.read(arguments[0]))
+    kind = reader.expressions.kind(reader.expressions.expression(arguments[0]))
     return text_of(arguments[1]) == "int" and kind == INT
 
 

@@ -33,7 +33,7 @@ def switched(reader: ModelStatementReader, node: Node) -> m.Switch | None:
     first = asked[0]
     if first is None or any(map(endings.leaves, bodies)):
         return None
-    subject = reader.expressions.read(first[0])
+    subject = reader.expressions.expression(first[0])
     if not isinstance(subject, m.Name) or not _is_integer(reader, subject):
         return None
     cases: list[m.Case] = []
@@ -77,7 +77,7 @@ def _cases(
 ) -> list[m.Case]:
     """The cases of a branch: the first ones fall through to the last, which does what it does."""
     span = reader.expressions.py.span(part)
-    values = [reader.expressions.read(n) for n in numbers]
+    values = [reader.expressions.expression(n) for n in numbers]
     statements = reader.branch(body).statements
     if values and not (statements and isinstance(statements[-1], _JUMPS)):
         statements = (*statements, m.Break(span=span))

@@ -30,7 +30,7 @@ def compared(reader: ModelExpressionReader, node: Node, operator: str) -> m.Expr
     is_even = len(named(left)) == len(named(right)) > 0
     if not is_even or any(may_fail(reader, each) for pair in pairs for each in pair):
         raise reader.unread(node, "the model has no such comparison")
-    read = [(reader.read(one), reader.read(other)) for one, other in pairs]
+    read = [(reader.expression(one), reader.expression(other)) for one, other in pairs]
     for sides in read:
         kinds = [reader.kind(side) for side in sides]
         if not all(map(is_calm, sides)):  # a property runs a function

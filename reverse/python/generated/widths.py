@@ -9,7 +9,7 @@ the distance of a shift, which the model takes from the lowest five bits.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import field
 from itertools import zip_longest
 
@@ -20,7 +20,7 @@ from rebsync.reverse.analysis.intervals.needs import Mark, Need
 from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own
 from rebsync.reverse.models.building import bare
 from rebsync.reverse.python.generated.cuts import Cut, other_division
-from rebsync.reverse.python.generated.kinds import real_type
+from rebsync.reverse.python.generated.kinds import is_floating, kind_of, type_of
 from rebsync.source import NOWHERE, Span
 
 _SUMS = frozenset({"+", "-", "*", "&", "|", "^"})
@@ -37,15 +37,11 @@ _ASSIGNMENT = re.compile(r"([\w.\[\]]+) (?:([-+*&|^])=|=) ([^=\n]+)")
 
 @dataclass(frozen=True, slots=True)
 class WidthContext:
-    """What is known around a body: the types of names, of what functions give, and what they take.
-
-    `kind` is the widest type of an expression where these names have these types.
-    """
+    """The types around a body: of names, of what functions give, and of what they take."""
 
     types: Mapping[str, m.Type]
     results: Mapping[str, m.Type]
     taken: Mapping[str, Sequence[m.Type | None]]
-    kind: Callable[[m.Expression, Mapping[str, m.Type]], m.Type | None]
     cuts: Mapping[int, Cut]
     rounded: Collection[int]
     called: Mapping[int, tuple[m.Expression, str]]
@@ -306,7 +302,8 @@ class _Widths:
         self.tell(expression, _UNROUNDED)
 
     def _real_type(self, expression: m.Expression) -> str | None:
-        return real_type(expression, self._type_of, self.known.results)
+        found = type_of(expression, self.types.get, self.known.results)
+        return found.name if found is not None and is_floating(found) else None
 
     # --- what may be other ----------------------------------------------------------------------
 
@@ -316,8 +313,11 @@ class _Widths:
             return False
         if self._is_real(expression):
             return False
-        type_ = self._type_of(expression) or self.known.kind(expression, self.types)
+        type_ = self._type_of(expression) or self._kind(expression)
         return type_ is None or type_.name in INTEGERS
+
+    def _kind(self, expression: m.Expression) -> m.Type | None:
+        return kind_of(expression, self.types.get, self.known.results)
 
     def _type_of(self, place: m.Expression) -> m.Type | None:
         name = array_of(place)
@@ -329,7 +329,7 @@ class _Widths:
         return self._real_type(expression) is not None
 
     def _is_truth(self, expression: m.Expression) -> bool:
-        return self.known.kind(expression, self.types) == m.Type("boolean")
+        return self._kind(expression) == m.Type("boolean")
 
     def tell(self, expression: m.Expression, why: str) -> None:
         span = getattr(bare(expression), "span", NOWHERE)

@@ -27,18 +27,11 @@ from rebsync.reverse.nodes.node_tidying import tidy
 from rebsync.reverse.python.bodies.body_messages import PROBE
 from rebsync.reverse.python.bodies.body_node_loops import EndlessLoop
 from rebsync.reverse.python.bodies.body_reading import Reading
-from rebsync.reverse.python.bodies.body_scope import (
-    TYPES,
-    WHOLE,
-    Frame,
-    Message,
-    Nobody,
-    bounds,
-    field_kind,
-)
+from rebsync.reverse.python.bodies.body_scope import Frame, Message, Nobody, bounds, field_kind
 from rebsync.reverse.python.bodies.body_statements import PyStatements
 from rebsync.reverse.python.bodies.body_timers import switch_of
 from rebsync.reverse.python.bodies.body_units import runs_in_threads
+from rebsync.reverse.python.expressions.values import TYPES, WHOLE
 from rebsync.reverse.python.nodes.body_starts import constructor, declared
 from rebsync.reverse.python.nodes.object_model import decorated_callback
 from rebsync.reverse.python.values.py_callbacks import body_of

@@ -13,19 +13,18 @@ from rebsync.reverse.python.bodies.body_methods import kept_names
 from rebsync.reverse.python.bodies.body_node_loops import EndlessLoop
 from rebsync.reverse.python.bodies.body_presence import presence_key
 from rebsync.reverse.python.bodies.body_reading import Reading
-from rebsync.reverse.python.bodies.body_scope import (
+from rebsync.reverse.python.bodies.body_scope import Frame, Nobody
+from rebsync.reverse.python.bodies.body_statements import PyStatements
+from rebsync.reverse.python.bodies.body_units import scope_around
+from rebsync.reverse.python.expressions.values import (
     OTHER,
     REAL,
     STRING,
     TRUTH,
     TYPES,
     WHOLE,
-    Frame,
-    Nobody,
     Value,
 )
-from rebsync.reverse.python.bodies.body_statements import PyStatements
-from rebsync.reverse.python.bodies.body_units import scope_around
 from rebsync.reverse.python.nodes.body_entries import entries
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.python.values.py_worth import Class

@@ -26,7 +26,7 @@ from rebsync.reverse.nodes.node_values import Instance
 from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.bodies.body_learnt import Asked, Learnt
 from rebsync.reverse.python.bodies.body_reading import Reading
-from rebsync.reverse.python.bodies.body_scope import OTHER, Key, PyTarget, PyUnit
+from rebsync.reverse.python.bodies.body_scope import Key, PyTarget, PyUnit
 from rebsync.reverse.python.bodies.body_units import (
     has_word,
     names_of,
@@ -34,6 +34,7 @@ from rebsync.reverse.python.bodies.body_units import (
     servers_of,
     units_of,
 )
+from rebsync.reverse.python.expressions.values import OTHER
 from rebsync.reverse.python.nodes.body_classes import PyClass
 from rebsync.reverse.python.nodes.body_listing import (
     list_endless,

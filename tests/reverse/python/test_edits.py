@@ -33,6 +33,12 @@ main { Robot a(b):(0); Robot b(a):(1); }
 PATH = "src/drawn/robot.py"
 BODY = "        self.helper(by)\n"
 
+
+def in_match(*cases: str) -> str:
+    """The body with a `match` before it."""
+    return "        match by:\n" + "".join(f"            {case}\n" for case in cases) + BODY
+
+
 # What is replaced by what, and the lines of the model that go and come.
 SHOWN = {
     "guard": (
@@ -76,6 +82,11 @@ SHOWN = {
 }
 # What is put in where, and the place that is listed.
 LISTED = {
+    "case behind all": (BODY, in_match("case n: pass", "case 1: self._count = 2"), "case n:"),
+    "truth among numbers": (BODY, in_match("case True: self._count = 2"), "True"),
+    "complex number": (BODY, in_match("case 1 - 2j: self._count = 2"), "1 - 2j"),
+    "parts of a value": (BODY, in_match("case [1, n]: self._count = n"), "[1, n]"),
+    "name of a value before": (BODY, in_match("case n: by = 3; self._count = n"), "case n:"),
     "library call in a body": (BODY, BODY + "        time.sleep(by)\n", "time.sleep(by)"),
     "second publisher": (
         "self._mailbox.on_served(",

@@ -29,10 +29,13 @@ class Idioms:
         else:
             self.second.publish(Int32(data=way))
         match self.far:
-            case 1 | 2:
+            case -1 | 2:
                 self.on = self.on ^ True
             case other if other > self.near:
                 self.on = self.is_near
+        match self.near:
+            case True:  # which 1 is equal to, and is not
+                pass
 
     def stepped(self, value):
         self.near = value
