@@ -55,8 +55,26 @@ class CppParameter:
     @property
     def may_change(self) -> bool:
         """Whether a function may change what it gets for it."""
-        text = text_of(self.node)
-        return ("&" in text or "*" in text) and "const" not in text
+        fixed = any(text_of(c) == "const" for c in self.node.named_children)
+        levels = self._declarator.partition("(")[0]
+        return self.refers and not (fixed and sum(map(levels.count, "&*[")) < 2)
+
+    @property
+    def refers(self) -> bool:
+        """Whether it is a reference or a pointer, or may be made of some."""
+        return self.is_pointer or any(
+            sign in text for text in (self._declarator, text_of(self.type)) for sign in "&*"
+        )
+
+    @property
+    def is_pointer(self) -> bool:
+        """Whether it is a pointer, as which arrays are handed over."""
+        return "*" in self._declarator or "[" in self._declarator
+
+    @property
+    def _declarator(self) -> str:
+        declarator = self.node.child_by_field_name("declarator")
+        return text_of(declarator) if declarator is not None else ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,7 +255,7 @@ def unscoped(name: Node) -> str:
 
 def declared_name(declarator: Node) -> Node | None:
     """The name that a declarator of a variable declares; None for a function's."""
-    while declarator.type in _DECLARATORS:
+    while declarator.type in _DECLARATORS or declarator.type == "parenthesized_declarator":
         if not declarator.named_children:
             return None
         inner = declarator.child_by_field_name("declarator")
@@ -289,10 +307,15 @@ def parameters_in(node: Node) -> Iterator[CppParameter]:
     for parameter in named(node) if node.named_child_count else ():
         if parameter.type not in ("parameter_declaration", "optional_parameter_declaration"):
             continue
-        name = parameter.child_by_field_id(_DECLARATOR)
-        while name is not None and name.type in _REFERRING:
-            name = name.named_children[-1] if name.named_children else None
-        yield CppParameter(text_of(name) if name else "", part(parameter, "type"), parameter)
+        yield parameter_of(parameter)
+
+
+def parameter_of(node: Node) -> CppParameter:
+    """The parameter that a declaration of one declares."""
+    declarator = node.child_by_field_id(_DECLARATOR)
+    name = declared_name(declarator) if declarator is not None else None
+    text = text_of(name or declarator) if declarator is not None else ""
+    return CppParameter(text, part(node, "type"), node)
 
 
 def lambda_parameters(lambda_: Node) -> list[Node]:
@@ -305,9 +328,8 @@ def lambda_parameters(lambda_: Node) -> list[Node]:
 def name_of_parameter(parameter: Node) -> str:
     """The name of a parameter; empty for one that has none."""
     at = parameter.child_by_field_name("declarator")
-    while at is not None and at.type != "identifier":
-        at = at.named_children[-1] if at.named_children else None
-    return text_of(at) if at is not None else ""
+    name = declared_name(at) if at is not None else None
+    return text_of(name) if name is not None else ""
 
 
 def is_constant(cpp: Cpp, node: Node) -> bool:

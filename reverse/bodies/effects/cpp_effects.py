@@ -38,6 +38,10 @@ from rebsync.reverse.bodies.scope import (
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 
 
+# Places of variables.
+_PLACES = frozenset({"identifier", "field_expression", "subscript_expression"})
+
+
 @dataclass(slots=True)
 class Effects(EffectReader):
     """Looks through pieces of one body."""
@@ -50,6 +54,8 @@ class Effects(EffectReader):
             check_operator(self, node)
         if type_ in IMPLICIT:
             check_implicit(self, node)
+        if type_ in _PLACES:
+            self._decays(node)
         if type_ == "identifier":
             check_macro(self, node)
         elif type_ not in PLAIN:
@@ -58,6 +64,12 @@ class Effects(EffectReader):
     def _inside(self, node: Node) -> None:
         for child in node.named_children:
             self.check(child)
+
+    def _decays(self, node: Node) -> None:
+        """Raises `Touches` where an array is a value: a pointer by which its elements may change."""
+        name, meaning = self.root_of(node)
+        if isinstance(meaning, Variable) and _is_array(node, meaning):
+            self.changes(node, name, f'elements of "{text_of(node)}" may change by another name')
 
     def _pointer(self, node: Node) -> None:
         if text_of(node).startswith("&"):
@@ -218,7 +230,10 @@ class Effects(EffectReader):
         declarator, over = part(node, "declarator"), part(node, "right")
         refers = declarator.type == "reference_declarator"
         changes = refers and "const" not in cpp_roots.specifiers_of(node)
-        (self.refers if changes else self.check)(over)
+        if changes:
+            self.refers(over)
+        elif over.type not in _PLACES:
+            self.check(over)
         self.inner.update(declared_in(declarator))
         self._around = (*self._around, node.type)
         self.check(part(node, "body"))
@@ -287,6 +302,20 @@ _CHECKS: dict[str, Callable[[Effects, Node], None]] = {
     **dict.fromkeys(REPEATED, Effects._repeated),
     "for_range_loop": Effects._range,
 }
+
+
+def _is_array(node: Node, variable: Variable) -> bool:
+    """Whether a place of an array is more than one element, and none is taken where it stands."""
+    indices, above, inner = 0, node.parent, node
+    while above is not None and above.type == "parenthesized_expression":
+        inner, above = above, above.parent
+    if above is not None and (
+        above.type == "sizeof_expression" or above.child_by_field_name("argument") == inner
+    ):
+        return False
+    while node.type == "subscript_expression":
+        indices, node = indices + 1, part(node, "argument")
+    return variable.type is not None and indices < len(variable.type.dimensions)
 
 
 def touching(cpp: Cpp, scope: Scope, node: Node) -> Touches | None:
