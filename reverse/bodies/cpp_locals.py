@@ -323,6 +323,9 @@ def _inferred(
         reader.meaning(declared.name, read if is_calm(read) and _lasts(reader, read) else Outside())
         return
     whole = INT if of in (BYTE, SHORT) else of
+    form = reader.scope.form
+    if of.dimensions and (form is None or form.unread_calls.objects.is_pointer(reader.cpp, value)):
+        raise reader.unread(declared.node, "the model has no pointers and references")
     wide = wide_of(reader.expressions, value)
     if wide and not reader.scope.open:
         raise reader.unread(declared.node, "this may hold more than the model's int does")

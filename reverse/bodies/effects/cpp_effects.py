@@ -37,7 +37,6 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 
-
 # Places of variables.
 _PLACES = frozenset({"identifier", "field_expression", "subscript_expression"})
 
@@ -66,9 +65,12 @@ class Effects(EffectReader):
             self.check(child)
 
     def _decays(self, node: Node) -> None:
-        """Raises `Touches` where an array is a value: a pointer by which its elements may change."""
+        """Raises `Touches` where an array is a pointer, by which its elements may change."""
         name, meaning = self.root_of(node)
-        if isinstance(meaning, Variable) and _is_array(node, meaning):
+        if not isinstance(meaning, Variable) or not _is_array(node, meaning):
+            return
+        form = self.scope.form
+        if form is None or form.unread_calls.objects.is_pointer(self.cpp, node):
             self.changes(node, name, f'elements of "{text_of(node)}" may change by another name')
 
     def _pointer(self, node: Node) -> None:
