@@ -28,7 +28,7 @@ from rebsync.reverse.bodies.effects.cpp_call_effects import check_object
 from rebsync.reverse.bodies.effects.cpp_effects import Effects
 from rebsync.reverse.bodies.effects.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.effects.cpp_unset_locals import SCALARS, UNSET, may_be_unset
-from rebsync.reverse.bodies.effects.known_functions import is_matrix, type_takes_values
+from rebsync.reverse.bodies.effects.known_functions import is_matrix, type_refers, type_takes_values
 from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
 from rebsync.reverse.bodies.types.cpp_conversions import converted_to, type_in
@@ -137,16 +137,14 @@ def _check_value(reader: CppStatementReader, effects: Effects, declared: Declara
     value = declared.value
     assert value is not None
     meaning = resolve(reader.scope, value)
-    refers = declared.kind != "identifier" and not declared.constant
+    refers = declared.kind != "identifier" or type_refers(declared.text)
+    refers = refers and not declared.constant
     if refers and isinstance(meaning, Variable | Record) and not getattr(meaning, "constant", 0):
         raise Touches(reader.cpp.span(value), "the model has no pointers and references")
     if refers:
         effects.refers(value)
-    elif value.type == "argument_list" and type_takes_values(declared.text):
-        for argument in named(value):
-            effects.check(argument)
     else:
-        effects.check(value)
+        effects.made_of(declared.type if declared.kind == "identifier" else None, value)
 
 
 def _declared(reader: CppStatementReader, declared: DeclaratorParts) -> Iterator[m.Statement]:
@@ -306,6 +304,8 @@ def _inferred(
 ) -> Iterator[m.Statement]:
     if value is None:
         raise reader.unread(declared.node, "the type of this is not written")
+    if "decltype" in text_of(declared.type):
+        raise reader.unread(declared.node, "whether this is a reference is not known")
     if value.type == "lambda_expression":
         held, needed = cpp_captures.declared(reader, value)
         reader.meaning(declared.name, held)

@@ -37,6 +37,7 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 
+_LISTS = ("argument_list", "initializer_list")
 # Places of variables.
 _PLACES = frozenset({"identifier", "field_expression", "subscript_expression"})
 
@@ -205,14 +206,32 @@ class Effects(EffectReader):
                 check_misparsed(self, target)
             if target.type == "function_declarator" and not takes:
                 self._made_from_names(target)
+            refers = refers or known_functions.type_refers(type_)
             if refers and value is not None and "const" not in cpp_roots.specifiers_of(node):
                 self.refers(value)
-            elif value is not None and value.type == "argument_list" and takes:
-                for argument in named(value):
-                    self.check(argument)
             elif value is not None:
-                self.check(value)
+                is_plain = target.type == "identifier"
+                self.made_of(written if is_plain else None, value)
             self.inner.update(declared_in(target))
+
+    def made_of(self, type_: Node | None, value: Node) -> None:
+        """What a variable is made of, which a constructor of its class may keep or change."""
+        text = text_of(type_) if type_ is not None else ""
+        if value.type == "argument_list" and known_functions.type_takes_values(text):
+            for argument in named(value):
+                self.check(argument)
+        elif value.type in _LISTS or type_ is None or self._copies(type_, text):
+            self.check(value)
+        else:
+            self.arguments((value,))
+
+    def _copies(self, type_: Node, text: str) -> bool:
+        """Whether objects of a type only get copies of what they are made of."""
+        if known_functions.type_takes_values(text) or type_.type.startswith("placeholder"):
+            return True
+        form = self.scope.form
+        is_aggregate = form is not None and form.unread_calls.objects.is_aggregate(text)
+        return is_aggregate or self.scope.carried(type_) is not None
 
     def _new(self, node: Node) -> None:
         check_object(self, node, part(node, "type"))
