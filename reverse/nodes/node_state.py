@@ -16,7 +16,7 @@ from rebsync.reverse.bodies.cpp_unknowns import domain_near
 from rebsync.reverse.bodies.effects.cpp_pointees import is_changed
 from rebsync.reverse.bodies.effects.known_functions import is_matrix
 from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variable
-from rebsync.reverse.bodies.types.cpp_types import Carried, arguments_of, carried, is_time, wider
+from rebsync.reverse.bodies.types.cpp_types import Carried, arguments_of, carried_in, is_time, wider
 from rebsync.reverse.bodies.types.cpp_widths import place_of
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
@@ -188,7 +188,7 @@ class State:
         if shape not in ("identifier", "field_identifier", "init_declarator"):
             reaches = text_of(type_).rpartition("::")[2] in self.units
             return Outside(reaches=reaches, indexed=is_matrix(text_of(type_)))
-        kept = self._carried(type_)
+        kept = carried_in(type_, self.enums)
         if kept is not None:
             free = self._free(taken, (wish, name, f"{wish}_"), f"{wish}_")
             given, domain = self._new(free, kept.type), domain_near(type_) or ()
@@ -207,13 +207,6 @@ class State:
                 return Outside()
             return Record({HELD: held}, there=self._new([f"{wish}_is_there"], BOOLEAN))
         return self._struct(text_of(type_).rpartition("::")[2], wish)
-
-    def _carried(self, type_: Node) -> Carried | None:
-        """What the model keeps of the type of a member; not of a bit-field, which holds less."""
-        member = type_.parent
-        if member is not None and any(map(_is_width, member.named_children)):
-            return None
-        return carried(type_, self.enums)
 
     def _free(self, taken: Container[str], wishes: Sequence[str], other: str) -> list[str]:
         """The wishes that are not taken, none after that which is given; or else another name."""
@@ -250,7 +243,7 @@ class State:
     def _array(
         self, wish: str, name: str, type_: Node, declarator: Node, cpp: Cpp, taken: Container[str]
     ) -> Member:
-        kept = self._carried(type_)
+        kept = carried_in(type_, self.enums)
         lengths: list[int] = []
         at: Node | None = declarator
         while at is not None and at.type == "array_declarator":
@@ -286,7 +279,7 @@ class State:
         return Record(fields)
 
     def _field(self, wish: str, name: str, type_: Node, cpp: Cpp) -> Variable | None:
-        kept = self._carried(type_)
+        kept = carried_in(type_, self.enums)
         if kept is None or kept.type.dimensions:
             return None
         given = self._new([f"{wish}_{name}"], kept.type)
@@ -405,8 +398,3 @@ def _value(declarator: Node) -> Node | None:
         inside = named(value)
         return inside[0] if len(inside) == 1 else None
     return value
-
-
-def _is_width(node: Node) -> bool:
-    """Whether it is the width of a bit-field; the grammar has it in an error if a value follows."""
-    return node.type == "bitfield_clause" or (node.type == "ERROR" and text_of(node)[:1] == ":")
