@@ -25,10 +25,10 @@ from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import seconds_of
 from rebsync.reverse.bodies.effects import cpp_captures
 from rebsync.reverse.bodies.effects.cpp_call_effects import check_object
-from rebsync.reverse.bodies.effects.cpp_effects import Effects
+from rebsync.reverse.bodies.effects.cpp_effects import Effects, is_bound
 from rebsync.reverse.bodies.effects.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.effects.cpp_unset_locals import SCALARS, UNSET, may_be_unset
-from rebsync.reverse.bodies.effects.known_functions import is_matrix, type_refers, type_takes_values
+from rebsync.reverse.bodies.effects.known_functions import is_matrix, type_takes_values
 from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
 from rebsync.reverse.bodies.types.cpp_conversions import converted_to, type_in
@@ -137,7 +137,7 @@ def _check_value(reader: CppStatementReader, effects: Effects, declared: Declara
     value = declared.value
     assert value is not None
     meaning = resolve(reader.scope, value)
-    refers = declared.kind != "identifier" or type_refers(declared.text)
+    refers = declared.kind != "identifier" or is_bound(declared.text, value)
     refers = refers and not declared.constant
     if refers and isinstance(meaning, Variable | Record) and not getattr(meaning, "constant", 0):
         raise Touches(reader.cpp.span(value), "the model has no pointers and references")

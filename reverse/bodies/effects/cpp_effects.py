@@ -206,7 +206,7 @@ class Effects(EffectReader):
                 check_misparsed(self, target)
             if target.type == "function_declarator" and not takes:
                 self._made_from_names(target)
-            refers = refers or known_functions.type_refers(type_)
+            refers = refers or (value is not None and is_bound(type_, value))
             if refers and value is not None and "const" not in cpp_roots.specifiers_of(node):
                 self.refers(value)
             elif value is not None:
@@ -323,6 +323,11 @@ _CHECKS: dict[str, Callable[[Effects, Node], None]] = {
     **dict.fromkeys(REPEATED, Effects._repeated),
     "for_range_loop": Effects._range,
 }
+
+
+def is_bound(type_: str, value: Node) -> bool:
+    """Whether `=` may make a variable of a type another name for a place."""
+    return value.type not in _LISTS and known_functions.type_refers(type_)
 
 
 def _is_array(node: Node, variable: Variable) -> bool:
