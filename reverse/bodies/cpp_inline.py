@@ -38,7 +38,7 @@ from rebsync.reverse.bodies.types.cpp_types import Carried
 from rebsync.reverse.bodies.types.cpp_widths import place_of
 from rebsync.reverse.models.building import bare, cast, is_calm, is_effect
 from rebsync.reverse.syntax.ancestors import ancestors
-from rebsync.reverse.syntax.cpp_declarations import CppParameter
+from rebsync.reverse.syntax.cpp_declarations import CppParameter, parameter_of
 from rebsync.reverse.syntax.cpp_depth import DEEPEST, depth_of
 from rebsync.reverse.syntax.cpp_tree import named, part, returns_in, text_of
 from rebsync.static.constants import constant as constant_of
@@ -206,16 +206,8 @@ def _of_member(
 
 
 def _parameters(declarator: Node | None) -> tuple[CppParameter, ...]:
-    if declarator is None:
-        return ()
-    found = []
-    for parameter in named(part(declarator, "parameters")):
-        name = parameter.child_by_field_name("declarator")
-        while name is not None and name.type in ("reference_declarator", "pointer_declarator"):
-            name = name.named_children[-1] if name.named_children else None
-        text = text_of(name) if name is not None else ""
-        found.append(CppParameter(text, part(parameter, "type"), parameter))
-    return tuple(found)
+    parameters = named(part(declarator, "parameters")) if declarator is not None else ()
+    return tuple(map(parameter_of, parameters))
 
 
 def _trailing(declarator: Node | None) -> Node | None:
@@ -236,12 +228,12 @@ def _bound(
     once: bool,
 ) -> Iterator[m.Statement]:
     """What a parameter stands for in the body."""
-    name, text = parameter.name, text_of(parameter.node)
+    name = parameter.name
     if not name:
         Effects(reader.cpp, reader.scope).check(argument)
         return
     constant = any(text_of(c) == "const" for c in parameter.node.named_children)
-    refers = "&" in text or "*" in text or is_pointer(text_of(parameter.type))
+    refers = parameter.refers or is_pointer(text_of(parameter.type))
     type_ = message_type(reader.scope, text_of(parameter.type))
     meaning = resolve(reader.scope, argument)
     if isinstance(meaning, Record):

@@ -25,7 +25,7 @@ from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import seconds_of
 from rebsync.reverse.bodies.effects import cpp_captures
 from rebsync.reverse.bodies.effects.cpp_call_effects import check_object
-from rebsync.reverse.bodies.effects.cpp_effects import Effects
+from rebsync.reverse.bodies.effects.cpp_effects import Effects, is_bound
 from rebsync.reverse.bodies.effects.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.effects.cpp_unset_locals import SCALARS, UNSET, may_be_unset
 from rebsync.reverse.bodies.effects.known_functions import is_matrix, type_takes_values
@@ -137,16 +137,14 @@ def _check_value(reader: CppStatementReader, effects: Effects, declared: Declara
     value = declared.value
     assert value is not None
     meaning = resolve(reader.scope, value)
-    refers = declared.kind != "identifier" and not declared.constant
+    refers = declared.kind != "identifier" or is_bound(declared.text, value)
+    refers = refers and not declared.constant
     if refers and isinstance(meaning, Variable | Record) and not getattr(meaning, "constant", 0):
         raise Touches(reader.cpp.span(value), "the model has no pointers and references")
     if refers:
         effects.refers(value)
-    elif value.type == "argument_list" and type_takes_values(declared.text):
-        for argument in named(value):
-            effects.check(argument)
     else:
-        effects.check(value)
+        effects.made_of(declared.type if declared.kind == "identifier" else None, value)
 
 
 def _declared(reader: CppStatementReader, declared: DeclaratorParts) -> Iterator[m.Statement]:
@@ -306,6 +304,8 @@ def _inferred(
 ) -> Iterator[m.Statement]:
     if value is None:
         raise reader.unread(declared.node, "the type of this is not written")
+    if "decltype" in text_of(declared.type):
+        raise reader.unread(declared.node, "whether this is a reference is not known")
     if value.type == "lambda_expression":
         held, needed = cpp_captures.declared(reader, value)
         reader.meaning(declared.name, held)
@@ -323,6 +323,9 @@ def _inferred(
         reader.meaning(declared.name, read if is_calm(read) and _lasts(reader, read) else Outside())
         return
     whole = INT if of in (BYTE, SHORT) else of
+    form = reader.scope.form
+    if of.dimensions and (form is None or form.unread_calls.objects.is_pointer(reader.cpp, value)):
+        raise reader.unread(declared.node, "the model has no pointers and references")
     wide = wide_of(reader.expressions, value)
     if wide and not reader.scope.open:
         raise reader.unread(declared.node, "this may hold more than the model's int does")

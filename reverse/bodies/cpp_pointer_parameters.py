@@ -23,7 +23,7 @@ def check_pointer(
     meaning = inside.scope.locals.get(parameter.name)
     is_variable = isinstance(meaning, Variable)
     leads = is_variable or (isinstance(meaning, Record) and text_of(argument).startswith("&"))
-    if not leads or "*" not in text_of(parameter.node):
+    if not leads or not parameter.is_pointer:
         return
     is_array = isinstance(meaning, Variable) and meaning.type and meaning.type.dimensions
     uses = () if is_variable else ("field_expression",)

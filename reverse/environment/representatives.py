@@ -246,9 +246,8 @@ class _FlowThroughBody:
         found = self.visit(value)
         if operator != "=":
             found = self._inexact(self.visit(target) or found)
-        if isinstance(target, m.Index):
-            self._used(target.index)
         while isinstance(target, m.Index):
+            self._used(target.index)
             target = target.target
         match target:
             case m.Name(name) if found:

@@ -16,7 +16,7 @@ from tree_sitter import Node
 from rebsync.reverse.findings import Finding, Grade
 from rebsync.reverse.generated.cpp_meanings import is_runtime_header
 from rebsync.reverse.syntax.cpp_calls import CppCall
-from rebsync.reverse.syntax.cpp_declarations import is_noexcept
+from rebsync.reverse.syntax.cpp_exceptions import is_noexcept
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside
 

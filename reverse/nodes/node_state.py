@@ -16,7 +16,7 @@ from rebsync.reverse.bodies.cpp_unknowns import domain_near
 from rebsync.reverse.bodies.effects.cpp_pointees import is_changed
 from rebsync.reverse.bodies.effects.known_functions import is_matrix
 from rebsync.reverse.bodies.scope import Member, Outside, Record, Stores, Variable
-from rebsync.reverse.bodies.types.cpp_types import Carried, arguments_of, carried, is_time, wider
+from rebsync.reverse.bodies.types.cpp_types import Carried, arguments_of, carried_in, is_time, wider
 from rebsync.reverse.bodies.types.cpp_widths import place_of
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings
@@ -188,7 +188,7 @@ class State:
         if shape not in ("identifier", "field_identifier", "init_declarator"):
             reaches = text_of(type_).rpartition("::")[2] in self.units
             return Outside(reaches=reaches, indexed=is_matrix(text_of(type_)))
-        kept = carried(type_, self.enums)
+        kept = carried_in(type_, self.enums)
         if kept is not None:
             free = self._free(taken, (wish, name, f"{wish}_"), f"{wish}_")
             given, domain = self._new(free, kept.type), domain_near(type_) or ()
@@ -243,7 +243,7 @@ class State:
     def _array(
         self, wish: str, name: str, type_: Node, declarator: Node, cpp: Cpp, taken: Container[str]
     ) -> Member:
-        kept = carried(type_, self.enums)
+        kept = carried_in(type_, self.enums)
         lengths: list[int] = []
         at: Node | None = declarator
         while at is not None and at.type == "array_declarator":
@@ -279,7 +279,7 @@ class State:
         return Record(fields)
 
     def _field(self, wish: str, name: str, type_: Node, cpp: Cpp) -> Variable | None:
-        kept = carried(type_, self.enums)
+        kept = carried_in(type_, self.enums)
         if kept is None or kept.type.dimensions:
             return None
         given = self._new([f"{wish}_{name}"], kept.type)

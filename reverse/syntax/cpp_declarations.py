@@ -32,7 +32,7 @@ CONVERSION = "operator "  # what names of conversion functions begin with
 _CONSTANT = frozenset({b"const", b"constexpr"})
 _OVERRIDING = frozenset({b"override", b"final"})
 _REFERRING = frozenset({"pointer_declarator", "reference_declarator"})
-_DECLARATORS = _REFERRING | {"array_declarator"}
+_DECLARATORS = _REFERRING | {"array_declarator", "parenthesized_declarator"}
 _DECLARATOR, _BODY, _TYPE = FIELDS["declarator"], FIELDS["body"], FIELDS["type"]
 # Declarators, each with the value that follows it.
 Declared: TypeAlias = "list[tuple[Node, Node | None]]"
@@ -55,8 +55,24 @@ class CppParameter:
     @property
     def may_change(self) -> bool:
         """Whether a function may change what it gets for it."""
-        text = text_of(self.node)
-        return ("&" in text or "*" in text) and "const" not in text
+        fixed = any(text_of(c) == "const" for c in self.node.named_children)
+        levels = map(self.declarator.partition("(")[0].count, "&*[")
+        return self.refers and not (fixed and sum(levels) < 2)
+
+    @property
+    def refers(self) -> bool:
+        """Whether it is a reference or a pointer, or may be made of some."""
+        return self.is_pointer or not {*"&*"}.isdisjoint(self.declarator + text_of(self.type))
+
+    @property
+    def is_pointer(self) -> bool:
+        """Whether it is a pointer, as which arrays are handed over."""
+        return not {*"*["}.isdisjoint(self.declarator)
+
+    @property
+    def declarator(self) -> str:
+        """What stands behind its type."""
+        return "".join(map(text_of, self.node.children_by_field_name("declarator")))
 
 
 @dataclass(frozen=True, slots=True)
@@ -287,12 +303,14 @@ def only_braces(node: Node) -> bool:
 def parameters_in(node: Node) -> Iterator[CppParameter]:
     """The parameters of a list of them."""
     for parameter in named(node) if node.named_child_count else ():
-        if parameter.type not in ("parameter_declaration", "optional_parameter_declaration"):
-            continue
-        name = parameter.child_by_field_id(_DECLARATOR)
-        while name is not None and name.type in _REFERRING:
-            name = name.named_children[-1] if name.named_children else None
-        yield CppParameter(text_of(name) if name else "", part(parameter, "type"), parameter)
+        if parameter.type in ("parameter_declaration", "optional_parameter_declaration"):
+            yield parameter_of(parameter)
+
+
+def parameter_of(node: Node) -> CppParameter:
+    """The parameter that a declaration of one declares."""
+    unnamed = CppParameter("", part(node, "type"), node)
+    return replace(unnamed, name=name_of_parameter(node) or unnamed.declarator)
 
 
 def lambda_parameters(lambda_: Node) -> list[Node]:
@@ -304,18 +322,17 @@ def lambda_parameters(lambda_: Node) -> list[Node]:
 
 def name_of_parameter(parameter: Node) -> str:
     """The name of a parameter; empty for one that has none."""
-    at = parameter.child_by_field_name("declarator")
-    while at is not None and at.type != "identifier":
-        at = at.named_children[-1] if at.named_children else None
-    return text_of(at) if at is not None else ""
+    at = parameter.child_by_field_id(_DECLARATOR)
+    name = declared_name(at) if at is not None else None
+    return text_of(name) if name is not None else ""
 
 
 def is_constant(cpp: Cpp, node: Node) -> bool:
     """Whether a declaration is of constants: `const` or `constexpr`, and of no pointer."""
     if cpp.words.isdisjoint(_CONSTANT):
         return False
-    qualifiers = {text_of(c) for c in node.named_children if c.type == "type_qualifier"}
-    return bool(qualifiers & {"const", "constexpr"})
+    qualifiers = (c for c in node.named_children if c.type == "type_qualifier")
+    return any(text_of(c) in ("const", "constexpr") for c in qualifiers)
 
 
 def constant_name(node: Node, declarator: Node) -> Node:
@@ -323,11 +340,10 @@ def constant_name(node: Node, declarator: Node) -> Node:
 
     Of a pointer that may be changed it is all of the declarator, by which nothing is called.
     """
-    name = declared_name(declarator)
     words = {text_of(c) for c in declarator.named_children}
     words |= {"constexpr"} & {text_of(c) for c in node.named_children}
     is_fixed = declarator.type == "array_declarator" or words & {"const", "constexpr"}
-    return name if name is not None and is_fixed else declarator
+    return (declared_name(declarator) if is_fixed else None) or declarator
 
 
 def valued(node: Node) -> Iterator[tuple[Node, Node]]:
@@ -382,18 +398,3 @@ def with_defaults(function: CppFunction, declared: Sequence[CppFunction]) -> Cpp
                 parameters[number] = replace(parameters[number], default=(known.cpp, default))
     changed = any(a is not b for a, b in zip(parameters, function.parameters, strict=True))
     return replace(function, parameters=tuple(parameters)) if changed else function
-
-
-def is_noexcept(node: Node, implied: bool = False) -> bool:
-    """Whether what throws in a function ends the program ([except.spec])."""
-    declarator = node.child_by_field_name("declarator")
-    while declarator is not None and not declarator.type.endswith("function_declarator"):
-        declarator = declarator.child_by_field_name("declarator") or next(
-            (c for c in named(declarator) if c.type.endswith("declarator")), None
-        )
-    for each in named(declarator) if declarator is not None else ():
-        if each.type == "noexcept":
-            return not any(inner.type == "false" for inner in named(each))
-        if each.type == "throw_specifier":
-            return not named(each)
-    return implied

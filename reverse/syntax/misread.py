@@ -1,4 +1,4 @@
-"""Where compilers of C++ take a text otherwise than the parser, or a linker what it defines.
+"""Where compilers of C++ take a text otherwise than the readers, or a linker what it defines.
 
 "Phases of translation" in the standard: lines that end with a backslash are joined before there
 are tokens, trigraphs stand for other characters, and `\\u00e9` in a name is the character itself.
@@ -29,6 +29,11 @@ _IN_CODE = {
     ),
     "a character of a name is written by its number": re.compile(r"\\[uUN]"),
 }
+_REFERRING = {
+    "variables of a type by this name are other names for other variables": re.compile(
+        r"\busing\s+\w+\s*=[^;(){}]*&\s*;|\btypedef\s[^;(){}]*&\s*\w+\s*;"
+    ),
+}
 _LINKED = {
     "whether this is what runs is decided when the program is linked": re.compile(
         r"\b__attribute__\s*\(\(\s*_*(?:weak|alias|ifunc|cleanup|constructor|destructor)"
@@ -44,8 +49,9 @@ def misread(cpp: Cpp) -> Iterator[Finding]:
         yield from _found(cpp.source, text, _JOINING)
     if any(pattern.search(text) for pattern in _IN_CODE.values()):
         yield from _found(cpp.source, blank(text), _IN_CODE)
-    if any(pattern.search(text) for pattern in _LINKED.values()):
-        yield from _found(cpp.source, blank(text), _LINKED, "")
+    for patterns in (_LINKED, _REFERRING):
+        if any(pattern.search(text) for pattern in patterns.values()):
+            yield from _found(cpp.source, blank(text), patterns, "")
 
 
 def _found(

@@ -107,7 +107,7 @@ def reaching(bindings: Sequence[Binding], use: Node) -> list[Binding]:
     branches: set[int] = set()
     before = [b for b in bindings if _is_before(b, use)]
     for binding in reversed(before):
-        branch = _branch(binding.node)
+        branch = None if binding.how == "parameter" else _branch(binding.node)
         if branch is None or holds(branch, use):
             found.append(binding)
             break
@@ -139,8 +139,6 @@ def _branch(node: Node) -> Node | None:
         return node
     if node.type == "for_in_clause":
         return above
-    if node.type == "function_definition":
-        return None
     while above is not None and above.type not in _SCOPES:
         by_blocks = above.type in ("if_statement", "try_statement")
         is_condition = inner == above.child_by_field_name("condition")

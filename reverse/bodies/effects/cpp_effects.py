@@ -37,6 +37,10 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
 
+_LISTS = ("argument_list", "initializer_list")
+# Places of variables.
+_PLACES = frozenset({"identifier", "field_expression", "subscript_expression"})
+
 
 @dataclass(slots=True)
 class Effects(EffectReader):
@@ -50,6 +54,8 @@ class Effects(EffectReader):
             check_operator(self, node)
         if type_ in IMPLICIT:
             check_implicit(self, node)
+        if type_ in _PLACES:
+            self._decays(node)
         if type_ == "identifier":
             check_macro(self, node)
         elif type_ not in PLAIN:
@@ -58,6 +64,15 @@ class Effects(EffectReader):
     def _inside(self, node: Node) -> None:
         for child in node.named_children:
             self.check(child)
+
+    def _decays(self, node: Node) -> None:
+        """Raises `Touches` where an array is a pointer, by which its elements may change."""
+        name, meaning = self.root_of(node)
+        if not isinstance(meaning, Variable) or not _is_array(node, meaning):
+            return
+        form = self.scope.form
+        if form is None or form.unread_calls.objects.is_pointer(self.cpp, node):
+            self.changes(node, name, f'elements of "{text_of(node)}" may change by another name')
 
     def _pointer(self, node: Node) -> None:
         if text_of(node).startswith("&"):
@@ -191,14 +206,32 @@ class Effects(EffectReader):
                 check_misparsed(self, target)
             if target.type == "function_declarator" and not takes:
                 self._made_from_names(target)
+            refers = refers or (value is not None and is_bound(type_, value))
             if refers and value is not None and "const" not in cpp_roots.specifiers_of(node):
                 self.refers(value)
-            elif value is not None and value.type == "argument_list" and takes:
-                for argument in named(value):
-                    self.check(argument)
             elif value is not None:
-                self.check(value)
+                is_plain = target.type == "identifier"
+                self.made_of(written if is_plain else None, value)
             self.inner.update(declared_in(target))
+
+    def made_of(self, type_: Node | None, value: Node) -> None:
+        """What a variable is made of, which a constructor of its class may keep or change."""
+        text = text_of(type_) if type_ is not None else ""
+        if value.type == "argument_list" and known_functions.type_takes_values(text):
+            for argument in named(value):
+                self.check(argument)
+        elif value.type in _LISTS or type_ is None or self._copies(type_, text):
+            self.check(value)
+        else:
+            self.arguments((value,))
+
+    def _copies(self, type_: Node, text: str) -> bool:
+        """Whether objects of a type only get copies of what they are made of."""
+        if known_functions.type_takes_values(text) or type_.type.startswith("placeholder"):
+            return True
+        form = self.scope.form
+        is_aggregate = form is not None and form.unread_calls.objects.is_aggregate(text)
+        return is_aggregate or self.scope.carried(type_) is not None
 
     def _new(self, node: Node) -> None:
         check_object(self, node, part(node, "type"))
@@ -218,7 +251,10 @@ class Effects(EffectReader):
         declarator, over = part(node, "declarator"), part(node, "right")
         refers = declarator.type == "reference_declarator"
         changes = refers and "const" not in cpp_roots.specifiers_of(node)
-        (self.refers if changes else self.check)(over)
+        if changes:
+            self.refers(over)
+        elif over.type not in _PLACES:
+            self.check(over)
         self.inner.update(declared_in(declarator))
         self._around = (*self._around, node.type)
         self.check(part(node, "body"))
@@ -287,6 +323,25 @@ _CHECKS: dict[str, Callable[[Effects, Node], None]] = {
     **dict.fromkeys(REPEATED, Effects._repeated),
     "for_range_loop": Effects._range,
 }
+
+
+def is_bound(type_: str, value: Node) -> bool:
+    """Whether `=` may make a variable of a type another name for a place."""
+    return value.type not in _LISTS and known_functions.type_refers(type_)
+
+
+def _is_array(node: Node, variable: Variable) -> bool:
+    """Whether a place of an array is more than one element, and none is taken where it stands."""
+    indices, above, inner = 0, node.parent, node
+    while above is not None and above.type == "parenthesized_expression":
+        inner, above = above, above.parent
+    if above is not None and (
+        above.type == "sizeof_expression" or above.child_by_field_name("argument") == inner
+    ):
+        return False
+    while node.type == "subscript_expression":
+        indices, node = indices + 1, part(node, "argument")
+    return variable.type is not None and indices < len(variable.type.dimensions)
 
 
 def touching(cpp: Cpp, scope: Scope, node: Node) -> Touches | None:

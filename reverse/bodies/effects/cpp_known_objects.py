@@ -46,6 +46,11 @@ class KnownObjects:
         declaration = next((n for n in around if n.type == "declaration"), None)
         return declaration is not None and _CONSTANT.match(text_of(declaration)) is not None
 
+    def is_pointer(self, cpp: Cpp, node: Node) -> bool:
+        """Whether an array is a pointer as a value: of all but those that are known for objects."""
+        type_ = self.statics.of(cpp, node)
+        return type_ is None or type_.pointers > 0
+
     def fields_of(self, type_: str) -> tuple[CppField, ...]:
         """The variables of the one class of a name."""
         return self.code.all_classes[type_][0].fields

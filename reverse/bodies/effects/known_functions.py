@@ -40,7 +40,7 @@ _CONVERSION = re.compile(
 )
 # Types whose objects keep references to what their constructors get; functions only take some.
 _REFERRING = re.compile(
-    r"&|\b(?:reference_wrapper|atomic_ref|(?:md)?span|Map|Ref|iterator_range|\w+_insert_iterator)\b"
+    r"&|\b(?:\w*reference(?:_t|_wrapper)?|atomic_ref|(?:md)?span|Map|Ref|iterator_range|\w+_insert_iterator)\b"
 )
 _PARAMETERS = re.compile(r"\([^()]*\)")
 # Pointers to what is not constant.
@@ -163,6 +163,8 @@ def _takes_values(called: str, of_object: bool) -> bool:
 
 def may_change(parameter: CppParameter) -> bool:
     """Whether a function may change what it gets for a parameter: also through a pointer."""
+    if type_refers(text_of(parameter.type)):
+        return True
     return parameter.may_change or _SHARED.search(text_of(parameter.type)) is not None
 
 
@@ -170,7 +172,12 @@ def type_takes_values(name: str) -> bool:
     """Whether objects of a type are known to change nothing that their constructors get."""
     if _CONVERSION.match(name) is not None:
         return True
-    return _is_of_library(name) and _REFERRING.search(_PARAMETERS.sub("", name)) is None
+    return _is_of_library(name) and not type_refers(name)
+
+
+def type_refers(name: str) -> bool:
+    """Whether a variable of a type may be another name for what it is made of."""
+    return "decltype" in name or _REFERRING.search(_PARAMETERS.sub("", name)) is not None
 
 
 def _is_of_library(name: str) -> bool:

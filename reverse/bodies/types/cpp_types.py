@@ -122,6 +122,19 @@ def carried(node: Node, enums: Collection[str] = (), *, texts: bool = True) -> C
     return Carried(Type("int")) if text in enums or last in enums else None
 
 
+def carried_in(type_: Node, enums: Collection[str]) -> Carried | None:
+    """What the model keeps of the type of a member; nothing of a bit-field, which holds less."""
+    above = type_.parent
+    if above is not None and any(map(_is_width, above.named_children)):
+        return None
+    return carried(type_, enums)
+
+
+def _is_width(node: Node) -> bool:
+    """Whether it is the width of a bit-field; the grammar has it in an error if a value follows."""
+    return node.type == "bitfield_clause" or (node.type == "ERROR" and text_of(node)[:1] == ":")
+
+
 @lru_cache(maxsize=512)  # the same few types are written again and again
 def _spelled(text: str) -> Carried | None:
     """What the model keeps of a type of C++ or ROS by how it is written."""

@@ -37,7 +37,7 @@ from rebsync.reverse.ir.cpp.statements import scope
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.ir.program import Function, FunctionKind, Parameter
-from rebsync.reverse.syntax.cpp_declarations import is_noexcept
+from rebsync.reverse.syntax.cpp_exceptions import is_noexcept
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
 from rebsync.source import NOWHERE, Span
 

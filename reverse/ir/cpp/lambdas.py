@@ -24,7 +24,8 @@ from rebsync.reverse.ir.cpp.functions import body_of, bound_parameters
 from rebsync.reverse.ir.cpp.objects import as_value
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.ir.program import Function, Parameter
-from rebsync.reverse.syntax.cpp_declarations import is_noexcept, parameters_in
+from rebsync.reverse.syntax.cpp_declarations import parameters_in
+from rebsync.reverse.syntax.cpp_exceptions import is_noexcept
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 

@@ -265,12 +265,12 @@ class Reading:
                 return None
 
     def method(self, name: str, first: int) -> Scope | None:
-        """A method of the class, or of those above it."""
+        """A method of the class, or of those above it; None where one has several of a name."""
         for above in self.unit.lineage[first:]:
-            for binding in above.names.get(name, []):
-                if binding.how == "scope":
-                    found = self.code.scope_of(binding.node, above.py)
-                    return found if found.kind == FUNCTION else None
+            bindings = above.names.get(name, [])
+            if any(binding.how == "scope" for binding in bindings):
+                found = self.code.scope_of(bindings[0].node, above.py)
+                return found if found.kind == FUNCTION and len(bindings) == 1 else None
         return None
 
     def external(self, node: Node, frame: Frame) -> str:

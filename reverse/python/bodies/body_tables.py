@@ -16,7 +16,6 @@ from rebsync.reverse.python.values.py_worth import External, Items, Table
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, text_of
 
-_LISTS = frozenset({"tuple", "list", "set"})
 # What may store an element, or take it out, if that is a part of it.
 _CHANGES = frozenset(
     {"delete_statement", "augmented_assignment", "expression_list", "as_pattern_target"}
@@ -28,7 +27,10 @@ _READERS = tuple(
     (External(f"builtins.{name}"),)
     for name in ("all", "any", "enumerate", "len", "max", "min", "sum", "zip")
 )
+# Functions that make a container of their own.
+_MAKING = frozenset({"dict", "frozenset", "list", "range", "set", "sorted", "tuple"})
 _MOST = 32
+_DEEPEST = 8
 _KEYS = frozenset({STRING, WHOLE})
 
 
@@ -89,44 +91,62 @@ def table(reader: BodyExpressionReader, node: Node) -> list[tuple[Value, Value]]
     return found if is_plain else None
 
 
-def _is_constant(reading: Reading, node: Node) -> bool:
-    """Whether a table is a literal, or has a name that is bound once and only looked into."""
-    if node.type in ("dictionary", *_LISTS):
-        return True
-    if node.type not in ("identifier", "attribute"):
-        return False
-    name, made = text_of(node).rpartition(".")[2], 0
+def _is_constant(reading: Reading, node: Node, depth: int = 0) -> bool:
+    """Whether a table is a literal, or has a name that is bound once and only looked into.
+
+    What it is bound to is such a table, or is made for it: no other name changes that.
+    """
+    match node.type:
+        case "dictionary" | "tuple" | "list" | "set":
+            return True
+        case "call":
+            function = field(node, "function")
+            if function.type == "identifier":
+                return text_of(function) in _MAKING
+            is_view = function.type == "attribute"
+            return is_view and _is_constant(reading, field(function, "object"), depth + 1)
+        case "identifier" | "attribute" if depth < _DEEPEST:
+            made = _bound_once(reading, text_of(node).rpartition(".")[2])
+            return made is not None and _is_constant(reading, made, depth + 1)
+        case _:
+            return False
+
+
+def _bound_once(reading: Reading, name: str) -> Node | None:
+    """The one value that code binds a name to of which it does no more than to look into it."""
+    made: list[Node] = []
     for module in reading.code.modules.values():
         for each in nodes_in(module.node):
             if each.type == "identifier" and text_of(each) == name:
                 use = _use(reading, each, module.py.source.path)
                 if use is None:
-                    return False
+                    return None
                 made += use
-    return made == 1
+    return made[0] if len(made) == 1 else None
 
 
-def _use(reading: Reading, name: Node, path: str) -> int | None:
-    """How often a place in the code binds a name; None where it may do more than to look."""
+def _use(reading: Reading, name: Node, path: str) -> list[Node] | None:
+    """What a place in the code binds a name to; None where it may do more than to look."""
     at = name
     above = at.parent
     if above is not None and above.type == "attribute" and field(above, "attribute") == name:
         at, above = above, above.parent
     match above.type if above is not None else "":
         case "assignment" if above is not None and above.child_by_field_name("left") == at:
-            return 1
+            value = above.child_by_field_name("right")
+            return [value] if value is not None else None
         case "subscript" if above is not None and field(above, "value") == at:
-            return None if _is_changed(above) else 0
+            return None if _is_changed(above) else []
         case "attribute" if above is not None and field(above, "object") == at:
-            return 0 if text_of(field(above, "attribute")) in _LOOKS else None
+            return [] if text_of(field(above, "attribute")) in _LOOKS else None
         case "comparison_operator":
-            return 0
+            return []
         case "for_in_clause" if above is not None and field(above, "right") == at:
-            return 0  # its elements are constants
+            return []  # its elements are constants
         case "argument_list" if above is not None and above.parent is not None:
             function = field(above.parent, "function")
             ways = reading.values.ways(function, scope_around(reading.code, name, path))
-            return 0 if ways in _READERS else None
+            return [] if ways in _READERS else None
         case _:
             return None
 

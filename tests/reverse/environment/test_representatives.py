@@ -63,7 +63,7 @@ _statements = st.one_of(
     ),
 )
 _MODEL = """reactiveclass A(12) {{
-  statevars {{ int x; int y; boolean b; }}
+  statevars {{ int x; int y; boolean b; int[2][2] g; }}
   A() {{ x = 0; y = 0; b = false; }}
   int half(int given) {{ return given; }}
   @Open msgsrv got(int v) {{ {} }}
@@ -120,6 +120,7 @@ def _of(body: str, type_: str = "int") -> Representatives:
         "x = v; y = x * 2;",
         "b = half(v) == half(y);",
         "x = abs(v);",
+        "g[v][0] = 1;",
     ],
 )
 def test_what_does_more_than_to_copy_and_compare_is_not_exact(body: str) -> None:
@@ -138,6 +139,7 @@ def test_what_does_more_than_to_copy_and_compare_is_not_exact(body: str) -> None
         ("b = v > 1.5;", "int", (0, 1, 2, 3)),
         ("b = v > 0.5d;", "double", (0.0, 0.5, 1.5)),
         ("b = v > 1; b = v < 2;", "double", (0.0, 1.0, 1.5, 2.0, 3.0)),
+        ("g[v > 1 ? 1 : 0][0] = 3;", "int", (0, 1, 2)),
         ("b = v;", "boolean", (False, True)),
     ],
 )
