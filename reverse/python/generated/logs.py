@@ -19,7 +19,6 @@ from rebsync.reverse.python.generated.log_words import (
     OF_TEXTS,
     ON_CLOCKS,
 )
-from rebsync.reverse.python.generated.told_containers import is_asked
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.ancestors import functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -43,11 +42,10 @@ class Looks:
     that stand for a logger of Python's library, a dictionary of literals, and what tells the time;
     `records` are its classes whose objects only hold what they are made of, with their fields;
     `describing` functions that only put texts together, with how many arguments they take.
-    `containers` are members that only logs look into, with their kinds; `computing` is what the
-    module calls functions that only give a value, and `logging` methods that only log, with how
-    many arguments each takes. `attributes` are what objects of the class have, where that is known:
-    with a slip in the name of one, what logs raises. `texts` are methods that only put a text
-    together, with how many arguments each takes.
+    `computing` is what the module calls functions that only give a value, and `logging` methods
+    that only log, with how many arguments each takes. `attributes` are what objects of the class
+    have, where that is known: with a slip in the name of one, what logs raises. `texts` are methods
+    that only put a text together, with how many arguments each takes.
     """
 
     trusted: frozenset[str] = with_default(
@@ -61,7 +59,6 @@ class Looks:
     clocks: frozenset[str] = frozenset()
     records: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
     describing: Mapping[str, int] = with_default(default_factory=dict)
-    containers: Mapping[str, str] = with_default(default_factory=dict)
     computing: frozenset[str] = frozenset()
     logging: Mapping[str, int] = with_default(default_factory=dict)
     attributes: frozenset[str] | None = None
@@ -79,8 +76,6 @@ class Looks:
             return text_of(field(node, "object")) not in ("self", "super()")
         if node.type == "attribute" and (self._is_absent(node) or self._is_no_field(node)):
             return False
-        if node.type == "subscript" and self._container(field(node, "value")):
-            return False  # it may have no such element
         return all(map(self.is_pure, node.named_children))
 
     def _is_absent(self, node: Node) -> bool:
@@ -134,11 +129,6 @@ class Looks:
             if node.type == "assignment" and is_target(node, text_of(local)):
                 yield field(node, "right")
 
-    def _container(self, node: Node) -> str:
-        """The kind of the container that a member is; empty for all else."""
-        is_own = node.type == "attribute" and text_of(field(node, "object")) == "self"
-        return self.containers.get(text_of(field(node, "attribute")), "") if is_own else ""
-
     def _is_look(self, call: Node) -> bool:
         """Whether what is called only looks at its arguments, the clock, or the node's name."""
         function = field(call, "function")
@@ -170,8 +160,6 @@ class Looks:
         holder, name = field(function, "object"), text_of(field(function, "attribute"))
         if name == "get" and text_of(holder) in self.tables:
             return len(named(field(call, "arguments"))) in (1, 2)
-        if is_asked(call, self.containers):
-            return True
         if name in ON_CLOCKS:
             return holder.type == "call" and not named(field(call, "arguments"))
         is_joining = name == "join" and self._joins_texts(call)
