@@ -16,7 +16,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_METHOD
 from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.generated.asked import Answering
-from rebsync.reverse.python.generated.logs import Looks, only_logs
+from rebsync.reverse.python.generated.logs import Looks
 from rebsync.reverse.python.generated.member_places import (
     function_around,
     makes_member,
@@ -112,7 +112,7 @@ class Silent:
 
     def tells(self, node: Node) -> bool:
         """Whether a statement does nothing but to tell people something, or to keep it for that."""
-        if only_logs(node, self.looks) or self._asks_parameter(node):
+        if self._asks_parameter(node):
             return True
         inner = expression_in(node)
         if inner is not None and inner.type == "call" and self.asked.diagnoses(inner):

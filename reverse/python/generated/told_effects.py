@@ -31,6 +31,7 @@ from rebsync.source import Span
 
 _LOG_LEVELS = frozenset({"debug", "info", "warn", "warning", "error", "fatal", "critical"})
 _SENDING, _ADDING = frozenset({"publish", "sendTransform"}), frozenset({"append", "extend"})
+_REPLACE = "dataclasses.replace"
 _SUPPRESS = "contextlib.suppress"
 _CONTEXTS = frozenset({LibraryOrigin(_SUPPRESS, True)})
 _ASKING = frozenset({"get", "items", "keys", "values", "index", "count"})  # of a constant table
@@ -299,9 +300,24 @@ class _Scope(ToldValues):
             return self._given(node)
         if name in libraries.own_names():
             return not node.arguments
+        if name == _REPLACE:
+            return self._replaces(node)
         is_whole = name.removeprefix("builtins.") in _WHOLE
         seen = all(self.is_seen(a.value, whole=is_whole) for a in node.arguments)
         return seen and takes(name, self.arguments(node), whole=self.has_whole(node))
+
+    def _replaces(self, node: s.Call) -> bool:
+        """`replace(status, loaded=False)`: another object of a class that has these fields."""
+        first, *changed = node.arguments or (None,)
+        if first is None or first.name is not None or not self.is_own(first.value):
+            return False
+        held = self.held(first.value)
+        classes = [
+            self.effects.form.program.classes[o.name] for o in held if isinstance(o, ClassOrigin)
+        ]
+        fields = frozenset.intersection(*(frozenset(f.name for f in c.fields) for c in classes))
+        is_made = all(self.enters(ClassOrigin(c.name, False)) for c in classes)
+        return is_made and self._given(node) and {a.name for a in changed} <= fields
 
     def _calls_method(self, node: s.Call, receiver: e.Expression, name: str) -> bool:
         if self.is_object(receiver):
