@@ -10,7 +10,6 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.python.generated.logs import Looks, looks_in, only_logs
 from rebsync.reverse.python.generated.module_variables import (
     hidden_names,
     imported_as,
@@ -19,7 +18,8 @@ from rebsync.reverse.python.generated.module_variables import (
 )
 from rebsync.reverse.python.generated.plain_functions import function_named
 from rebsync.reverse.python.generated.py_types import expression_in, stored_into
-from rebsync.reverse.python.generated.silent import Silent
+from rebsync.reverse.python.generated.slicing.logs import Looks, looks_in, only_logs
+from rebsync.reverse.python.generated.slicing.silent import Silent
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
 from rebsync.reverse.syntax.py_tree import field, named, parse, text_of

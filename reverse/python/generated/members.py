@@ -9,13 +9,13 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1
-from rebsync.reverse.python.generated.logs import Looks, looks_in
 from rebsync.reverse.python.generated.module_variables import (
     imported_as,
     is_clock,
     loggers_of,
 )
 from rebsync.reverse.python.generated.py_types import call_parts, string_value
+from rebsync.reverse.python.generated.slicing.logs import Looks, looks_in
 from rebsync.reverse.syntax.ancestors import functions_around
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of

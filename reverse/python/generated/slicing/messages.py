@@ -16,9 +16,9 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.build.common_messages import COMMON
 from rebsync.reverse.build.told_messages import CONSTANTS, TOLD
-from rebsync.reverse.python.generated.logs import Looks
 from rebsync.reverse.python.generated.module_variables import imported_as
-from rebsync.reverse.python.generated.shown import Shown
+from rebsync.reverse.python.generated.slicing.logs import Looks
+from rebsync.reverse.python.generated.slicing.publishers import Shown
 from rebsync.reverse.syntax.ancestors import functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import Scope

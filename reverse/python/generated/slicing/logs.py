@@ -10,7 +10,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.python.generated.log_words import (
+from rebsync.reverse.python.generated.slicing.log_words import (
     CALLED,
     CALLING,
     LEVELS,

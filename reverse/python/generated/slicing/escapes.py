@@ -21,7 +21,7 @@ from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.python.bodies.body_form import PyForm
-from rebsync.reverse.python.generated.told_calls import is_known
+from rebsync.reverse.python.generated.slicing.library_calls import is_known
 from rebsync.source import Span
 
 LOGGER = LibraryOrigin("logger", True)

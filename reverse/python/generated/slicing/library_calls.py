@@ -19,7 +19,7 @@ from rebsync.reverse.analysis.python.value_types import (
     values_of,
 )
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.python.generated.log_words import COMPUTING
+from rebsync.reverse.python.generated.slicing.log_words import COMPUTING
 
 _PLAIN = frozenset({OwnType.NUMBER, OwnType.TEXT, OwnType.NONE})
 

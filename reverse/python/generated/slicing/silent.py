@@ -15,8 +15,6 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_METHOD
 from rebsync.reverse.python.bodies.body_form import PyForm
-from rebsync.reverse.python.generated.asked import Answering
-from rebsync.reverse.python.generated.logs import Looks
 from rebsync.reverse.python.generated.member_places import (
     function_around,
     makes_member,
@@ -35,21 +33,23 @@ from rebsync.reverse.python.generated.module_variables import (
 )
 from rebsync.reverse.python.generated.py_types import expression_in
 from rebsync.reverse.python.generated.roles import PyRoles, is_of_node
-from rebsync.reverse.python.generated.shown import (
-    shown_by,
-    tells_by,
-)
-from rebsync.reverse.python.generated.timers import Timers
-from rebsync.reverse.python.generated.told_candidates import (
+from rebsync.reverse.python.generated.slicing.candidates import (
     candidate_locals,
     candidate_members,
     made_once,
     may_tell,
 )
-from rebsync.reverse.python.generated.told_effects import ToldEffects
-from rebsync.reverse.python.generated.told_exceptions import ToldExceptions
-from rebsync.reverse.python.generated.told_messages import ToldMessages, told_types
-from rebsync.reverse.python.generated.told_values import ToldPlaces
+from rebsync.reverse.python.generated.slicing.effects import ToldEffects
+from rebsync.reverse.python.generated.slicing.escapes import ToldPlaces
+from rebsync.reverse.python.generated.slicing.exceptions import ToldExceptions
+from rebsync.reverse.python.generated.slicing.logs import Looks
+from rebsync.reverse.python.generated.slicing.messages import ToldMessages, told_types
+from rebsync.reverse.python.generated.slicing.publishers import (
+    shown_by,
+    tells_by,
+)
+from rebsync.reverse.python.generated.slicing.services import Answering
+from rebsync.reverse.python.generated.slicing.timers import Timers
 from rebsync.reverse.syntax.ancestors import ancestors, functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope

@@ -2,7 +2,7 @@
 
 A statement does nothing to the model if what it stores lies in places that nothing of the model
 looks at, and if nothing that it can reach is the model's. So this is an escape analysis: only free
-values (`told_values`) are stored, and given to functions.
+values (`escapes`) are stored, and given to functions.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.routines import Effect, Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.python.bodies.body_form import PyForm
-from rebsync.reverse.python.generated.log_words import ON_CLOCKS
-from rebsync.reverse.python.generated.told_calls import method_takes, takes
-from rebsync.reverse.python.generated.told_candidates import asked_of_node
-from rebsync.reverse.python.generated.told_values import LOGGER, Foreign, ToldPlaces, ToldValues
+from rebsync.reverse.python.generated.slicing.candidates import asked_of_node
+from rebsync.reverse.python.generated.slicing.escapes import LOGGER, Foreign, ToldPlaces, ToldValues
+from rebsync.reverse.python.generated.slicing.library_calls import method_takes, takes
+from rebsync.reverse.python.generated.slicing.log_words import ON_CLOCKS
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
 
