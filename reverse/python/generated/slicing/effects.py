@@ -12,7 +12,6 @@ from collections.abc import Collection, Iterator, Mapping
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin, Origin
-from rebsync.reverse.analysis.stores import ClassValue, Value, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function
@@ -193,7 +192,7 @@ class _Scope(ToldValues):
         if isinstance(target, e.Temporary) and value in self.loggers:
             self.loggers.add(target)
             return True
-        if isinstance(target, e.Temporary) and self._is_publisher(value):
+        if isinstance(target, e.Temporary) and self.is_publisher(value):
             self.publishing.add(target)
             return True
         if isinstance(target, e.Temporary) and self.is_table(value):
@@ -258,22 +257,10 @@ class _Scope(ToldValues):
                 held = self.effects.origins.of(value, self.function.name)
                 is_free = bool(held) and self._given(node) and all(map(self.enters, held))
                 return is_free and (
-                    self._is_defined(value, self.function.name) or self.has_keys(node)
+                    self.is_defined(value, self.function.name) or self.has_keys(node)
                 )
             case s.MethodCallee(receiver, name, after=None):
                 return self._calls_method(node, receiver, name)
-            case _:
-                return False
-
-    def _is_defined(self, value: Value, function: str, deepest: int = 4) -> bool:
-        """Whether what a value stands for is as it was defined: nothing decorates it."""
-        match value:
-            case e.Closure() | e.FunctionReference() | e.ClassReference() | ClassValue():
-                return True
-            case e.Global() | e.Temporary() | e.Local():
-                key = key_of(value, function) if deepest else None
-                stored = self.effects.origins.graph.stores.of(key) if key is not None else []
-                return bool(stored) and all(self._is_defined(v, f, deepest - 1) for f, v in stored)
             case _:
                 return False
 
@@ -332,7 +319,7 @@ class _Scope(ToldValues):
             self._know(node)
             is_asked = name in names_in_model(Language.PYTHON) and not node.arguments
             return is_asked and self.is_object(receiver.object)
-        if receiver in self.publishing or self._is_publisher(receiver):
+        if receiver in self.publishing or self.is_publisher(receiver):
             self._know(node)
             return name in _SENDING and self._given(node)
         if self.is_message(receiver):
@@ -346,14 +333,6 @@ class _Scope(ToldValues):
             return is_logging and self._given(node, seen=True)
         answers = (self._answers(node, o, name) for o in held)
         return self.is_kept(receiver) and bool(held) and all(answers)
-
-    def _is_publisher(self, value: e.Expression) -> bool:
-        """Whether a value is a member that publishes what only people look at."""
-        match value:
-            case e.Attribute(of, name) if self.is_object(of) and self.places is not None:
-                return name in self.places.publishers
-            case _:
-                return False
 
     def _know(self, node: s.Call) -> None:
         self.known.add((self.function.name, node.place))

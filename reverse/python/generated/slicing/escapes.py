@@ -13,7 +13,7 @@ from dataclasses import field as with_default
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origin, Origins
 from rebsync.reverse.analysis.python.value_types import A_NUMBER, A_TEXT, ValueTypes
-from rebsync.reverse.analysis.stores import key_of
+from rebsync.reverse.analysis.stores import ClassValue, Value, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -316,6 +316,26 @@ class ToldValues(ABC):
         """Whether a value is a variable of the module that only people look at."""
         named = self.places.variables if self.places is not None else ()
         return isinstance(value, e.Global) and value.name in named
+
+    def is_defined(self, value: Value, function: str, deepest: int = 4) -> bool:
+        """Whether what a value stands for is as it was defined: nothing decorates it."""
+        match value:
+            case e.Closure() | e.FunctionReference() | e.ClassReference() | ClassValue():
+                return True
+            case e.Global() | e.Temporary() | e.Local():
+                key = key_of(value, function) if deepest else None
+                stored = self.effects.origins.graph.stores.of(key) if key is not None else []
+                return bool(stored) and all(self.is_defined(v, f, deepest - 1) for f, v in stored)
+            case _:
+                return False
+
+    def is_publisher(self, value: e.Expression) -> bool:
+        """Whether a value is a member that publishes what only people look at."""
+        match value:
+            case e.Attribute(of, name) if self.is_object(of) and self.places is not None:
+                return name in self.places.publishers
+            case _:
+                return False
 
     def is_message(self, value: e.Expression) -> bool:
         """Whether a value is a message for people that the code makes, or a field of one."""
