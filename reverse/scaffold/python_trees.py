@@ -9,7 +9,7 @@ from contextlib import suppress
 
 from rebsync.reserved import RUNTIME_HEADERS
 from rebsync.reverse.libraries.python import log_words, own_name_methods, own_names
-from rebsync.reverse.python.generated.log_words import HARMLESS
+from rebsync.reverse.python.generated.slicing.log_words import HARMLESS
 from rebsync.source import Source, Span
 
 # The modules of the run-time part.

@@ -25,6 +25,7 @@ from rebsync.reverse.analysis.python.value_types import (
 )
 from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import types as t
 from rebsync.reverse.libraries.attributes import attributes_of, held_in
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
@@ -51,13 +52,28 @@ class AttributeTypes:
         found = union(self._of_type(type_, name) for type_ in types)
         is_told = all(isinstance(type_, MessageType | LibraryType) for type_ in types)
         is_told |= all(
-            isinstance(t, InstanceType) and any(self._getters(t.name, name)) for t in types
+            isinstance(each, InstanceType) and any(self._getters(each.name, name)) for each in types
         )
         if types and (is_told or self._enumerations(types)):
             return found
         if not self.has_own(of, function):
             return found | ANY_TYPE
         return found | self._types.of_name(Member(name))
+
+    def declared(self, value: e.Expression, function: str) -> list[t.Type]:
+        """The types that a parameter or attribute, or an element of it, is declared with."""
+        around = self._program.function(function)
+        match value:
+            case e.Local(name):
+                return [p.type for p in around.parameters if p.name == name]
+            case e.Attribute(e.Local(of), name) if of == around.receiver and around.owner:
+                classes = map(self._program.classes.get, self._graph.family(around.owner))
+                fields = (f for c in classes if c is not None for f in c.fields)
+                return [f.type for f in fields if f.name == name]
+            case e.Index(of, index) if not isinstance(index, e.Slice):
+                return [a.element for a in self.declared(of, function) if isinstance(a, t.Array)]
+            case _:
+                return []
 
     def _enumerations(self, types: ValueTypes) -> bool:
         return all(isinstance(type_, InstanceType) and self._has_members(type_) for type_ in types)

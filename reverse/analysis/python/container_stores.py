@@ -56,6 +56,9 @@ def _put(node: Node, function: str) -> Iterator[tuple[e.Expression, Put]]:
             yield container, Put(function, value, key)
         case s.Assign(e.Index(container, index), value) if not isinstance(index, e.Slice):
             yield container, Put(function, value, index)
+        case s.CompoundAssign(e.Index(container, index) as element, operator, value):
+            if not isinstance(index, e.Slice):  # where one is missing, a counter gets it
+                yield container, Put(function, e.Binary(operator, element, value), index)
         case s.Call(_, s.MethodCallee(container, method), (argument,)) if method in _ONE | _ALL:
             yield container, Put(function, argument.value, None, method in _ALL)
         case s.Call(_, s.MethodCallee(container, "insert"), (_, argument)):

@@ -71,7 +71,9 @@ class GivenTypes:
                 return self._of_library(call, name, function)
             case s.MethodCallee(receiver, name, None, None):
                 types = self._types.of(receiver, function)
-                if types and all(map(_has_methods, types)):
+                if types == NO_TYPES:  # None, or not yet known of what is stored there
+                    return NO_TYPES
+                if all(map(_has_methods, types)):
                     return union(self._of_method(t, name, call, function) for t in types)
         return self._of_program(call, function)
 
@@ -114,6 +116,8 @@ class GivenTypes:
                 return sequence(None, self._mapped(plain[0], function))
             case "builtins.dict" if not call.arguments:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, NO_TYPES),))
+            case "collections.Counter" if not call.arguments:
+                return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, A_NUMBER),))
             case "builtins.sum" if len(given) > 1:
                 return ANY_TYPE
         gives = self._origins.table.function(name).gives or result_of(name) or name
@@ -164,6 +168,8 @@ class GivenTypes:
                 return sequence(None, values)
             case "items":
                 return sequence(None, pair(keys, values))
+            case "most_common":
+                return sequence(_LIST, pair(keys, values))
             case "copy":
                 return frozenset((type_,))
             case "get" | "pop" | "setdefault":

@@ -114,6 +114,8 @@ class InferredTypes:
             case e.Index(of, index):
                 at = index.value if isinstance(index, e.Literal) else None
                 return at_index(self.of(of, function), at)
+            case e.Attribute() if declared := self._declared(value, function):
+                return declared
             case e.Attribute(of, name):
                 return self.attributes.of(self.of(of, function), of, name, function)
             case e.Local() | e.Temporary() | e.Captured() | e.Global():
@@ -123,6 +125,9 @@ class InferredTypes:
                 return ANY_TYPE if key is None else self._stored(key)
             case _:
                 return ANY_TYPE
+
+    def _declared(self, value: e.Attribute, function: str) -> ValueTypes:
+        return union(map(of_declared, self.attributes.declared(value, function)))
 
     def _receiver(self, function: str) -> ValueTypes:
         owner = self._graph.program.function(function).owner

@@ -115,27 +115,12 @@ class OperandKinds:
 
     def is_whole(self, value: e.Expression) -> bool:
         """Whether a value is declared as a whole number."""
-        types = self._declared_types(value)
+        types = self._types.attributes.declared(value, self._name)
         return bool(types) and all(isinstance(each, t.Integer | t.Truth) for each in types)
 
     def _declared(self, value: e.Expression) -> ValueTypes:
         """The types that parameters, attributes and their elements are declared with."""
-        return union(map(of_declared, self._declared_types(value)))
-
-    def _declared_types(self, value: e.Expression) -> list[t.Type]:
-        program = self._graph.program
-        around = program.function(self._name)
-        match value:
-            case e.Local(name):
-                return [p.type for p in around.parameters if p.name == name]
-            case e.Attribute(e.Local(of), name) if of == around.receiver and around.owner:
-                classes = map(program.classes.get, self._graph.family(around.owner))
-                fields = (f for c in classes if c is not None for f in c.fields)
-                return [f.type for f in fields if f.name == name]
-            case e.Index(of, index) if not isinstance(index, e.Slice):
-                return [a.element for a in self._declared_types(of) if isinstance(a, t.Array)]
-            case _:
-                return []
+        return union(map(of_declared, self._types.attributes.declared(value, self._name)))
 
     def _attribute(self, value: e.Attribute, facts: Facts) -> ValueTypes:
         """The types of an attribute, by its object's class and what is stored under its name."""

@@ -39,7 +39,7 @@ from rebsync.reverse.python.generated.plain_functions import describing
 from rebsync.reverse.python.generated.posts import own_posts
 from rebsync.reverse.python.generated.py_types import passed_on, type_of
 from rebsync.reverse.python.generated.roles import PyRoles, PySends, plain_name
-from rebsync.reverse.python.generated.silent import silent_in
+from rebsync.reverse.python.generated.slicing.silent import silent_in
 from rebsync.reverse.python.generated.statements import Statements
 from rebsync.reverse.python.generated.widths import WidthContext, hint_of, wanted_of
 from rebsync.reverse.python.values.py_callbacks import body_of

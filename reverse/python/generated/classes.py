@@ -46,8 +46,8 @@ from rebsync.reverse.python.generated.roles import (
     plain_name,
     roles_of,
 )
-from rebsync.reverse.python.generated.silent import silent_in
-from rebsync.reverse.python.generated.told_numbers import numbers_for_people
+from rebsync.reverse.python.generated.slicing.numbers import numbers_for_people
+from rebsync.reverse.python.generated.slicing.silent import silent_in
 from rebsync.reverse.python.generated.value_types import typed
 from rebsync.reverse.python.values.class_creation import list_creation
 from rebsync.reverse.python.values.py_evaluator import lineage

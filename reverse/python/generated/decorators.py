@@ -10,7 +10,6 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.records import dataclass
-from rebsync.reverse.python.generated.logs import Looks, looks_in, only_logs
 from rebsync.reverse.python.generated.module_variables import (
     hidden_names,
     imported_as,
@@ -19,8 +18,8 @@ from rebsync.reverse.python.generated.module_variables import (
 )
 from rebsync.reverse.python.generated.plain_functions import function_named
 from rebsync.reverse.python.generated.py_types import expression_in, stored_into
-from rebsync.reverse.python.generated.silent import Silent
-from rebsync.reverse.python.generated.told_locals import told_locals
+from rebsync.reverse.python.generated.slicing.logs import Looks, looks_in, only_logs
+from rebsync.reverse.python.generated.slicing.silent import Silent
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
 from rebsync.reverse.syntax.py_tree import field, named, parse, text_of
@@ -100,7 +99,7 @@ def is_context(module: Scope, function: Scope) -> bool:
 def _tells_around(code: PyCode, module: Scope, made: Scope, silent: Silent) -> bool:
     """Whether a context manager does nothing but to tell people, before and behind its block."""
     looks = _looks(code, module, made.module)
-    told = told_locals(made, frozenset(), looks)
+    told = _own_locals(made)
     around = _Around(made, "yield", looks, told, silent)
     return around.yields(body_of(made))
 
@@ -119,8 +118,14 @@ def _only_tells(code: PyCode, module: Scope, made: Scope, silent: Silent) -> boo
     if not is_same or stars not in ([1, 2], [1], [0, 1, 2], [0, 1], [0]):
         return False
     looks = _looks(code, module, made.module)
-    told = told_locals(function, frozenset(), looks)
+    told = _own_locals(function)
     return _Around(function, call, looks, told, silent).gives(body_of(function))
+
+
+def _own_locals(function: Scope) -> frozenset[str]:
+    """The locals of a function that it was not given."""
+    given = {p.name for p in function.parameters} | function.outer
+    return frozenset(function.names).difference(given)
 
 
 def is_cast(module: Scope, called: str) -> bool:

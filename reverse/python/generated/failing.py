@@ -15,8 +15,8 @@ from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
-from rebsync.reverse.python.generated.logs import only_logs, own_method
-from rebsync.reverse.python.generated.told_exceptions import ToldExceptions
+from rebsync.reverse.python.generated.slicing.exceptions import ToldExceptions
+from rebsync.reverse.python.generated.slicing.logs import only_logs, own_method
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of
 

@@ -14,7 +14,7 @@ from rebsync.reverse.build.built_python import files_of_import, imported_by
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.routines import Effect, Language
-from rebsync.reverse.python.generated.log_words import COMPUTING
+from rebsync.reverse.python.generated.slicing.log_words import COMPUTING
 from rebsync.reverse.syntax.py_module import module_of
 from rebsync.source import Source, Span
 

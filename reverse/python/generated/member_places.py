@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.generated.told_candidates import SET_UP
+from rebsync.reverse.python.generated.slicing.candidates import SET_UP
 from rebsync.reverse.syntax.ancestors import functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, text_of

@@ -9,19 +9,14 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync.reverse.libraries.generated_calls import PARAMETER_OF_ROS_1
-from rebsync.reverse.python.generated.logs import Looks, looks_in
 from rebsync.reverse.python.generated.module_variables import (
-    computing_of,
     imported_as,
     is_clock,
     loggers_of,
-    tables_of,
 )
-from rebsync.reverse.python.generated.plain_functions import describing
 from rebsync.reverse.python.generated.py_types import call_parts, string_value
-from rebsync.reverse.python.generated.record_classes import records_in
+from rebsync.reverse.python.generated.slicing.logs import Looks, looks_in
 from rebsync.reverse.syntax.ancestors import functions_around
-from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -107,40 +102,13 @@ def is_lock(module: Scope, node: Node) -> bool:
     return imported_as(module, called) in _LOCKS and not arguments
 
 
-def attributes_in(line: Sequence[Scope]) -> frozenset[str] | None:
-    """What objects of a class have by itself and those above it; None where others are above."""
-    names = {owner.name for owner in line} | _LIBRARY_BASES
-    listed = (owner.node.child_by_field_name("superclasses") for owner in line)
-    bases = (base for each in listed if each is not None for base in named(each))
-    if any(text_of(base).rpartition(".")[2] not in names for base in bases):
-        return None
-    modules = {id(owner.module): owner.module for owner in line}.values()
-    nodes = (n for module in modules for n in nodes_in(module.node) if n.type == "attribute")
-    stored = (text_of(field(n, "attribute")) for n in nodes if _is_stored(n))
-    return frozenset(stored).union(*(owner.names for owner in line))
-
-
-def _is_stored(node: Node) -> bool:
-    above = node.parent
-    if above is None or above.type in _TARGETS:
-        return above is not None
-    return above.child_by_field_name("left") == node
-
-
 def looks_of(
     code: PyCode, line: Sequence[Scope], makers: frozenset[str], hidden: Collection[str]
 ) -> Looks:
     """What names stand for in the code of a class; `hidden` are bound anew somewhere."""
-    owner = line[0]
-    module, records = owner.module, records_in(code, owner.module)
-    texts = describing(code, module)
+    module = line[0].module
     return replace(
         looks_in(code, [*{id(c.module): c.module for c in line}.values()], makers),
-        attributes=attributes_in(line),
         loggers=loggers_of(module).difference(hidden),
-        tables=tables_of(code, module).difference(hidden),
         clocks=frozenset(n for n in module.names if is_clock(module, n)).difference(hidden),
-        computing=frozenset(n for n in computing_of(module) if n.partition(".")[0] not in hidden),
-        records={name: fields for name, fields in records.items() if name not in hidden},
-        describing={name: count for name, count in texts.items() if name not in hidden},
     )

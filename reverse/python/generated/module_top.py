@@ -16,7 +16,6 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.generated_calls import LOGGER
 from rebsync.reverse.python.generated.decorators import is_context
 from rebsync.reverse.python.generated.import_effects import acting_lines
-from rebsync.reverse.python.generated.log_setup import sets_up_logs
 from rebsync.reverse.python.generated.moments import names_moment
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.names import ModelNames
@@ -26,6 +25,7 @@ from rebsync.reverse.python.generated.py_types import (
     is_alias,
     is_text,
 )
+from rebsync.reverse.python.generated.slicing.log_setup import sets_up_logs
 from rebsync.reverse.syntax.ancestors import ancestors, holds
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding

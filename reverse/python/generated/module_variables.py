@@ -1,4 +1,4 @@
-"""Variables of a Python module that only logs have to do with: counters, loggers, tables."""
+"""Variables of a Python module that only logs have to do with: counters, loggers."""
 
 from __future__ import annotations
 
@@ -8,17 +8,9 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.python.generated.log_words import COMPUTING
-from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding
 from rebsync.reverse.syntax.py_index import PyCode, Scope
-from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
-
-_LITERALS = frozenset({"integer", "float", "string", "none", "true", "false"})
-_TABLE = _LITERALS | {
-    *("dictionary", "pair", "string_start", "string_content", "string_end", "unary_operator"),
-    "comment",
-}
+from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 
 def imported_as(module: Scope, name: str) -> str:
@@ -83,17 +75,6 @@ def is_clock(module: Scope, name: str) -> bool:
     return imported_as(module, name) in libraries.clocks()
 
 
-def computing_of(module: Scope) -> frozenset[str]:
-    """What a module calls those functions of Python's library that only give a value."""
-    found = {name: imported_as(module, name) for name in module.names}
-    return frozenset(
-        f"{name}{full[len(whole) :]}"
-        for name, whole in found.items()
-        for full in COMPUTING
-        if whole and (full == whole or full.startswith(f"{whole}."))
-    )
-
-
 def loggers_of(module: Scope) -> frozenset[str]:
     """The variables of a module that only ever are a logger of Python's library."""
     found = set[str]()
@@ -106,25 +87,3 @@ def loggers_of(module: Scope) -> frozenset[str]:
         if whole == "logging.getLogger" and bindings[0].how == "value" and is_named:
             found.add(name)
     return frozenset(found)
-
-
-def tables_of(code: PyCode, module: Scope) -> frozenset[str]:
-    """The variables of a module that are a dictionary of literals, which nothing changes."""
-    found = set[str]()
-    for name, bindings in module.names.items():
-        value = bindings[0].value
-        is_made = len(bindings) == 1 and bindings[0].how == "value" and value.type == "dictionary"
-        if is_made and all(n.type in _TABLE for n in nodes_in(value)):
-            uses = (n for n in nodes_in(module.node) if n.type == "identifier")
-            names = [n for n in uses if text_of(n) == name and not is_label(n)]
-            if all(map(_is_looked_up, names)) and not _is_named_elsewhere(code, module, name):
-                found.add(name)
-    return frozenset(found)
-
-
-def _is_looked_up(node: Node) -> bool:
-    """Whether the name of a table stands where it is made, or asked for an element."""
-    above = node.parent
-    if above is None or above.type == "assignment":
-        return above is not None and above.child_by_field_name("left") == node
-    return above.type == "attribute" and text_of(field(above, "attribute")) == "get"

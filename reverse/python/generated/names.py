@@ -12,7 +12,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.python.generated.named_constants import NamedConstants
 from rebsync.reverse.python.generated.posts import Post
 from rebsync.reverse.python.generated.roles import PySends
-from rebsync.reverse.python.generated.silent import NOTHING, Silent
+from rebsync.reverse.python.generated.slicing.silent import NOTHING, Silent
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 
 

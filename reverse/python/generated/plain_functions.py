@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.generated.log_words import LOOKS
 from rebsync.reverse.python.generated.py_types import is_text
+from rebsync.reverse.python.generated.slicing.log_words import LOOKS
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope, module_named, module_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of

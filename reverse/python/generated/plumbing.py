@@ -17,7 +17,6 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.libraries.generated_calls import PUBLISHERS
 from rebsync.reverse.python.generated.decorators import is_transparent
-from rebsync.reverse.python.generated.logs import is_logger
 from rebsync.reverse.python.generated.members import declares_plain
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.parameters import only_declares, parameter_read
@@ -38,7 +37,8 @@ from rebsync.reverse.python.generated.py_types import (
 from rebsync.reverse.python.generated.roles import OFFERING, PyRoles, PySends
 from rebsync.reverse.python.generated.send_functions import odd_in_send
 from rebsync.reverse.python.generated.shims import odd_in_shim
-from rebsync.reverse.python.generated.silent import Silent
+from rebsync.reverse.python.generated.slicing.logs import is_logger
+from rebsync.reverse.python.generated.slicing.silent import Silent
 from rebsync.reverse.python.generated.validation import is_passed
 from rebsync.reverse.python.values.class_creation import DECORATORS
 from rebsync.reverse.python.values.py_callbacks import body_of

@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.python.generated.module_variables import hidden_names
+from rebsync.reverse.python.generated.record_classes import records_in
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -24,7 +26,7 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
     if value is None or value.type != "call" or field(inner, "left").type != "identifier":
         return None
     name = text_of(field(inner, "left"))
-    fields = reader.expressions.names.silent.looks.records.get(text_of(field(value, "function")))
+    fields = _fields_of(reader, text_of(field(value, "function")))
     if fields is None or not _is_only_read(inner, name, fields):
         return None
     given = _given(value, fields)
@@ -35,6 +37,14 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
     local = [own.value(m.Name(reader.local(f"{name}_{f}"))) for f, _ in given]
     with own.standing_for([f"{name}.{f}" for f, _ in given], local):
         return [*found, *reader.block(rest, node).statements]
+
+
+def _fields_of(reader: ModelStatementReader, name: str) -> Sequence[str] | None:
+    """The fields of a data class of the module, if a name is that of one and of nothing else."""
+    names = reader.expressions.names
+    if name in hidden_names(names.code, names.constants.module):
+        return None
+    return records_in(names.code, names.constants.module).get(name)
 
 
 def _given(call: Node, fields: Sequence[str]) -> list[tuple[str, Node]] | None:

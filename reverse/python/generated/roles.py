@@ -22,9 +22,7 @@ from rebsync.reverse.build.field_order import are_named
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
 from rebsync.reverse.generated.receivers import Receivers, add_receiver
 from rebsync.reverse.generated.sensors import sensor_of
-from rebsync.reverse.python.generated.asked import asked_back
 from rebsync.reverse.python.generated.descriptors import servers_of
-from rebsync.reverse.python.generated.logs import only_describes
 from rebsync.reverse.python.generated.pair_methods import values_given
 from rebsync.reverse.python.generated.parameters import (
     ParameterRead,
@@ -46,7 +44,9 @@ from rebsync.reverse.python.generated.py_types import (
     without_parentheses,
 )
 from rebsync.reverse.python.generated.queues import PASSED, queue_in
-from rebsync.reverse.python.generated.timers import called_back, only_logs_by_words
+from rebsync.reverse.python.generated.slicing.logs import only_describes
+from rebsync.reverse.python.generated.slicing.services import asked_back
+from rebsync.reverse.python.generated.slicing.timers import called_back, only_logs_by_words
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of

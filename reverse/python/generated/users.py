@@ -12,7 +12,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.generated.user_blocks import user_blocks
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
-from rebsync.reverse.python.generated.log_words import HARMLESS
+from rebsync.reverse.python.generated.slicing.log_words import HARMLESS
 from rebsync.reverse.python.generated.user_effects import effects_of
 from rebsync.reverse.syntax.py_module import module_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of

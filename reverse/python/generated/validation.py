@@ -8,9 +8,9 @@ from collections.abc import Callable, Mapping
 from tree_sitter import Node
 
 from rebsync.intervals import Interval
-from rebsync.reverse.python.generated.logs import only_logs
 from rebsync.reverse.python.generated.py_types import without_parentheses
 from rebsync.reverse.python.generated.roles import EnvUse
+from rebsync.reverse.python.generated.slicing.logs import only_logs
 from rebsync.reverse.syntax.py_tree import field, named, text_of, whole_number_of
 
 _COMPARED: Mapping[str, Callable[[int, int], bool]] = {

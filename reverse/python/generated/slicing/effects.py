@@ -2,30 +2,35 @@
 
 A statement does nothing to the model if what it stores lies in places that nothing of the model
 looks at, and if nothing that it can reach is the model's. So this is an escape analysis: only free
-values (`told_values`) are stored, and given to functions.
+values (`escapes`) are stored, and given to functions.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin, Origin
-from rebsync.reverse.analysis.stores import ClassValue, Value, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.routines import Effect, Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.python.bodies.body_form import PyForm
-from rebsync.reverse.python.generated.told_calls import method_takes, takes
-from rebsync.reverse.python.generated.told_values import LOGGER, Foreign, ToldPlaces, ToldValues
+from rebsync.reverse.python.generated.slicing.candidates import asked_of_node
+from rebsync.reverse.python.generated.slicing.escapes import LOGGER, Foreign, ToldPlaces, ToldValues
+from rebsync.reverse.python.generated.slicing.library_calls import method_takes, takes
+from rebsync.reverse.python.generated.slicing.log_words import ON_CLOCKS
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
 
 _LOG_LEVELS = frozenset({"debug", "info", "warn", "warning", "error", "fatal", "critical"})
+_SENDING, _ADDING = frozenset({"publish", "sendTransform"}), frozenset({"append", "extend"})
+_REPLACE = "dataclasses.replace"
 _SUPPRESS = "contextlib.suppress"
 _CONTEXTS = frozenset({LibraryOrigin(_SUPPRESS, True)})
 _ASKING = frozenset({"get", "items", "keys", "values", "index", "count"})  # of a constant table
@@ -33,19 +38,26 @@ _ASKING = frozenset({"get", "items", "keys", "values", "index", "count"})  # of 
 _WHOLE = frozenset({"str", "repr", "len", "int", "float", "bool", "abs", "round"})
 _CONTAINERS = frozenset(
     {
-        *("str", "list", "dict", "set", "tuple", "deque"),
+        *("str", "list", "dict", "set", "tuple", "deque", "defaultdict"),
         *("collections.deque", "collections.Counter", "collections.OrderedDict"),
     }
 )
 
 
 class ToldEffects(Foreign):
-    """Those of one class of the model; `variables` are its state, by attributes."""
+    """Those of one class of the model; `variables` are its state, by attributes, `constants` other
+    attributes with plain values, `messages` types of messages for people.
+    """
 
     def __init__(
-        self, form: PyForm, variables: Mapping[str, m.Type], constants: Collection[str]
+        self,
+        form: PyForm,
+        variables: Mapping[str, m.Type],
+        constants: Collection[str],
+        messages: Collection[str],
     ) -> None:
         self.form = form
+        self.messages = messages
         self.plain = {n for n, type_ in variables.items() if not type_.dimensions} | {*constants}
         self.arrays = {n for n, type_ in variables.items() if len(type_.dimensions) == 1}
         self.foreign: dict[str, bool] = {}
@@ -58,8 +70,7 @@ class ToldEffects(Foreign):
         scope = _Scope(self, function, places)
         if not scope.body(body):
             return False
-        acting = self.form.acting(function, place)
-        return all(problem.place in scope.known for problem in acting)
+        return self._acts_as_known(scope, function, place)
 
     def computes(self, py: Py, place: Span) -> bool:
         """Whether statements of a function of a module do nothing but that, and do not leave it."""
@@ -69,13 +80,31 @@ class ToldEffects(Foreign):
         if any(isinstance(n, s.Return | s.Yield) for n in walk(body)):
             return False
         scope = _Scope(self, function, None)
-        is_free = scope.body(body)
-        return is_free and all(p.place in scope.known for p in self.form.acting(function, place))
+        return scope.body(body) and self._acts_as_known(scope, function, place)
+
+    def _acts_as_known(self, scope: _Scope, function: Function, place: Span) -> bool:
+        acting = self.form.acting(function, place)
+        return all((p.function, p.place) in scope.known for p in acting)
+
+    def acting(self, name: str) -> Iterator[tuple[str, Span]]:
+        """Where a function acts, and what it calls."""
+        function = self.form.program.function(name)
+        return ((p.function, p.place) for p in self.form.acting(function, function.place))
 
     def is_foreign(self, name: str) -> bool:
         """Whether a function does nothing to the model where it gets free values only."""
         body = self.form.program.function(name).body
         return not any(isinstance(n, e.Captured) for n in walk(body)) and self.is_closed(name)
+
+    def gives_free(self, getter: str) -> bool:
+        """Whether a property of the object gives a free value, and does nothing else."""
+        function = self.form.program.function(getter)
+        scope = _Scope(self, function, ToldPlaces())
+        match function.body:
+            case (s.Return(value),) if value is not None:
+                return scope.is_free(value)
+            case _:
+                return False
 
     def is_closed(self, name: str) -> bool:
         """The same of one that gets free values only from around it as well."""
@@ -163,20 +192,15 @@ class _Scope(ToldValues):
         if isinstance(target, e.Temporary) and value in self.loggers:
             self.loggers.add(target)
             return True
+        if isinstance(target, e.Temporary) and self.is_publisher(value):
+            self.publishing.add(target)
+            return True
         if isinstance(target, e.Temporary) and self.is_table(value):
             self.tables.add(target)
             return True
-        return self.is_free(value) and (self._is_place(target) or self._keeps_plain(target, value))
-
-    def _keeps_plain(self, target: e.Lvalue, value: e.Expression) -> bool:
-        """Whether a value of plain types is kept in a place that may hold others."""
-        match target:
-            case e.Local(name):
-                return self.is_plain(target, name) and self.is_plain_value(value)
-            case e.Attribute(of, name) if self.is_object(of):
-                return self.is_plain(target, name) and self.is_plain_value(value)
-            case _:
-                return False
+        if isinstance(target, e.Temporary) and self.is_message(value):
+            self.fields.add(target)
+        return self.is_free(value) and self._is_place(target)
 
     def _is_place(self, target: e.Lvalue) -> bool:
         """Whether nothing of the model looks at a place."""
@@ -192,7 +216,9 @@ class _Scope(ToldValues):
             case e.Attribute(of, name) if self.is_object(of):
                 return self.places is not None and name in self.places.attributes
             case e.Attribute(of):
-                return self.is_own(of) and self.is_free(of)
+                return (self.is_own(of) or self.is_message(of)) and self.is_free(of)
+            case e.Global():
+                return self.is_variable(target)
             case e.Index(of, index):
                 return self.is_seen(index) and self.is_kept(of)
             case _:
@@ -231,22 +257,10 @@ class _Scope(ToldValues):
                 held = self.effects.origins.of(value, self.function.name)
                 is_free = bool(held) and self._given(node) and all(map(self.enters, held))
                 return is_free and (
-                    self._is_defined(value, self.function.name) or self.has_keys(node)
+                    self.is_defined(value, self.function.name) or self.has_keys(node)
                 )
             case s.MethodCallee(receiver, name, after=None):
                 return self._calls_method(node, receiver, name)
-            case _:
-                return False
-
-    def _is_defined(self, value: Value, function: str, deepest: int = 4) -> bool:
-        """Whether what a value stands for is as it was defined: nothing decorates it."""
-        match value:
-            case e.Closure() | e.FunctionReference() | e.ClassReference() | ClassValue():
-                return True
-            case e.Global() | e.Temporary() | e.Local():
-                key = key_of(value, function) if deepest else None
-                stored = self.effects.origins.graph.stores.of(key) if key is not None else []
-                return bool(stored) and all(self._is_defined(v, f, deepest - 1) for f, v in stored)
             case _:
                 return False
 
@@ -269,28 +283,47 @@ class _Scope(ToldValues):
             return False
         if name == _SUPPRESS:
             return all(isinstance(a.value, e.LibraryReference) for a in node.arguments)
+        if name in self.effects.messages:
+            return self._given(node)
+        if name in libraries.own_names():
+            return not node.arguments
+        if name == _REPLACE:
+            return self._replaces(node)
         is_whole = name.removeprefix("builtins.") in _WHOLE
         seen = all(self.is_seen(a.value, whole=is_whole) for a in node.arguments)
         return seen and takes(name, self.arguments(node), whole=self.has_whole(node))
 
+    def _replaces(self, node: s.Call) -> bool:
+        """`replace(status, loaded=False)`: another object of a class that has these fields."""
+        first, *changed = node.arguments or (None,)
+        if first is None or first.name is not None or not self.is_own(first.value):
+            return False
+        held = self.held(first.value)
+        classes = [
+            self.effects.form.program.classes[o.name] for o in held if isinstance(o, ClassOrigin)
+        ]
+        fields = frozenset.intersection(*(frozenset(f.name for f in c.fields) for c in classes))
+        is_made = all(self.enters(ClassOrigin(c.name, False)) for c in classes)
+        return is_made and self._given(node) and {a.name for a in changed} <= fields
+
     def _calls_method(self, node: s.Call, receiver: e.Expression, name: str) -> bool:
-        places = self.places
         if self.is_object(receiver):
-            is_logger = places is not None and places.logs and name == "get_logger"
-            if is_logger and node.target is not None:
-                self.loggers.add(node.target)
-            self.known.add(node.place)
-            return is_logger and not node.arguments and isinstance(node.target, e.Temporary)
+            return self._calls_own(node, name)
         if receiver in self.loggers:
-            self.known.add(node.place)
+            self._know(node)
             return name in _LOG_LEVELS and self._given(node, seen=True)
-        if isinstance(receiver, e.Attribute) and self.is_object(receiver.object):
-            if receiver.name == "_mailbox":
-                self.known.add(node.place)
-                return name in names_in_model(Language.PYTHON) and not node.arguments
-            if places is not None and receiver.name in places.publishers:
-                self.known.add(node.place)
-                return name == "publish" and self._given(node)
+        if receiver in self.clocks:
+            self._know(node)
+            return name in ON_CLOCKS and not node.arguments and self._tells_time(node)
+        if isinstance(receiver, e.Attribute) and receiver.name == "_mailbox":
+            self._know(node)
+            is_asked = name in names_in_model(Language.PYTHON) and not node.arguments
+            return is_asked and self.is_object(receiver.object)
+        if receiver in self.publishing or self.is_publisher(receiver):
+            self._know(node)
+            return name in _SENDING and self._given(node)
+        if self.is_message(receiver):
+            return name in _ADDING and self._given(node)
         if self.is_table(receiver):
             is_asked = name in _ASKING and self._given(node)
             return is_asked and method_takes(name, self.arguments(node), whole=self.has_whole(node))
@@ -300,6 +333,34 @@ class _Scope(ToldValues):
             return is_logging and self._given(node, seen=True)
         answers = (self._answers(node, o, name) for o in held)
         return self.is_kept(receiver) and bool(held) and all(answers)
+
+    def _know(self, node: s.Call) -> None:
+        self.known.add((self.function.name, node.place))
+
+    def _tells_time(self, node: s.Call) -> bool:
+        if node.target is not None:
+            self.clocks.add(node.target)
+        return True
+
+    def _calls_own(self, node: s.Call, name: str) -> bool:
+        """A method of the object that only tells people something, or is asked of its node."""
+        places, owner = self.places, self.function.owner
+        if places is None or owner is None:
+            return False
+        if name in places.logging:
+            for each in self.effects.origins.methods(owner, name):
+                self.known.update(self.effects.acting(each))
+            is_whole = len(node.arguments) == places.logging[name]
+            by_position = all(not a.stars and a.name is None for a in node.arguments)
+            return is_whole and by_position and self._given(node, seen=True)
+        if not places.logs or name not in asked_of_node() or node.arguments:
+            return False
+        self._know(node)
+        if name == "get_logger":
+            if node.target is not None:
+                self.loggers.add(node.target)
+            return isinstance(node.target, e.Temporary)
+        return name != "get_clock" or self._tells_time(node)
 
     def _answers(self, node: s.Call, origin: Origin, name: str) -> bool:
         """Whether a method of an object that the receiver may be does nothing to the model."""

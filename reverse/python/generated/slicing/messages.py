@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import field as with_default
 
 from tree_sitter import Node
 
@@ -15,8 +16,9 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.build.common_messages import COMMON
 from rebsync.reverse.build.told_messages import CONSTANTS, TOLD
-from rebsync.reverse.python.generated.logs import Looks
 from rebsync.reverse.python.generated.module_variables import imported_as
+from rebsync.reverse.python.generated.slicing.logs import Looks
+from rebsync.reverse.python.generated.slicing.publishers import Shown
 from rebsync.reverse.syntax.ancestors import functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import Scope
@@ -51,26 +53,31 @@ def told_types(module: Scope) -> dict[str, str]:
     return found
 
 
-def is_for_people(type_: str) -> bool:
-    """Whether no node hears a type, whatever the topic is called."""
-    return type_ in TOLD
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class ToldMessages:
-    """The messages of a class, by what its module calls their types; `variables` are its state."""
+    """The messages of a class, by what its module calls their types; `variables` are its state,
+    `shown` its publishers of messages that nobody hears.
+    """
 
     types: Mapping[str, str]
     variables: Mapping[str, m.Type]
     looks: Looks
+    shown: Mapping[str, Shown] = with_default(default_factory=dict)
 
     def fit(self, statement: Node) -> bool:
         """Whether all fields that a statement makes or stores take what they are given."""
-        return all(map(self._fits_here, nodes_in(statement))) if self.types else True
+        is_asked = self.types or self.shown
+        return all(map(self._fits_here, nodes_in(statement))) if is_asked else True
 
     def _fits_here(self, node: Node) -> bool:
         if node.type == "call":
-            type_ = self.types.get(text_of(field(node, "function")))
+            function, given = field(node, "function"), named(field(node, "arguments"))
+            publisher, _, method = text_of(function).removeprefix("self.").rpartition(".")
+            if method == "publish" and publisher in self.shown:
+                return self.shown[publisher].sends(given)
+            if method == "sendTransform":
+                return self.sends_transform(given)
+            type_ = self.types.get(text_of(function))
             return self._is_appended(node) if type_ is None else self._is_made(node, type_)
         if node.type == "assignment" and node.child_by_field_name("right") is not None:
             left = field(node, "left")

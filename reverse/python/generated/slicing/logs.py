@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
@@ -10,7 +10,7 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.python.generated.log_words import (
+from rebsync.reverse.python.generated.slicing.log_words import (
     CALLED,
     CALLING,
     LEVELS,
@@ -19,9 +19,7 @@ from rebsync.reverse.python.generated.log_words import (
     OF_TEXTS,
     ON_CLOCKS,
 )
-from rebsync.reverse.python.generated.told_containers import is_asked
 from rebsync.reverse.python.values.py_callbacks import body_of
-from rebsync.reverse.syntax.ancestors import functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, has_splat
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
@@ -39,15 +37,9 @@ class Looks:
     `trusted` are names that stand for what Python and ROS have by them, "self" among them for a
     node of ROS 2; `functions` those of classes, of which one may be a property that does something;
     `makers` what makes messages. `own` are methods of the model, whose calls count as pure: who
-    leaves out the rest has to keep these. `loggers`, `tables` and `clocks` are names of the module
-    that stand for a logger of Python's library, a dictionary of literals, and what tells the time;
-    `records` are its classes whose objects only hold what they are made of, with their fields;
-    `describing` functions that only put texts together, with how many arguments they take.
-    `containers` are members that only logs look into, with their kinds; `computing` is what the
-    module calls functions that only give a value, and `logging` methods that only log, with how
-    many arguments each takes. `attributes` are what objects of the class have, where that is known:
-    with a slip in the name of one, what logs raises. `texts` are methods that only put a text
-    together, with how many arguments each takes.
+    leaves out the rest has to keep these. `loggers` and `clocks` are names of the module that stand
+    for a logger of Python's library, and what tells the time; `logging` are methods that only log,
+    with how many arguments each takes.
     """
 
     trusted: frozenset[str] = with_default(
@@ -57,87 +49,18 @@ class Looks:
     makers: frozenset[str] = frozenset()
     own: frozenset[str] = frozenset()
     loggers: frozenset[str] = frozenset()
-    tables: frozenset[str] = frozenset()
     clocks: frozenset[str] = frozenset()
-    records: Mapping[str, Sequence[str]] = with_default(default_factory=dict)
-    describing: Mapping[str, int] = with_default(default_factory=dict)
-    containers: Mapping[str, str] = with_default(default_factory=dict)
-    computing: frozenset[str] = frozenset()
     logging: Mapping[str, int] = with_default(default_factory=dict)
-    attributes: frozenset[str] | None = None
-    texts: Mapping[str, int] = with_default(default_factory=dict)
 
     def is_pure(self, node: Node) -> bool:
         """Whether nothing happens where an expression is evaluated."""
         if own_method(node) in self.own:
             return self.is_pure(field(node, "arguments"))
-        if own_method(node) in self.texts:
-            return self._is_look(node) and self.is_pure(field(node, "arguments"))
         if node.type in _STORING or (node.type == "call" and not self._is_look(node)):
             return False
         if node.type == "attribute" and text_of(field(node, "attribute")) in self.functions:
             return text_of(field(node, "object")) not in ("self", "super()")
-        if node.type == "attribute" and (self._is_absent(node) or self._is_no_field(node)):
-            return False
-        if node.type == "subscript" and self._container(field(node, "value")):
-            return False  # it may have no such element
         return all(map(self.is_pure, node.named_children))
-
-    def _is_absent(self, node: Node) -> bool:
-        """Whether no object of the class has an attribute; those of libraries are not private."""
-        name = text_of(field(node, "attribute"))
-        is_own = text_of(field(node, "object")) == "self" and name.startswith("_")
-        is_plain = is_own and not name.endswith("__")
-        return is_plain and self.attributes is not None and name not in self.attributes
-
-    def _is_no_field(self, node: Node) -> bool:
-        """Whether an attribute is asked of a local that is a record without such a field."""
-        of, name = field(node, "object"), text_of(field(node, "attribute"))
-        if of.type != "identifier" or not self.records:
-            return False
-        fields = self._fields_of(of)
-        return fields is not None and name not in fields and not name.startswith("__")
-
-    def _fields_of(self, local: Node) -> Sequence[str] | None:
-        """The fields that a local has which only ever is a record; None for another one."""
-        made = [text_of(value).partition("(")[0] for value in self._stores(local)]
-        if len(set(made)) != 1 or made[0] not in self.records:
-            return None
-        return self.records[made[0]]
-
-    def _replaces(self, call: Node) -> bool:
-        """`replace(status, loaded=False)`, which makes another record of a local that is one."""
-        of, *changed = named(field(call, "arguments")) or [call]
-        fields = self._fields_of(of) if of.type == "identifier" else None
-        names = [text_of(field(n, "name")) for n in changed if n.type == "keyword_argument"]
-        return fields is not None and len(names) == len(changed) and set(names) <= set(fields)
-
-    def _is_plain(self, value: Node) -> bool:
-        """Whether a value is made of plain ones: no object that people made is in it."""
-        match value.type:
-            case "keyword_argument":
-                return self._is_plain(field(value, "value"))
-            case "dictionary" | "list" | "tuple" | "pair" | "parenthesized_expression":
-                return all(map(self._is_plain, named(value)))
-            case "call":
-                return text_of(field(value, "function")) in LOOKS or self.is_text(value)
-            case "identifier":
-                stores = [*self._stores(value)]
-                return text_of(value) != "self" and all(map(self._is_plain, stores))
-            case _:
-                return True
-
-    def _stores(self, local: Node) -> Iterator[Node]:
-        """What a function stores under the name of a local."""
-        function = next(functions_around(local), None)
-        for node in nodes_in(function) if function is not None else ():
-            if node.type == "assignment" and is_target(node, text_of(local)):
-                yield field(node, "right")
-
-    def _container(self, node: Node) -> str:
-        """The kind of the container that a member is; empty for all else."""
-        is_own = node.type == "attribute" and text_of(field(node, "object")) == "self"
-        return self.containers.get(text_of(field(node, "attribute")), "") if is_own else ""
 
     def _is_look(self, call: Node) -> bool:
         """Whether what is called only looks at its arguments, the clock, or the node's name."""
@@ -149,29 +72,14 @@ class Looks:
             return self.is_node and own_method(call) not in self.functions
         if not self._calls_plain(call):
             return False
-        if (count := self.texts.get(own_method(call))) is not None:
-            given = field(call, "arguments")
-            return len(named(given)) == count and _by_position(given) and not has_splat(call)
-        if called in self.computing:
-            if called.rpartition(".")[2] == "dumps":
-                return all(map(self._is_plain, named(field(call, "arguments"))))
-            return not called.endswith("replace") or self._replaces(call)
         if called in self.clocks:
             return not named(field(call, "arguments"))
         if function.type == "identifier":
             is_built_in = called in LOOKS and called in self.trusted
-            given = field(call, "arguments")
-            if called in self.describing and not has_splat(call):
-                plain = [a for a in named(given) if a.type != "keyword_argument"]
-                return len(plain) == len(named(given)) == self.describing[called]
-            return is_built_in or called in self.makers or self.makes_record(call)
+            return is_built_in or called in self.makers
         if function.type != "attribute":
             return False
         holder, name = field(function, "object"), text_of(field(function, "attribute"))
-        if name == "get" and text_of(holder) in self.tables:
-            return len(named(field(call, "arguments"))) in (1, 2)
-        if is_asked(call, self.containers):
-            return True
         if name in ON_CLOCKS:
             return holder.type == "call" and not named(field(call, "arguments"))
         is_joining = name == "join" and self._joins_texts(call)
@@ -230,16 +138,6 @@ class Looks:
             return False
         return self.is_pure(field(call, "arguments"))
 
-    def makes_record(self, call: Node) -> bool:
-        """Whether a call makes an object that only holds its arguments, one for each field."""
-        function = call.child_by_field_name("function")
-        fields = self.records.get(text_of(function)) if function is not None else None
-        given = named(field(call, "arguments")) if fields is not None else []
-        names = [text_of(field(a, "name")) for a in given if a.type == "keyword_argument"]
-        plain = fields[: len(given) - len(names)] if fields is not None else ()
-        is_whole = sorted([*plain, *names]) == sorted(fields or ()) and not has_splat(call)
-        return fields is not None and len(given) == len(fields) and is_whole
-
     def tells_time(self, node: Node) -> bool:
         """Whether a value is what a clock tells."""
         called = text_of(field(node, "function")) if node.type == "call" else ""
@@ -254,13 +152,6 @@ class Looks:
 def _is_own(node: Node) -> bool:
     """Whether something is an attribute of the object itself."""
     return node.type == "attribute" and text_of(field(node, "object")) == "self"
-
-
-def is_target(assignment: Node, name: str) -> bool:
-    """Whether an assignment stores something under a name."""
-    return text_of(field(assignment, "left")) == name and (
-        assignment.child_by_field_name("right") is not None
-    )
 
 
 def _by_position(given: Node) -> bool:
@@ -296,17 +187,7 @@ def looks_in(code: PyCode, modules: Sequence[Scope], makers: frozenset[str]) -> 
         for function in found
         if not (is_runtime_file(function.py.source) or _only_returns(function, looks))
     )
-    return replace(looks, functions=frozenset(own), texts=dict(_texts(code)))
-
-
-def _texts(code: PyCode) -> Iterator[tuple[str, int]]:
-    """The methods of some code that only put a text together, where no other has the name."""
-    for name, found in code.methods.items():
-        function = found[0]
-        members = function.owner.names if function.owner is not None else {}
-        by_position = all(p.star == 0 and p.default is None for p in function.parameters)
-        if len(found) == 1 and by_position and only_describes(function, members):
-            yield name, len(function.parameters) - ("staticmethod" not in function.decorators)
+    return replace(looks, functions=frozenset(own))
 
 
 def _only_returns(function: Scope, looks: Looks) -> bool:

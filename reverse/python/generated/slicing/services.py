@@ -15,11 +15,11 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import SERVICE_OF_NODE, SERVICE_OF_ROS_1
-from rebsync.reverse.python.generated.logs import Looks, only_logs
 from rebsync.reverse.python.generated.module_variables import imported_as
 from rebsync.reverse.python.generated.py_types import call_parts, expression_in, string_value
-from rebsync.reverse.python.generated.timers import is_heir, tells_with
-from rebsync.reverse.python.generated.told_exceptions import ToldExceptions
+from rebsync.reverse.python.generated.slicing.exceptions import ToldExceptions
+from rebsync.reverse.python.generated.slicing.logs import Looks, only_logs
+from rebsync.reverse.python.generated.slicing.timers import is_heir, tells_with
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of

@@ -13,11 +13,11 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.records import dataclass
+from rebsync.reverse.build.told_messages import TOLD
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_OF_NODE, PUBLISHER_OF_ROS_1
 from rebsync.reverse.libraries.python_telling import broadcasters
 from rebsync.reverse.python.generated.module_variables import call_and_arguments, imported_as
 from rebsync.reverse.python.generated.py_types import call_parts, string_value
-from rebsync.reverse.python.generated.told_messages import is_for_people
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
@@ -60,6 +60,11 @@ class Shown:
     type: str
     variables: Mapping[str, m.Type]
     dumps: frozenset[str] = frozenset()
+
+    @property
+    def full_type(self) -> str:
+        """The type as the library of messages has it."""
+        return f"{_PACKAGE}.msg.{self.type}"
 
     def sends(self, arguments: list[Node]) -> bool:
         """Whether it is given a message with a value that this takes: `Int32(data=self._x)`."""
@@ -183,7 +188,7 @@ def tells_by(code: PyCode, module: Scope, node: Node, types: Mapping[str, str]) 
     is_named = len(topics) == 1 and is_topic(topics[0], called)
     if called not in PUBLISHERS or len(given) != 1 or not is_named:
         return False
-    return is_for_people(types[given[0]]) or is_private(code, module, topics[0], given[0])
+    return types[given[0]] in TOLD or is_private(code, module, topics[0], given[0])
 
 
 def is_private(code: PyCode, module: Scope, topic: str, type_: str) -> bool:

@@ -7,13 +7,13 @@ are looked at: their elements are numbers.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Collection
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import field as with_default
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origin, Origins
 from rebsync.reverse.analysis.python.value_types import A_NUMBER, A_TEXT, ValueTypes
-from rebsync.reverse.analysis.stores import key_of
+from rebsync.reverse.analysis.stores import ClassValue, Value, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -21,7 +21,7 @@ from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.python.bodies.body_form import PyForm
-from rebsync.reverse.python.generated.told_calls import is_known, is_plain
+from rebsync.reverse.python.generated.slicing.library_calls import is_known
 from rebsync.source import Span
 
 LOGGER = LibraryOrigin("logger", True)
@@ -37,17 +37,18 @@ _OF_ANYTHING = (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SA
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ToldPlaces:
-    """Where a function may keep what is told: attributes of the object, and locals.
+    """Where a function may keep what is told: attributes, locals, and `variables` of the module.
 
-    `told` are others of both, of which nobody has shown that they hold no array of the model;
-    `publishers` are attributes that publish what only people look at; `logs` says whether the
-    object has a logger of its own, as nodes of rclpy have.
+    `publishers` are attributes that publish what only people look at, `logging` methods that only
+    tell people something, with how many arguments each takes; `logs` says whether the object has a
+    logger of its own, as nodes of rclpy have.
     """
 
     attributes: Collection[str] = ()
     locals: Collection[str] = ()
-    told: Collection[str] = ()
+    variables: Collection[str] = ()
     publishers: Collection[str] = ()
+    logging: Mapping[str, int] = with_default(default_factory=dict)
     logs: bool = False
 
 
@@ -55,12 +56,13 @@ class Foreign(ABC):
     """What is known of the functions that a class of the model does not have.
 
     `plain` are attributes of the class that are a number, truth value or text, `arrays` those that
-    are an array of such.
+    are an array of such; `messages` are types of messages for people, by full names.
     """
 
     form: PyForm
     plain: Collection[str]
     arrays: Collection[str]
+    messages: Collection[str]
 
     @property
     def origins(self) -> Origins:
@@ -70,6 +72,14 @@ class Foreign(ABC):
     @abstractmethod
     def is_foreign(self, name: str) -> bool:
         """Whether a function does nothing to the model where it gets free values only."""
+
+    @abstractmethod
+    def acting(self, name: str) -> Iterator[tuple[str, Span]]:
+        """Where a function acts, and what it calls."""
+
+    @abstractmethod
+    def gives_free(self, getter: str) -> bool:
+        """Whether a property of the object gives a free value, and does nothing else."""
 
     @abstractmethod
     def is_closed(self, name: str) -> bool:
@@ -82,8 +92,9 @@ class ToldValues(ABC):
 
     A generator that is written within a method has that `outside`. `tables` are locals and
     temporaries that hold an array of the model, and so are only looked at; `loggers` those that
-    hold a logger; `whole` those that hold a whole
-    number; `known` the places of calls of which the rest of the form does not know what they do.
+    hold a logger, `clocks` a clock or what one says, `publishing` a publisher, `fields` a message
+    for people or its field, `whole` a whole number; `known` are the places of calls, by functions,
+    of which the rest of the form does not know what they do.
     """
 
     effects: Foreign
@@ -92,7 +103,10 @@ class ToldValues(ABC):
     tables: set[e.Expression] = with_default(default_factory=set)
     made: set[e.Expression] = with_default(default_factory=set)
     loggers: set[e.Expression] = with_default(default_factory=set)
-    known: set[Span] = with_default(default_factory=set)
+    clocks: set[e.Expression] = with_default(default_factory=set)
+    publishing: set[e.Expression] = with_default(default_factory=set)
+    fields: set[e.Expression] = with_default(default_factory=set)
+    known: set[tuple[str, Span]] = with_default(default_factory=set)
     outside: ToldValues | None = None
     whole: set[e.Expression] = with_default(default_factory=set)
     loops: int = 0
@@ -155,15 +169,6 @@ class ToldValues(ABC):
             case _:
                 return self.effects.form.kinds(self.function).is_whole(value)
 
-    def is_plain(self, value: e.Expression, name: str) -> bool:
-        """Whether one of those that are told is of types that no array of the model has."""
-        is_told = self.places is not None and name in self.places.told
-        return is_told and self.is_plain_value(value)
-
-    def is_plain_value(self, value: e.Expression) -> bool:
-        """Whether a value is of types that no array of the model has."""
-        return is_plain(self._types(value))
-
     # --- values ---------------------------------------------------------------------------------
 
     def is_free_or_none(self, value: e.Expression | None) -> bool:
@@ -188,7 +193,7 @@ class ToldValues(ABC):
                 return self._is_free_global(value)
             case e.Attribute(of, name) if self.is_object(of):
                 own = self.places.attributes if self.places is not None else ()
-                return name in own or name in self.effects.plain or self.is_plain(value, name)
+                return name in own or name in self.effects.plain or self._gives_free(name)
             case e.Attribute(of, name):
                 return self.is_free(of) and self._is_known(of, name)
             case e.Index(of, index):
@@ -245,7 +250,8 @@ class ToldValues(ABC):
         """
         if self.is_table(value) or self.is_free(value):
             return True
-        return whole and isinstance(value, e.Local) and not self.is_object(value)
+        is_named = isinstance(value, e.Local | e.Global)
+        return whole and is_named and not self.is_object(value)
 
     def is_table(self, value: e.Expression) -> bool:
         """Whether a value is an array of the model, or a constant, with numbers and texts in it."""
@@ -267,9 +273,7 @@ class ToldValues(ABC):
             return self.outside is None or self.outside.is_free(e.Local(value.name))
         if self.places is None or self.outside is not None or value in self.made:
             return True
-        if value.name in self.places.locals or self.is_plain(value, value.name):
-            return True
-        return isinstance(self._type_of(value), _SCALARS)
+        return value.name in self.places.locals or isinstance(self._type_of(value), _SCALARS)
 
     def _type_of(self, value: e.Local) -> t.Type | None:
         """The type of a parameter."""
@@ -287,6 +291,8 @@ class ToldValues(ABC):
 
     def _is_free_global(self, value: e.Global) -> bool:
         """Whether a variable of a module is a function or class, a logger, or one plain value."""
+        if self.is_variable(value):
+            return True
         held = self.effects.origins.of(value, self.function.name)
         if held and all(o == LOGGER or self.enters(o) for o in held):
             return True
@@ -306,8 +312,61 @@ class ToldValues(ABC):
         found = [n for n in inner if n is not table]
         return bool(found) and all(isinstance(n, e.Literal) for n in found)
 
-    def _is_known(self, of: e.Expression, name: str) -> bool:
-        """Whether an attribute is of an object of a class that is known; properties run for it."""
+    def is_variable(self, value: e.Expression) -> bool:
+        """Whether a value is a variable of the module that only people look at."""
+        named = self.places.variables if self.places is not None else ()
+        return isinstance(value, e.Global) and value.name in named
+
+    def is_defined(self, value: Value, function: str, deepest: int = 4) -> bool:
+        """Whether what a value stands for is as it was defined: nothing decorates it."""
+        match value:
+            case e.Closure() | e.FunctionReference() | e.ClassReference() | ClassValue():
+                return True
+            case e.Global() | e.Temporary() | e.Local():
+                key = key_of(value, function) if deepest else None
+                stored = self.effects.origins.graph.stores.of(key) if key is not None else []
+                return bool(stored) and all(self.is_defined(v, f, deepest - 1) for f, v in stored)
+            case _:
+                return False
+
+    def is_publisher(self, value: e.Expression) -> bool:
+        """Whether a value is a member that publishes what only people look at."""
+        match value:
+            case e.Attribute(of, name) if self.is_object(of) and self.places is not None:
+                return name in self.places.publishers
+            case _:
+                return False
+
+    def is_message(self, value: e.Expression) -> bool:
+        """Whether a value is a message for people that the code makes, or a field of one."""
+        match value:
+            case e.Attribute(of) if not self.is_object(of):
+                return self.is_message(of)
+            case e.Index(of):
+                return self.is_message(of)
+            case e.Temporary() if value in self.fields:
+                return True
+            case _:
+                held = self.held(value)
+                messages = self.effects.messages
+                made = (isinstance(o, LibraryOrigin) and o.name in messages for o in held)
+                return bool(held) and all(made)
+
+    def _getters(self, name: str) -> list[str | None]:
         classes = self.effects.form.program.classes.values()
-        getters = [p.getter for c in classes for p in c.properties if p.name == name]
-        return self.is_own(of) and all(g and self.effects.is_foreign(g) for g in getters)
+        return [p.getter for c in classes for p in c.properties if p.name == name]
+
+    def _gives_free(self, name: str) -> bool:
+        """Whether an attribute of the object is a property that only looks at what is there."""
+        getters = self._getters(name)
+        return bool(getters) and all(g is not None and self.effects.gives_free(g) for g in getters)
+
+    def _is_known(self, of: e.Expression, name: str) -> bool:
+        """Whether an attribute is of a message, or of an object of a class that is known;
+        properties run for it.
+        """
+        if of in self.clocks or self.is_message(of):
+            return True
+        return self.is_own(of) and all(
+            g and self.effects.is_foreign(g) for g in self._getters(name)
+        )

@@ -19,9 +19,8 @@ from rebsync.reverse.analysis.python.value_types import (
     values_of,
 )
 from rebsync.reverse.libraries import python as libraries
-from rebsync.reverse.python.generated.log_words import COMPUTING
+from rebsync.reverse.python.generated.slicing.log_words import COMPUTING
 
-_CONTAINERS = frozenset({OwnType.LIST, OwnType.TUPLE, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
 _PLAIN = frozenset({OwnType.NUMBER, OwnType.TEXT, OwnType.NONE})
 
 
@@ -39,20 +38,6 @@ def _is_known(type_: ValueType | None) -> bool:
             return all(_is_known(t) for of in within for t in of)
         case _:
             return True
-
-
-def is_plain(types: ValueTypes) -> bool:
-    """Whether values are numbers and texts, or Python's own containers of such."""
-    return bool(types) and all(map(_is_plain, types))
-
-
-def _is_plain(type_: ValueType | None) -> bool:
-    match type_:
-        case ContainerType(own, elements, values):
-            within = (elements, values) if own is OwnType.MAPPING else (elements,)
-            return own in _CONTAINERS and all(_is_plain(t) for of in within for t in of)
-        case _:
-            return type_ in _PLAIN
 
 
 def _anything(types: ValueTypes) -> bool:
@@ -83,7 +68,16 @@ def _elements(types: ValueTypes) -> bool:
 
 
 def _comparable(types: ValueTypes) -> bool:
-    return _elements(types) and elements_of(types) in (A_NUMBER, A_TEXT)
+    """What has elements that can be sorted, or be keys: of one kind, or tuples of such."""
+    return _elements(types) and _is_ordered(elements_of(types))
+
+
+def _is_ordered(types: ValueTypes) -> bool:
+    match [*types]:
+        case [ContainerType(OwnType.TUPLE, _, _, tuple() as parts)]:
+            return all(map(_is_ordered, parts))
+        case _:
+            return types in (A_NUMBER, A_TEXT)
 
 
 def _numbers(types: ValueTypes) -> bool:

@@ -6,21 +6,17 @@ A store in such a member shows in no model, as long as nothing else looks at it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
 from tree_sitter import Node
 
-from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.libraries.generated_calls import PUBLISHER_METHOD
 from rebsync.reverse.python.bodies.body_form import PyForm
-from rebsync.reverse.python.generated.asked import Answering
-from rebsync.reverse.python.generated.logs import Looks, only_logs
 from rebsync.reverse.python.generated.member_places import (
     function_around,
-    is_of_module,
     makes_member,
     name_around,
 )
@@ -35,35 +31,25 @@ from rebsync.reverse.python.generated.module_variables import (
     counters_of,
     hidden_names,
 )
+from rebsync.reverse.python.generated.py_types import expression_in
 from rebsync.reverse.python.generated.roles import PyRoles, is_of_node
-from rebsync.reverse.python.generated.shown import (
-    Shown,
-    shown_by,
-    tells_by,
-)
-from rebsync.reverse.python.generated.timers import Timers
-from rebsync.reverse.python.generated.told_candidates import (
+from rebsync.reverse.python.generated.slicing.candidates import (
     candidate_locals,
     candidate_members,
     made_once,
     may_tell,
 )
-from rebsync.reverse.python.generated.told_containers import (
-    SET,
-    STORING,
-    TABLE,
-    TABLES,
-    containers_in,
-    is_counted,
-    is_key,
-    member_of,
-    stores_in,
+from rebsync.reverse.python.generated.slicing.effects import ToldEffects
+from rebsync.reverse.python.generated.slicing.escapes import ToldPlaces
+from rebsync.reverse.python.generated.slicing.exceptions import ToldExceptions
+from rebsync.reverse.python.generated.slicing.logs import Looks
+from rebsync.reverse.python.generated.slicing.messages import ToldMessages, told_types
+from rebsync.reverse.python.generated.slicing.publishers import (
+    shown_by,
+    tells_by,
 )
-from rebsync.reverse.python.generated.told_effects import ToldEffects
-from rebsync.reverse.python.generated.told_exceptions import ToldExceptions
-from rebsync.reverse.python.generated.told_locals import told_locals
-from rebsync.reverse.python.generated.told_messages import ToldMessages, told_types
-from rebsync.reverse.python.generated.told_values import ToldPlaces
+from rebsync.reverse.python.generated.slicing.services import Answering
+from rebsync.reverse.python.generated.slicing.timers import Timers
 from rebsync.reverse.syntax.ancestors import ancestors, functions_around
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
@@ -75,11 +61,11 @@ _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
 @dataclass(frozen=True, eq=False, slots=True)
 class Silent:
     """The silent members of a class: `texts` are told to people only, `locks` are only held.
-    `ticking` are timers that only log, as `timers` tells them. `locals` are what a function makes
-    or measures for people, by the function's node, and `counters` variables of the module; `form`
-    tells who may wait for a lock, and `variables` the state by the names of attributes; `asked`
-    are services and diagnostics; `exceptions` say what may fail of what is told. `computed` are
-    those that any code makes that only computes, as `effects` tell, and `kept` such locals.
+    `ticking` are timers that only log, as `timers` tells them, `shown` publishers of messages that
+    nobody hears. `locals` are what a function makes or measures for people, by the function's node,
+    and `counters` variables of the module; `form` tells who may wait for a lock; `asked` are
+    services and diagnostics; `exceptions` say what may fail of what is told, `effects` what else it
+    does. `plain` are texts that nothing goes through while they change.
     """
 
     texts: frozenset[str] = frozenset()
@@ -88,21 +74,23 @@ class Silent:
     locks: frozenset[str] = frozenset()
     locals: dict[int, frozenset[str]] = with_default(default_factory=dict)
     timers: Timers = Timers()
-    shown: dict[str, Shown] = with_default(default_factory=dict)
+    shown: frozenset[str] = frozenset()
     counters: frozenset[str] = frozenset()
     form: PyForm | None = None
-    variables: Mapping[str, m.Type] = with_default(default_factory=dict)
     asked: Answering = Answering()
     exceptions: ToldExceptions = ToldExceptions()
-    computed: frozenset[str] = frozenset()
-    kept: dict[int, frozenset[str]] = with_default(default_factory=dict)
     effects: ToldEffects | None = None
-    messages: ToldMessages = ToldMessages({}, {}, Looks())
+    plain: frozenset[str] = frozenset()
 
     @property
     def looks(self) -> Looks:
         """What names stand for where something is logged."""
         return self.timers.looks
+
+    @property
+    def rest(self) -> frozenset[str]:
+        """The members that are more than something to keep."""
+        return frozenset(name for of in self._members[1:] for name in of)
 
     @property
     def _members(self) -> tuple[Collection[str], ...]:
@@ -124,99 +112,43 @@ class Silent:
 
     def tells(self, node: Node) -> bool:
         """Whether a statement does nothing but to tell people something, or to keep it for that."""
-        return self._tells_by_words(node) or self._only_computes(node)
+        if self._asks_parameter(node):
+            return True
+        inner = expression_in(node)
+        if inner is not None and inner.type == "call" and self.asked.diagnoses(inner):
+            return True
+        if node.type == "global_statement":
+            return self.counters.issuperset(map(text_of, named(node)))
+        return self._only_computes(node)
+
+    def _asks_parameter(self, node: Node) -> bool:
+        """Whether a member gets a parameter of people's own: it may be of any type."""
+        inner = expression_in(node)
+        if inner is None or inner.type != "assignment":
+            return False
+        name = text_of(field(inner, "left")).removeprefix("self.")
+        value = inner.child_by_field_name("right")
+        return name in self.texts and value is not None and is_own_parameter(value)
+
+    @property
+    def _publishers(self) -> frozenset[str]:
+        return self.publishers | self.shown
 
     def _only_computes(self, node: Node) -> bool:
         """Whether the effects of a statement stay where only people look."""
-        place = function_around(node)
-        local = self.kept.get(place, frozenset[str]())
-        told = self.locals.get(place, frozenset[str]()) | (self.texts - self.computed)
+        local = self.locals.get(function_around(node), frozenset[str]())
         py = self.exceptions.file_of(node)
         if self.effects is None or py is None:
             return False
-        if not may_tell(node, self.texts, local | told, self.publishers):
+        words = local | self.counters | self.looks.loggers
+        members = self.texts | self._publishers | self.timers.logging.keys()
+        if not may_tell(node, words, members):
             return False
-        places = ToldPlaces(self.computed, local, told, self.publishers, self.looks.is_node)
+        places = ToldPlaces(
+            *(self.texts, local, self.counters, self._publishers),
+            *(self.timers.logging, self.looks.is_node),
+        )
         return self.effects.only_tells(py, py.span(node), places)
-
-    def _tells_by_words(self, node: Node) -> bool:
-        if only_logs(node, self.looks):
-            return True
-        if node.type == "if_statement":
-            return all(map(self._branch_holds, [node, *node.children_by_field_name("alternative")]))
-        if node.type == "global_statement":
-            return self.counters.issuperset(map(text_of, named(node)))
-        inner = named(node)[0] if node.type == "expression_statement" and named(node) else None
-        if inner is None:
-            return False
-        if inner.type in ("assignment", "augmented_assignment"):
-            value = inner.child_by_field_name("right")
-            left = field(inner, "left")
-            if left.type == "subscript":
-                return self._stores_element(inner)
-            if text_of(left).removeprefix("self.") in self.looks.containers:
-                return False
-            return self._is_place(field(inner, "left")) and (value is None or self._is_made(value))
-        return inner.type == "call" and self._tells(inner)
-
-    def _branch_holds(self, part: Node) -> bool:
-        condition = part.child_by_field_name("condition")
-        body = field(part, "body" if part.type == "else_clause" else "consequence")
-        inside = [n for n in named(body) if n.type != "pass_statement"]
-        is_pure = condition is None or self.looks.is_pure(condition)
-        return is_pure and bool(inside) and all(map(self.tells, inside))
-
-    def _tells(self, call: Node) -> bool:
-        """`self._diagnostics_pub.publish(status)` and `self._history.append(x)`."""
-        function, arguments = field(call, "function"), named(field(call, "arguments"))
-        if self.asked.diagnoses(call):
-            return True
-        publisher = text_of(function).removeprefix("self.").removesuffix(".publish")
-        if text_of(function) == f"self.{publisher}.publish" and publisher in self.shown:
-            return self.shown[publisher].sends(arguments)
-        if function.type != "attribute" or not all(map(self._is_made, arguments)):
-            return False
-        holder, method = field(function, "object"), text_of(field(function, "attribute"))
-        kind = self.looks.containers.get(text_of(holder).removeprefix("self."), "")
-        if kind:
-            is_kept = kind != SET or all(is_key(a, self.variables) for a in arguments)
-            return (
-                self._is_place(holder) and is_kept and STORING[kind].get(method) == len(arguments)
-            )
-        is_told = text_of(holder).removeprefix("self.") in self.publishers
-        if method == "sendTransform":
-            return is_told and self.messages.sends_transform(arguments)
-        if method == "publish":
-            return is_told
-        return method in ("append", "clear") and self._is_place(holder)
-
-    def _is_place(self, node: Node) -> bool:
-        """Whether something is a silent member or message, or a part of one."""
-        while node.type == "attribute" and text_of(field(node, "object")) != "self":
-            node = field(node, "object")
-        if node.type == "attribute":
-            return text_of(field(node, "attribute")) in self.texts - self.computed
-        if node.type != "identifier":
-            return False
-        name = text_of(node)
-        if name in self.locals.get(function_around(node), ()):
-            return True
-        return name in self.counters and is_of_module(node, name)
-
-    def _stores_element(self, assignment: Node) -> bool:
-        """`self._counts["served"] = self._counts.get("served", 0) + 1`."""
-        left, value = field(assignment, "left"), assignment.child_by_field_name("right")
-        kind = self.looks.containers.get(member_of(assignment), "")
-        keys = left.children_by_field_name("subscript")
-        if not self._is_place(field(left, "value")) or kind not in TABLES or value is None:
-            return False
-        if len(keys) != 1 or not is_key(keys[0], self.variables):
-            return False
-        return is_counted(assignment, kind) or (kind == TABLE and self.looks.is_pure(value))
-
-    def _is_made(self, node: Node) -> bool:
-        """Whether a value only takes up what is there, or is a parameter of the node's own."""
-        return self.looks.is_pure(node) or is_own_parameter(node)
 
     # --- locks ----------------------------------------------------------------------------------
 
@@ -256,35 +188,39 @@ def silent_in(
     members = {name: value for name, value in made.items() if not is_of_node(name)}
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
+    shown = {
+        n: s for n, v in publishers.items() if (s := shown_by(code, owner.module, v, variables))
+    }
     handed = _handed(roles)
-    messages = ToldMessages(types, variables, looks)
+    messages = ToldMessages(types, variables, looks, shown)
     exceptions = ToldExceptions.of(code, form, messages)
     timers = Timers.of(code, handed, looks, exceptions)
     looks = replace(looks, logging=timers.logging)
-    stores = stores_in(module.node for module in modules)
-    looks = replace(looks, containers=containers_in(owner.module, members, stores))
-    timers = replace(timers, looks=looks)  # what ticks runs while containers may change
+    timers = replace(timers, looks=looks)
     asked = Answering.of(code, owner.module, handed, members, looks, exceptions)
-    told = frozenset(n for n, v in members.items() if _is_told(n, v, looks))
+    plain = frozenset(n for n, v in members.items() if _is_plain(v, looks))
+    made_of = {t.replace("/", ".msg.") for t in types.values()} | {
+        s.full_type for s in shown.values()
+    }
     found = Silent(
-        told,
+        plain | candidate_members(code, owner.module, members, makers),
         frozenset(n for n, v in publishers.items() if tells_by(code, owner.module, v, types)),
         frozenset(n for n, v in members.items() if timers.is_idle(v) or asked.is_idle(v)),
         frozenset(n for n, v in members.items() if is_lock(owner.module, v)),
-        {f.node.id: told_locals(f, makers, looks) for f in functions.values()},
+        {},
         timers,
-        {n: s for n, v in publishers.items() if (s := shown_by(code, owner.module, v, variables))},
+        frozenset(shown),
         frozenset(counters_of(code, owner.module)) - hidden,
         form,
-        variables,
         asked,
         exceptions,
-        frozenset(),
-        {},
-        ToldEffects(form, variables, {n for r in roles for n in (*r.known, *r.env)}),
-        messages,
+        ToldEffects(form, variables, {n for r in roles for n in (*r.known, *r.env)}, made_of),
+        plain,
     )
-    found = _with_candidates(code, found, roles[0], members)
+    found = replace(found, texts=found.texts - found.rest)
+    speaking = found.members | looks.loggers | looks.logging.keys() | found.counters
+    kept = candidate_locals(code, functions.values(), speaking, makers)
+    found = replace(found, locals=kept)
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)
     timers = found.timers.telling(code, handed, found.holds)
@@ -294,17 +230,6 @@ def silent_in(
     return _consistent(replace(found, timers=timers, ticking=ticking), modules, beside)
 
 
-def _with_candidates(
-    code: PyCode, found: Silent, roles: PyRoles, members: Mapping[str, Node]
-) -> Silent:
-    """The same, with other members and locals that people alone may be told of."""
-    rest = {n: v for n, v in members.items() if not found.is_member(n)}
-    computed = candidate_members(code, roles.owner.module, rest)
-    kept = candidate_locals(code, roles.functions.values(), found.members | computed)
-    kept = {place: names - found.locals[place] for place, names in kept.items()}
-    return replace(found, texts=found.texts | computed, computed=computed, kept=kept)
-
-
 def _handed(roles: Sequence[PyRoles]) -> dict[str, Scope]:
     """The methods that may only tell people something, of classes of one module."""
     here = [r for r in roles if r.owner.module is roles[0].owner.module]
@@ -312,15 +237,15 @@ def _handed(roles: Sequence[PyRoles]) -> dict[str, Scope]:
     return {n: functions[n] for r in here for n in r.ticking if functions[n] is r.functions[n]}
 
 
-def _is_told(name: str, value: Node, looks: Looks) -> bool:
-    """Whether a member holds nothing but what people are told."""
-    is_kept = value.type in VALUES | NUMBERS or is_own_parameter(value) or name in looks.containers
+def _is_plain(value: Node, looks: Looks) -> bool:
+    """Whether a member is made of a literal, a time, or a parameter of people's own."""
+    is_kept = value.type in VALUES | NUMBERS or is_own_parameter(value)
     return is_kept or looks.tells_time(value)
 
 
 def _consistent(found: Silent, modules: Sequence[Scope], beside: Collection[str]) -> Silent:
     """Without what something else names than statements for people."""
-    while found.members or found.counters or any((*found.locals.values(), *found.kept.values())):
+    while found.members or found.counters or any(found.locals.values()):
         wrong = {n for module in modules for n in _odd(found, module.node, beside)}
         if not wrong:
             break
@@ -329,23 +254,17 @@ def _consistent(found: Silent, modules: Sequence[Scope], beside: Collection[str]
 
 
 def _without(silent: Silent, wrong: set[str]) -> Silent:
-    locals_, kept = (
-        {f: frozenset(names - wrong) for f, names in of.items()}
-        for of in (silent.locals, silent.kept)
+    texts, publishers, ticking, locks, shown = (
+        names - wrong
+        for names in (silent.texts, silent.publishers, silent.ticking, silent.locks, silent.shown)
     )
-    texts, publishers, ticking, locks = (
-        names - wrong for names in (silent.texts, silent.publishers, silent.ticking, silent.locks)
-    )
-    shown = {n: s for n, s in silent.shown.items() if n not in wrong}
     return replace(
         silent,
         texts=texts,
-        computed=silent.computed & texts,
         publishers=publishers,
         ticking=ticking,
         locks=locks,
-        locals=locals_,
-        kept=kept,
+        locals={f: frozenset(names - wrong) for f, names in silent.locals.items()},
         shown=shown,
         counters=silent.counters - wrong,
         asked=replace(silent.asked, updaters=silent.asked.updaters - wrong),
@@ -366,15 +285,14 @@ def _odd(silent: Silent, root: Node, beside: Collection[str]) -> set[str]:
         if node.type == "attribute" and text_of(field(node, "attribute")) in members:
             name = text_of(field(node, "attribute"))
             is_own = text_of(field(node, "object")) == "self"
-            is_shared = name in silent.looks.containers or name in silent.computed
+            is_shared = name in silent.texts and name not in silent.plain
             is_apart = is_shared and name_around(node) in beside
             if is_apart or not (is_own and _is_quiet(silent, node, name)):
                 found.add(name)
         elif node.type == "identifier" and not is_label(node):
             name = text_of(node)
             is_local = name in silent.counters or any(
-                name in silent.locals.get(f.id, ()) or name in silent.kept.get(f.id, ())
-                for f in functions_around(node)
+                name in silent.locals.get(f.id, ()) for f in functions_around(node)
             )
             if is_local and not _is_quiet(silent, node, name):
                 found.add(name)
@@ -389,11 +307,11 @@ def _is_quiet(silent: Silent, node: Node, name: str) -> bool:
         if above.type == "with_item":
             return name in silent.locks and text_of(above) == f"self.{name}"
         if above.type == "expression_statement" and makes_member(above, name):
-            return name not in silent.computed or silent.holds(above)
+            return name in silent.plain or name not in silent.texts or silent.holds(above)
         if above.type == "global_statement":
             return name in silent.counters
         if silent.tells(above):
             return True
         if above.id in silent.asked.bodies:
-            return name not in silent.computed
+            return name in silent.plain or name not in silent.texts
     return False

@@ -14,7 +14,7 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.bodies.body_form import PyForm
-from rebsync.reverse.python.generated.told_messages import ToldMessages
+from rebsync.reverse.python.generated.slicing.messages import ToldMessages
 from rebsync.reverse.syntax.ancestors import ancestors, holds
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope

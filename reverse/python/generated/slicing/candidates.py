@@ -31,20 +31,27 @@ _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern"})
 _STORING = frozenset({"assignment", "augmented_assignment"})
 
 
-def candidate_members(code: PyCode, module: Scope, members: Mapping[str, Node]) -> frozenset[str]:
-    """Those of members with values that may be for people: no numbers, nothing of a node."""
+def candidate_members(
+    code: PyCode, module: Scope, members: Mapping[str, Node], makers: Collection[str]
+) -> frozenset[str]:
+    """Those of members with values that may be for people: no numbers, nothing of a node.
+
+    `makers` are what the module calls messages for people.
+    """
     values = ((n, v) for n, v in members.items() if v.type not in _NUMBERS)
-    return frozenset(name for name, value in values if _is_computed(code, module, value))
+    return frozenset(name for name, value in values if _is_computed(code, module, value, makers))
 
 
 def candidate_locals(
-    code: PyCode, functions: Iterable[Scope], members: Collection[str]
+    code: PyCode, functions: Iterable[Scope], members: Collection[str], makers: Collection[str]
 ) -> dict[int, frozenset[str]]:
-    """By functions the locals of them that may be for people; `members` are told to these."""
-    return {f.node.id: _candidates_in(code, f, members) for f in functions}
+    """By functions the locals of them that may be for people; what names `members` tells these."""
+    return {f.node.id: _candidates_in(code, f, members, makers) for f in functions}
 
 
-def _candidates_in(code: PyCode, function: Scope, members: Collection[str]) -> frozenset[str]:
+def _candidates_in(
+    code: PyCode, function: Scope, members: Collection[str], makers: Collection[str]
+) -> frozenset[str]:
     """The locals of a function that may be for people: none that models declare.
 
     A local that nobody is told of is the model's, though nobody
@@ -54,7 +61,7 @@ def _candidates_in(code: PyCode, function: Scope, members: Collection[str]) -> f
         name
         for name, bindings in function.names.items()
         if all(b.how in ("value", "augmented", "loop") for b in bindings)
-        and all(_is_computed(code, function.module, b.value) for b in bindings)
+        and all(_is_computed(code, function.module, b.value, makers) for b in bindings)
         and not any(_is_declared(b.value) for b in bindings)
     )
     return _told_of(function, computed, members) if computed else computed
@@ -96,7 +103,7 @@ def _speaks(part: Node, members: Collection[str], told: Collection[str]) -> bool
         case "attribute":
             return text_of(field(part, "attribute")) in members
         case _:
-            return part.type == "identifier" and text_of(part) in told
+            return part.type == "identifier" and (text_of(part) in told or text_of(part) in members)
 
 
 def _is_declared(value: Node) -> bool:
@@ -104,20 +111,21 @@ def _is_declared(value: Node) -> bool:
     return value.parent is not None and value.parent.child_by_field_name("type") is not None
 
 
-def _is_computed(code: PyCode, module: Scope, value: Node) -> bool:
+def _is_computed(code: PyCode, module: Scope, value: Node, makers: Collection[str]) -> bool:
     """Whether nothing is called for a value but what Python has, or the module itself."""
-    calls = (n for n in nodes_in(value) if n.type == "call")
-    return all(_calls_plainly(code, module, field(c, "function")) for c in calls)
+    calls = (text_of(field(n, "function")) for n in nodes_in(value) if n.type == "call")
+    return all(c in makers or _calls_plainly(code, module, c) for c in calls)
 
 
-def _calls_plainly(code: PyCode, module: Scope, called: Node) -> bool:
-    text = text_of(called)
+def _calls_plainly(code: PyCode, module: Scope, text: str) -> bool:
+    if text in libraries.clocks():
+        return True
     head = text.partition(".")[0].partition("(")[0]
     if head == "self":
         return text.removeprefix("self._mailbox.") in names_in_model(Language.PYTHON)
     bindings = [b for b in module.names.get(head, []) if b.how == "import"]
     if any(libraries.of_nodes(text_of(b.value)) for b in bindings):
-        return text in libraries.clocks()
+        return False
     return not any(_is_of_package(code, module, b.node) for b in bindings)
 
 
@@ -130,22 +138,27 @@ def _is_of_package(code: PyCode, module: Scope, statement: Node) -> bool:
     return is_message or (source is not None and is_runtime_file(source.py.source))
 
 
-def may_tell(
-    node: Node, members: Collection[str], own: Collection[str], publishers: Collection[str]
-) -> bool:
-    """Whether a statement names something for people, or logs, and asks the node nothing else."""
+def asked_of_node() -> Collection[str]:
+    """The methods of a node that only give what tells people something."""
+    return {"get_logger", "get_clock", *libraries.own_name_methods()}
+
+
+def may_tell(node: Node, words: Collection[str], members: Collection[str]) -> bool:
+    """Whether a statement names something for people, or logs, and asks the node nothing else.
+
+    `words` are variables for people, `members` attributes of the object.
+    """
     if node.type not in _STATEMENTS:
         return False
     names_told = False
     for part in nodes_in(node):
-        words = text_of(field(part, "function")) if part.type == "call" else ""
+        called = text_of(field(part, "function")) if part.type == "call" else ""
         if part.type == "identifier":
-            names_told |= text_of(part) in own
-        elif words:
-            names_told |= libraries.log_words().match(words) is not None
+            names_told |= text_of(part) in words
+        elif called:
+            names_told |= libraries.log_words().match(called) is not None
         elif part.type == "attribute" and text_of(field(part, "object")) == "self":
-            name = text_of(field(part, "attribute"))
-            is_told = name in members or name in publishers
+            is_told = text_of(field(part, "attribute")) in members
             names_told |= is_told
             if not is_told and _is_acted_on(part):
                 return False
@@ -162,7 +175,7 @@ def _is_acted_on(attribute: Node) -> bool:
     if above.type in _STORING:
         return field(above, "left") == attribute
     if above.type == "call" and above.child_by_field_name("function") == attribute:
-        return text_of(field(attribute, "attribute")) != "get_logger"
+        return text_of(field(attribute, "attribute")) not in asked_of_node()
     return False
 
 

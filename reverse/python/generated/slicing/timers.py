@@ -21,13 +21,13 @@ from rebsync.reverse.libraries.generated_calls import (
     TIMER_OF_NODE,
     TIMER_OF_ROS_1,
 )
-from rebsync.reverse.python.generated.logs import Looks, only_logs, own_method
 from rebsync.reverse.python.generated.py_types import (
     call_parts,
     expression_in,
     without_parentheses,
 )
-from rebsync.reverse.python.generated.told_exceptions import ToldExceptions
+from rebsync.reverse.python.generated.slicing.exceptions import ToldExceptions
+from rebsync.reverse.python.generated.slicing.logs import Looks, only_logs, own_method
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
