@@ -10,7 +10,7 @@ from rebsync.reverse.build.manifests import read_manifest
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import SUFFIX
 from rebsync.reverse.libraries.cpp import including
-from rebsync.reverse.libraries.python import brings
+from rebsync.reverse.libraries.registry import brings
 from rebsync.source import Source
 
 _CODE = (*sorted(CODE), SUFFIX)
@@ -43,7 +43,7 @@ def gives_module(depends: Collection[str], module: str) -> bool:
 
     Those of the system are named by rosdep after what they give, as `python3-numpy`.
     """
-    brought = {m for name in depends for m in brings().get(name, ())}
+    brought = {m for name in depends for m in brings().get(name, frozenset())}
     word = _OTHERWISE.get(module, module).lower().replace("_", "-")
     return module in (*depends, *brought) or any(
         word in name.lower().replace("_", "-") for name in depends

@@ -47,12 +47,6 @@ def client_in(text: str) -> Library:
     return [*flat, *(library for library in clients() if not library.flat)][0]
 
 
-@derived
-def brings() -> Mapping[str, frozenset[str]]:
-    """The modules that are installed with a library, by its name."""
-    return {library.name: library.brings for library in _libraries() if library.brings}
-
-
 # --- functions and methods ----------------------------------------------------------------------
 
 

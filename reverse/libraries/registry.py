@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import cache
 from typing import ParamSpec, TypeVar, cast
@@ -37,6 +37,12 @@ def _all() -> tuple[Library, ...]:
 def libraries(language: Language) -> tuple[Library, ...]:
     """The libraries that code of a language may call."""
     return tuple(library for library in _all() if library.language is language)
+
+
+@derived
+def brings() -> Mapping[str, frozenset[str]]:
+    """The modules of Python that are installed with a library, by its name."""
+    return {library.name: library.brings for library in libraries(Language.PYTHON)}
 
 
 @contextmanager
