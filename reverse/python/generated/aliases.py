@@ -13,8 +13,8 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.python.generated.member_places import name_around
-from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.python.generated.slicing.candidates import SET_UP
+from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode
