@@ -20,6 +20,7 @@ _MAKING = frozenset(
         *("compound_literal_expression", "lambda_expression"),
     }
 )
+_AS = re.compile(r"as<\w+>\Z")
 _CONVERTS = re.compile(r"(?:static_cast<[^&]*>|(?:std::)?u?int\d+_t|int|double|float|bool)\Z")
 
 
@@ -35,6 +36,8 @@ def is_made(scope: Scope, value: Node) -> bool:
             called = text_of(part(value, "function")).removeprefix("this->")
             if _CONVERTS.match(called):
                 return True
+            if _AS.match(called) and "as" not in scope.functions:
+                return True  # of the run-time part: it gives a rebec
             found = scope.functions.get(called)
             function = found.function if isinstance(found, Called | Inline) else None
             return function is not None and not function.gives_place
