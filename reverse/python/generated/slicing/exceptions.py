@@ -15,6 +15,7 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.generated.slicing.messages import ToldMessages
+from rebsync.reverse.python.generated.slicing.runtime_attributes import RuntimeAttributes
 from rebsync.reverse.syntax.ancestors import ancestors, holds
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
@@ -38,12 +39,14 @@ class ToldExceptions:
     files: Mapping[int, Py] = with_default(default_factory=dict)
     variables: Mapping[str, m.Type] = with_default(default_factory=dict)
     messages: ToldMessages | None = None
+    runtime: RuntimeAttributes = RuntimeAttributes({}, frozenset())
 
     @staticmethod
     def of(code: PyCode, form: PyForm, messages: ToldMessages) -> ToldExceptions:
         """Those of a class of some code."""
         files = {s.node.id: s.py for s in code.modules.values()}
-        return ToldExceptions(form, files, messages.variables, messages)
+        runtime = RuntimeAttributes.of(code)
+        return ToldExceptions(form, files, messages.variables, messages, runtime)
 
     def file_of(self, node: Node) -> Py | None:
         """The file that something is in."""
@@ -69,6 +72,8 @@ class ToldExceptions:
         if py is None:
             yield "nobody knows what this does"
             return
+        if any(self.runtime.lacking(_root(node), node)):
+            yield "the run-time part has no such attribute"
         for problem, scope in self.form.raised(py, py.span(node)):
             is_here = scope.py is py and holds(scope.node, node)
             if scope.name in methods and not is_here:
