@@ -51,6 +51,7 @@ def numbers_in(text: str) -> Iterator[int | str]:
                 yield int(field)
 
 
+AS_TEXT = frozenset("sra")  # letters of conversions that take anything
 _CONVERSION = re.compile(
     r"%(?:\((?P<key>[^)]*)\))?[#0\- +]*(?P<width>\*|\d+)?(?:\.(\*|\d+))?[hlL]?(.)"
 )
@@ -84,7 +85,7 @@ def refuses(text: str, values: Sequence[Collection[OwnType | None]]) -> bool:
 
 
 def _is_refused(letter: str, kinds: Collection[OwnType | None]) -> bool:
-    if letter in "sra":
+    if letter in AS_TEXT:
         return False
     taken = {OwnType.NUMBER, OwnType.TEXT, None} if letter == "c" else {OwnType.NUMBER, None}
     return letter not in "diouxXeEfFgGc" or not taken.issuperset(kinds)

@@ -9,7 +9,8 @@ from __future__ import annotations
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.call_binding import REFUSED
-from rebsync.reverse.analysis.python.format_strings import refuses
+from rebsync.reverse.analysis.python.format_strings import AS_TEXT, conversions, refuses
+from rebsync.reverse.analysis.python.none_values import NoneValues
 from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.python.value_types import OwnType
 from rebsync.reverse.analysis.stores import CallResult, key_of
@@ -29,6 +30,7 @@ class LogArguments:
     def __init__(self, notes: ProblemNotes, kinds: OperandKinds) -> None:
         self._notes = notes
         self._kinds = kinds
+        self._nones = NoneValues(notes)
 
     def check(self, node: s.Call, facts: Facts) -> None:
         """Notes that a call that logs is given what it does not take."""
@@ -45,13 +47,16 @@ class LogArguments:
         elif message is not None and logs.only_text:
             if self._kinds.of(message, facts) - {OwnType.TEXT, None}:
                 self._notes.fails(node, _WRONG)
-        elif rest and isinstance(message, e.Literal) and self._refuses(message, rest, facts):
-            self._notes.fails(node, _WRONG)
+        elif rest and isinstance(message, e.Literal) and isinstance(message.value, str):
+            self._filled(node, message.value, rest, facts)
 
-    def _refuses(self, message: e.Literal, rest: list[e.Expression], facts: Facts) -> bool:
-        """Whether a message does not take what is to be put into it."""
-        kinds = [self._kinds.of(v, facts) for v in rest]
-        return isinstance(message.value, str) and refuses(message.value, kinds)
+    def _filled(self, node: s.Call, text: str, rest: list[e.Expression], facts: Facts) -> None:
+        """Notes that a message does not take what is to be put into it, or that this is None."""
+        if refuses(text, [self._kinds.of(value, facts) for value in rest]):
+            self._notes.fails(node, _WRONG)
+        for letter, value in zip(conversions(text) or (), rest, strict=False):
+            if letter not in AS_TEXT:
+                self._nones.check(value, node, facts)
 
     def _logs(self, callee: Callee) -> LogCall | None:
         """What a call that logs takes; None for any other call."""
