@@ -5,8 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Sequence
 from string import Formatter
+from typing import TypeVar
 
 from rebsync.reverse.analysis.python.value_types import OwnType
+
+T = TypeVar("T")
 
 
 def has_pieces(text: str, by_place: int, names: Collection[str]) -> bool:
@@ -69,6 +72,12 @@ def conversions(text: str) -> list[str] | None:
         found += "d" * match[0].count("*")
         found += match[0][-1] if match[0][-1] != "%" else ""
     return found
+
+
+def numbers_of(text: str, values: Sequence[T]) -> list[T]:
+    """Those of some values that `%` puts into a text as numbers."""
+    pairs = zip(conversions(text) or (), values, strict=False)
+    return [value for letter, value in pairs if letter not in AS_TEXT]
 
 
 def refuses(text: str, values: Sequence[Collection[OwnType | None]]) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.call_binding import REFUSED
-from rebsync.reverse.analysis.python.format_strings import AS_TEXT, conversions, refuses
+from rebsync.reverse.analysis.python.format_strings import numbers_of, refuses
 from rebsync.reverse.analysis.python.none_values import NoneValues
 from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.python.value_types import OwnType
@@ -52,11 +52,12 @@ class LogArguments:
 
     def _filled(self, node: s.Call, text: str, rest: list[e.Expression], facts: Facts) -> None:
         """Notes that a message does not take what is to be put into it, or that this is None."""
-        if refuses(text, [self._kinds.of(value, facts) for value in rest]):
+        numbers = numbers_of(text, rest)
+        is_object = any(self._kinds.is_object(value, facts) for value in numbers)
+        if is_object or refuses(text, [self._kinds.of(value, facts) for value in rest]):
             self._notes.fails(node, _WRONG)
-        for letter, value in zip(conversions(text) or (), rest, strict=False):
-            if letter not in AS_TEXT:
-                self._nones.check(value, node, facts)
+        for value in numbers:
+            self._nones.check(value, node, facts)
 
     def _logs(self, callee: Callee) -> LogCall | None:
         """What a call that logs takes; None for any other call."""

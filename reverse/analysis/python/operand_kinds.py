@@ -20,6 +20,7 @@ from rebsync.reverse.analysis.python.value_types import (
     A_NUMBER,
     ANY_TYPE,
     NO_TYPES,
+    LibraryType,
     OwnType,
     ValueTypes,
     at_index,
@@ -93,6 +94,10 @@ class OperandKinds:
                 return self._named(value, facts)
             case _:
                 return self._types.of(value, self._name)
+
+    def is_object(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a value may be a library's object, which is no number and has no elements."""
+        return any(isinstance(type_, LibraryType) for type_ in self.types(value, facts))
 
     def given(self, call: s.Call) -> ValueTypes:
         """The types of what a call of the function gives."""

@@ -13,7 +13,12 @@ from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.attribute_errors import AttributeErrors
 from rebsync.reverse.analysis.python.element_errors import ElementErrors
-from rebsync.reverse.analysis.python.format_strings import OF_NUMBERS, numbers_in, refuses
+from rebsync.reverse.analysis.python.format_strings import (
+    OF_NUMBERS,
+    numbers_in,
+    numbers_of,
+    refuses,
+)
 from rebsync.reverse.analysis.python.log_arguments import LogArguments
 from rebsync.reverse.analysis.python.message_errors import MessageErrors
 from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
@@ -215,6 +220,7 @@ class TypeErrors:
     ) -> None:
         types = self.kinds.types(value, facts)
         is_bare = any(isinstance(t, InstanceType) and self._objects.is_bare(t.name) for t in types)
+        is_bare |= self.kinds.is_object(value, facts)
         if is_bare or frozenset(map(own_type, types)) - {*taken, None}:
             self._notes.fails(node, _WRONG)
 
@@ -258,10 +264,14 @@ class TypeErrors:
         """Whether `%` may not put values into a text: too many, too few, or of another type."""
         kinds = self.kinds.of(value, facts)
         if isinstance(value, e.Build) and kinds == {OwnType.TUPLE}:
-            if any(isinstance(each, e.Spread) for each in value.elements):
+            values = [v for v in value.elements if not isinstance(v, e.Spread)]
+            if len(values) < len(value.elements):
                 return True
-            return refuses(text, [self.kinds.of(v, facts) for v in value.elements])  # type: ignore[arg-type]
-        return kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
+            found = refuses(text, [self.kinds.of(v, facts) for v in values])
+        else:
+            values = [value]
+            found = kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
+        return found or any(self.kinds.is_object(v, facts) for v in numbers_of(text, values))
 
     # --- elements and texts ----------------------------------------------------------------------
 
