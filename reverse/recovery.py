@@ -116,8 +116,7 @@ def extract(
     people = in_cpp.find() if in_cpp is not None else None
     part = replace(people.part if people is not None else Part.empty(), observed=observed or {})
     python = at.python(in_python, listed, part, classes) if in_python is not None else None
-    joined = python.nodes.joined if python is not None else None
-    joined = joined if joined is not None else Joined.of([part])
+    joined = (python.nodes.joined if python is not None else None) or Joined.of([part])
     nodes = Nodes((), (), False)
     if in_cpp is not None and people is not None:
         nodes = in_cpp.read(people, joined)

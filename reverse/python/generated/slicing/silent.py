@@ -199,9 +199,8 @@ def silent_in(
     timers = replace(timers, looks=looks)
     asked = Answering.of(code, owner.module, handed, members, looks, exceptions)
     plain = frozenset(n for n, v in members.items() if _is_plain(v, looks))
-    made_of = {t.replace("/", ".msg.") for t in types.values()} | {
-        s.full_type for s in shown.values()
-    }
+    made_of = {*(t.replace("/", ".msg.") for t in types.values())}
+    made_of |= {s.full_type for s in shown.values()}
     found = Silent(
         plain | candidate_members(code, owner.module, members, makers),
         frozenset(n for n, v in publishers.items() if tells_by(code, owner.module, v, types)),
@@ -219,15 +218,14 @@ def silent_in(
     )
     found = replace(found, texts=found.texts - found.rest)
     speaking = found.members | looks.loggers | looks.logging.keys() | found.counters
-    kept = candidate_locals(code, functions.values(), speaking, makers)
-    found = replace(found, locals=kept)
+    found = replace(found, locals=candidate_locals(code, functions.values(), speaking, makers))
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)
     timers = found.timers.telling(code, handed, found.holds)
-    if timers.logging == found.timers.logging:
-        return found
-    ticking = found.ticking.union(n for n, v in members.items() if timers.is_idle(v))
-    return _consistent(replace(found, timers=timers, ticking=ticking), modules, beside)
+    if timers.logging != found.timers.logging:
+        ticking = found.ticking.union(n for n, v in members.items() if timers.is_idle(v))
+        found = _consistent(replace(found, timers=timers, ticking=ticking), modules, beside)
+    return found
 
 
 def _handed(roles: Sequence[PyRoles]) -> dict[str, Scope]:
