@@ -179,8 +179,7 @@ def silent_in(
     owner, functions = line[0], roles[0].functions
     taken = {n for r in roles for n in (*r.state, *r.known, *r.env, *r.publishers)}.difference(own)
     types = told_types(owner.module)
-    makers = frozenset(types)
-    modules = [*{id(c.module): c.module for c in line}.values()]
+    makers, modules = frozenset(types), [*{id(c.module): c.module for c in line}.values()]
     hidden = hidden_names(code, owner.module)
     looks = looks_of(code, line, makers, hidden)
     taken |= looks.functions
