@@ -15,6 +15,11 @@ from rebsync.source import Source
 
 _CODE = (*sorted(CODE), SUFFIX)
 _INTERFACES = (".msg", ".srv", ".action")
+# What is there wherever launch files of Python are started.
+_LAUNCHING = frozenset(
+    {"ament_index_python", "composition_interfaces", "launch", "launch_ros", "launch_xml"}
+    | {"launch_yaml", "lifecycle_msgs", "osrf_pycommon", "yaml"}
+)
 # Modules whose packages rosdep names otherwise.
 _OTHERWISE = {"cv2": "opencv", "google": "protobuf", "sklearn": "scikit", "RPi": "rpi.gpio"}
 _OF_INTERFACES = re.compile(r"message_(?:generation|runtime)|rosidl_default_\w+")
@@ -44,6 +49,7 @@ def gives_module(depends: Collection[str], module: str) -> bool:
     Those of the system are named by rosdep after what they give, as `python3-numpy`.
     """
     brought = {m for name in depends for m in brings().get(name, frozenset())}
+    brought |= _LAUNCHING if _LAUNCHING.intersection(depends) else set()
     word = _OTHERWISE.get(module, module).lower().replace("_", "-")
     return module in (*depends, *brought) or any(
         word in name.lower().replace("_", "-") for name in depends
