@@ -32,6 +32,7 @@ _OF_WHOLE = frozenset(
         *(Operator.FLOOR_DIVIDE, Operator.FLOOR_MODULO),
     }
 )
+_HOOKS = frozenset({"__getattr__", "__getattribute__"})
 _OF_ANYTHING = (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SAME)
 
 
@@ -246,12 +247,18 @@ class ToldValues(ABC):
     def is_seen(self, value: e.Expression, *, whole: bool = True) -> bool:
         """Whether a value is free, or an array that is only looked at.
 
-        What is looked at as a `whole` may be any local: a number or a text is made of it.
+        What is looked at as a `whole` may be any local, and an attribute of one that no property
+        computes: a number or a text is made of it.
         """
         if self.is_table(value) or self.is_free(value):
             return True
-        is_named = isinstance(value, e.Local | e.Global)
-        return whole and is_named and not self.is_object(value)
+        match value:
+            case e.Attribute(e.Local() as of, name) if not self._is_computed(name):
+                return whole and not self.is_object(of)
+            case e.Local() | e.Global():
+                return whole and not self.is_object(value)
+            case _:
+                return False
 
     def is_table(self, value: e.Expression) -> bool:
         """Whether a value is an array of the model, or a constant, with numbers and texts in it."""
@@ -351,6 +358,12 @@ class ToldValues(ABC):
                 messages = self.effects.messages
                 made = (isinstance(o, LibraryOrigin) and o.name in messages for o in held)
                 return bool(held) and all(made)
+
+    def _is_computed(self, name: str) -> bool:
+        """Whether code of the program may run where an attribute is read."""
+        classes = self.effects.form.program.classes.values()
+        hooks = (n for c in classes for n, _ in c.methods if n in _HOOKS)
+        return bool(self._getters(name)) or any(True for _ in hooks)
 
     def _getters(self, name: str) -> list[str | None]:
         classes = self.effects.form.program.classes.values()
