@@ -21,6 +21,7 @@ _INIT = "/__init__.py"
 _PACKAGE = "{package_name}"  # stands for the name of the package in paths
 _TESTS = frozenset({"test", "tests"})
 _OF_CATKIN = "generate_distutils_setup("
+_SETUP = frozenset({"setuptools.setup", "distutils.core.setup"})
 # Arguments of `setup` by which other modules, or others in place of them, are installed.
 BUILDING = frozenset(
     {"package_dir", "py_modules", "ext_modules", "cmdclass", "distclass", "scripts"}
@@ -41,6 +42,8 @@ class SetupFile:
         """All of them."""
         for node in ast.walk(self.tree):
             match node:
+                case ast.Call(function) if self._full(function) in _SETUP:
+                    yield self._fact(PYTHON_SETTING, "setup", "called", node)
                 case ast.Constant(str(text)) if (entry := _ENTRY.match(text)) is not None:
                     value = re.sub(rf"^{re.escape(self.package)}\.", "", entry[2])
                     yield self._fact("installed program", entry[1], value, node)
