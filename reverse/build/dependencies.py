@@ -52,5 +52,5 @@ def gives_module(depends: Collection[str], module: str) -> bool:
     brought |= _LAUNCHING if _LAUNCHING.intersection(depends) else set()
     word = _OTHERWISE.get(module, module).lower().replace("_", "-")
     return module in (*depends, *brought) or any(
-        word in name.lower().replace("_", "-") for name in depends
+        name.startswith("python") and f"-{word}-" in f"{name.lower()}-" for name in depends
     )

@@ -34,10 +34,10 @@ def definition(ls: RebsyncServer, params: lsp.DefinitionParams) -> list[lsp.Loca
     if params.text_document.uri.endswith(CODE):
         return _in_model(ls, params)
     document = ls.documents.document(params.text_document.uri)
-    if document is None:
+    found = entity_at(document, params.position) if document is not None else None
+    if document is None or found is None:
         return []
-    found = entity_at(document, params.position)
-    return definitions(ls.documents.related(document), found.entity) if found is not None else []
+    return definitions(ls.documents.related(document), found.entity)
 
 
 @server.feature(lsp.TEXT_DOCUMENT_IMPLEMENTATION)
