@@ -66,9 +66,8 @@ def test_a_server_leads_to_the_code_of_its_own_class_and_back(in_editor: InEdito
         found = await client.text_document_implementation_async(
             lsp.ImplementationParams(document, place)
         )
-        assert isinstance(found, Sequence)
-        (code,) = found
-        assert isinstance(code, lsp.Location)
+        assert isinstance(found, Sequence)  # a demo has one, too
+        (code,) = (c for c in found if isinstance(c, lsp.Location) and "/examples/" in c.uri)
         inside = lsp.Position(code.range.start.line + 1, 0)
         back = await client.text_document_definition_async(
             lsp.DefinitionParams(_of(code.uri), inside)
