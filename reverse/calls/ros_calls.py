@@ -79,11 +79,6 @@ class Asking:
         return self._graph
 
 
-def graph_of(code: Code) -> Graph:
-    """What the files ask of ROS, in the order of files and places."""
-    return Asking(code).graph
-
-
 def _calls_in(code: Code, values: Values, without: Collection[str]) -> Iterator[Asked]:
     """The calls but for those in functions of some classes, or of that name."""
     flat = uses_flat(values)

@@ -26,16 +26,12 @@ class TimeClass:
 
     use: TimeUse
     knows_clocks: bool = False
-    has_start: bool = False
 
 
 _POINTS = ("ros::Time", "ros::WallTime", "ros::SteadyTime")
-_SPANS = ("ros::Duration", "ros::WallDuration")
 TIME_CLASSES: Mapping[str, TimeClass] = {
-    **dict.fromkeys(_POINTS, TimeClass(TimeUse.POINT, has_start=True)),
-    **dict.fromkeys(
-        ("ros::Duration", "ros::WallDuration"), TimeClass(TimeUse.SPAN, has_start=True)
-    ),
+    **dict.fromkeys(_POINTS, TimeClass(TimeUse.POINT)),
+    **dict.fromkeys(("ros::Duration", "ros::WallDuration"), TimeClass(TimeUse.SPAN)),
     "rclcpp::Time": TimeClass(TimeUse.POINT, knows_clocks=True),
     "rclcpp::Duration": TimeClass(TimeUse.SPAN, knows_clocks=True),
 }

@@ -34,7 +34,6 @@ _WORDS = frozenset(
         *("uint8_t", "uint16_t", "uint32_t", "uint64_t"),
     }
 )
-_NAMES = ("field_identifier", "type_identifier", "namespace_identifier", "identifier")
 _DECLARING = {
     "declarator": frozenset(
         {

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 from rebsync.checker.formulas import NamedFormula
 from rebsync.checker.problem import Problem
 from rebsync.checker.program import Program
+from rebsync.checker.steps import Failure
+from rebsync.checker.telling import Teller
+from rebsync.checker.trace import TraceStep
 from rebsync.config import Config
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
@@ -24,10 +29,10 @@ from rebsync.roundtrip.conform.recording import Event, Recording, Served
 from rebsync.roundtrip.conform.search import WIDEST, Search, SearchResult
 from rebsync.roundtrip.conform.starts import REACHED, Mode, Start, modes, start
 from rebsync.roundtrip.conform.stream import Stream
-from rebsync.roundtrip.conform.visited import Visited
 from rebsync.source import Source
 
 LAST = 60  # steps before the end of the comparison that are remembered
+STEPS = 150  # that are remembered
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +149,7 @@ class _Attempt:
         begun = start(graph, stream, mode, self.most)
         passed = _Passed()
         evaluation = Evaluation(subject.program, subject.formulas, subject.assertions)
-        visited = Visited(graph, subject.source)
+        visited = _Visited(graph, subject.source)
 
         def visit(time: int, node: Node) -> None:
             evaluation.see(time, node)
@@ -301,3 +306,26 @@ class _Conclusion:
             tuple(self.passed.last),
             widest,
         )
+
+
+class _Visited:
+    """The states of the run that were visited last."""
+
+    def __init__(self, graph: StateGraph, source: Source) -> None:
+        self._teller = Teller(graph.view, source)
+        self._last: deque[tuple[int, Node]] = deque(maxlen=STEPS)
+
+    def see(self, time: int, node: Node) -> None:
+        """The next state."""
+        self._last.append((time, node))
+
+    def steps(self) -> tuple[TraceStep, ...]:
+        """The steps between them."""
+        return tuple(self._steps())
+
+    def _steps(self) -> Iterator[TraceStep]:
+        for number, ((time, before), (_, after)) in enumerate(pairwise(self._last), 1):
+            for step in before.steps():
+                if not isinstance(step.result, Failure) and step.result == after.state:
+                    yield self._teller.step(number, time, before.state, step)
+                    break

@@ -25,15 +25,16 @@ from rebsync.roundtrip.diff.difference import (
     Undetermined,
 )
 from rebsync.roundtrip.diff.matching import Matching, Pair, matched, names_of
+from rebsync.roundtrip.diff.normal_form import normal_class, normal_frame
 from rebsync.roundtrip.diff.operands import (
     Item,
     Operand,
     SourcedModel,
     UnreadPlace,
+    is_unreadable,
     too_deep,
     two_sides,
 )
-from rebsync.roundtrip.diff.quick_equality import are_same
 from rebsync.roundtrip.diff.tokens import Tokens
 from rebsync.source import SourceSpan
 
@@ -48,7 +49,7 @@ def compare(left: SourcedModel, right: SourcedModel, depth: Depth = Depth.EQUAL)
 
     RebsyncError: something in a model nests too deeply.
     """
-    if depth is Depth.EQUAL and are_same(left, right):
+    if depth is Depth.EQUAL and _are_same(left, right):
         return Comparison(())
     return compare_in_full(left, right, depth)
 
@@ -335,3 +336,31 @@ def _heads(model: m.Model) -> str:
 
 def _declared(declaration: m.Declaration) -> str:
     return " ".join(d.name for d in declaration.declarators)
+
+
+def _are_same(left: SourcedModel, right: SourcedModel) -> bool:
+    """Whether two models that are known in full have one normal form; False too if that is hard."""
+    if left.unread or right.unread or left.partial or right.partial:
+        return False
+    try:
+        return _classes_are_same(left.model, right.model) and _is_frame_same(
+            left.model, right.model
+        )
+    except RecursionError:
+        return False  # the comparison tells of what nests too deeply
+
+
+def _classes_are_same(left: m.Model, right: m.Model) -> bool:
+    if len(left.classes) != len(right.classes):
+        return False
+    firsts, seconds = (sorted(x.classes, key=lambda c: c.name) for x in (left, right))
+    pairs = zip(firsts, seconds, strict=True)
+    return all(x == r or normal_class(x) == normal_class(r) for x, r in pairs) and not any(
+        is_unreadable(node) for each in firsts for node in m.walk(each)
+    )
+
+
+def _is_frame_same(left: m.Model, right: m.Model) -> bool:
+    if (left.heads, left.main) == (right.heads, right.main):
+        return True
+    return normal_frame(left) == normal_frame(right)

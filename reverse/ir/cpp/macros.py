@@ -16,7 +16,6 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, named, parse, part, text_of
 from rebsync.source import Source, Span
 
 _CONTINUED = re.compile(r"\\\r?\n")
-_REST = "__VA_ARGS__"
 
 
 def expanded(context: Context, name: str, nodes: Sequence[Node], place: Span) -> Value:

@@ -6,7 +6,6 @@ from tree_sitter import Node
 
 from rebsync.reverse.python.generated.slicing.candidates import SET_UP
 from rebsync.reverse.syntax.ancestors import functions_around
-from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 
@@ -27,14 +26,6 @@ def name_around(node: Node) -> str:
 
 def _enclosing(node: Node) -> Node | None:
     return next(functions_around(node), None)
-
-
-def is_of_module(node: Node, name: str) -> bool:
-    """Whether a function says that a variable is the module's."""
-    function = _enclosing(node)
-    statements = nodes_in(function) if function is not None else ()
-    said = (n for n in statements if n.type == "global_statement")
-    return any(name in map(text_of, named(n)) for n in said)
 
 
 def function_around(node: Node) -> int:

@@ -24,8 +24,6 @@ VALUES = frozenset({"string", "concatenated_string", "none", "list", "tuple"})
 NUMBERS = frozenset({"true", "false", "integer", "float"})
 _DECLARE, _GET = "self.declare_parameter", "self.get_parameter"
 _MADE_OF_ANY = frozenset({"bool", "str"})
-_LIBRARY_BASES = frozenset({"Node", "LifecycleNode", "object", "ABC"})
-_TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target"})
 _LOCKS = frozenset({"threading.Lock", "threading.RLock"})
 
 

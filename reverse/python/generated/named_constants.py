@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import builtins
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field as with_default
 from itertools import count, takewhile
 from math import isfinite
@@ -15,8 +15,8 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.literals import literal_of
 from rebsync.records import dataclass
-from rebsync.reverse.python.generated.enumerations import ENUM, INTEGERS, is_auto, names_before
 from rebsync.reverse.python.generated.kinds import float_literal
+from rebsync.reverse.python.generated.module_variables import imported_as
 from rebsync.reverse.python.values.py_evaluator import lineage
 from rebsync.reverse.python.values.py_values import PyValues
 from rebsync.reverse.python.values.py_worth import Class, External, Items, Module, Value
@@ -33,7 +33,8 @@ from rebsync.reverse.syntax.py_index import (
 )
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
-_PLAIN_BASES = frozenset({"builtins.object", "abc.ABC", INTEGERS})
+_INTEGERS, _ENUM = "enum.IntEnum", "enum.Enum"
+_PLAIN_BASES = frozenset({"builtins.object", "abc.ABC", _INTEGERS})
 _FROZEN = frozenset({"dataclass(frozen=True)", "dataclasses.dataclass(frozen=True)"})
 _TUPLES = frozenset({"NamedTuple", "typing.NamedTuple"})
 _FUNCTIONS = frozenset({"function_definition", "decorated_definition"})
@@ -83,7 +84,7 @@ class CodeConstants:
                 return self._imported(scope, name, binding)
             case "scope":
                 return self._only(binding, name, scope)
-            case "value" if is_auto(scope, binding.value):
+            case "value" if _is_auto(scope, binding.value):
                 return self._numbered(scope, name)
             case "value" if binding.value.type == "call":
                 return self._made(scope, binding.value)
@@ -99,7 +100,7 @@ class CodeConstants:
                 return self.of(scope, name)
             case Class(scope) if self._is_plain(scope):
                 return self.of(scope, name)
-            case Class(scope) if self._is_plain(scope, ENUM):
+            case Class(scope) if self._is_plain(scope, _ENUM):
                 value = self.of(scope, name)
                 return Record({"value": value}) if value is not None else None
             case Record(fields):
@@ -112,7 +113,7 @@ class CodeConstants:
         if not isinstance(holder, Class):
             return False
         return any(
-            isinstance(c, External) and c.name == INTEGERS
+            isinstance(c, External) and c.name == _INTEGERS
             for c in lineage(self.values, holder.scope)
         )
 
@@ -181,16 +182,16 @@ class CodeConstants:
 
     def _numbered(self, owner: Scope, name: str) -> Constant | None:
         """What `auto()` gives in an enumeration: one more than the greatest before it."""
-        names = list(names_before(owner, name))
+        names = list(_names_before(owner, name))
         before = [self.of(owner, each) for each in names]
         numbers = [n for n in before if isinstance(n, int) and not isinstance(n, bool)]
         is_known = len(numbers) == len(names) and (
-            self._is_plain(owner) or self._is_plain(owner, ENUM)
+            self._is_plain(owner) or self._is_plain(owner, _ENUM)
         )
         is_last = not numbers or numbers[-1] == max(numbers)
         return (numbers or [0])[-1] + 1 if is_known and is_last else None
 
-    def _is_plain(self, owner: Scope, base: str = INTEGERS) -> bool:
+    def _is_plain(self, owner: Scope, base: str = _INTEGERS) -> bool:
         """Whether what a class binds is what its attributes are, as it is not in an `Enum`.
 
         Those of an enumeration of integers with functions may compare otherwise.
@@ -201,7 +202,7 @@ class CodeConstants:
         is_known = len(line) == 1 + sum(len(_bases(each)) for each in classes)
         bodies = (s for each in classes for s in named(field(each.node, "body")))
         has_functions = any(s.type in _FUNCTIONS for s in bodies)
-        if base == ENUM and ENUM not in above:
+        if base == _ENUM and _ENUM not in above:
             return False
         return is_known and above <= _PLAIN_BASES | {base} and not (base in above and has_functions)
 
@@ -319,3 +320,21 @@ def _is_new(scope: Scope, name: str) -> bool:
 def _bases(owner: Scope) -> list[Node]:
     bases = owner.node.child_by_field_name("superclasses")
     return named(bases) if bases is not None else []
+
+
+def _is_auto(scope: Scope, value: Node) -> bool:
+    """Whether a class gives a member the next number: `MOVE = auto()`."""
+    if scope.kind != CLASS or value.type != "call" or named(field(value, "arguments")):
+        return False
+    return imported_as(scope.module, text_of(field(value, "function"))) == "enum.auto"
+
+
+def _names_before(owner: Scope, name: str) -> Iterator[str]:
+    """The members of an enumeration that stand before one."""
+    for statement in named(field(owner.node, "body")):
+        inner = named(statement)[0] if statement.type == "expression_statement" else statement
+        if inner.type != "assignment" or inner.child_by_field_name("right") is None:
+            continue
+        if text_of(field(inner, "left")) == name:
+            return
+        yield text_of(field(inner, "left"))

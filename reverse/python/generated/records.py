@@ -5,18 +5,27 @@ A record may be changed, so that only its fields may be read, and it may be call
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.python.generated.module_variables import hidden_names
-from rebsync.reverse.python.generated.record_classes import records_in
+from rebsync.reverse.python.generated.py_types import type_of
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_index import has_splat
+from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, has_splat
 from rebsync.reverse.syntax.py_tree import SCOPES, field, is_label, named, text_of
+
+_TARGETS = frozenset(
+    {"pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target", "delete_statement"}
+)
+_DATACLASS = re.compile(
+    r"(?:dataclasses\.)?dataclass(?:\((?:\s*(?:frozen|order|eq)\s*=\s*(?:True|False)\s*,?)*\))?\Z"
+)
+_MODULE = re.compile(r"from\s+dataclasses\s+import\b|import\s+dataclasses\s*\Z")
 
 
 def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m.Statement] | None:
@@ -44,7 +53,7 @@ def _fields_of(reader: ModelStatementReader, name: str) -> Sequence[str] | None:
     names = reader.expressions.names
     if name in hidden_names(names.code, names.constants.module):
         return None
-    return records_in(names.code, names.constants.module).get(name)
+    return _records_in(names.code, names.constants.module).get(name)
 
 
 def _given(call: Node, fields: Sequence[str]) -> list[tuple[str, Node]] | None:
@@ -86,6 +95,55 @@ def _is_read(use: Node, function: Node, fields: Sequence[str]) -> bool:
 
 
 _STORING = frozenset({"assignment", "augmented_assignment", "for_statement", "call"})
-_TARGETS = frozenset(
-    {"pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target", "delete_statement"}
-)
+
+
+def _records_in(code: PyCode, module: Scope) -> Mapping[str, Sequence[str]]:
+    """The fields of data classes whose objects only hold what they are made of, by their names.
+
+    None has a default.
+    """
+    imported = {
+        name
+        for name, bindings in module.names.items()
+        if len(bindings) == 1 and _MODULE.match(text_of(bindings[0].node))
+    }
+    scopes = (s for s in code.scopes.values() if s.kind == CLASS and s.parent is module)
+    return {
+        scope.name: fields
+        for scope in scopes
+        if len(module.names[scope.name]) == 1
+        and imported.issuperset(d.partition(".")[0].partition("(")[0] for d in scope.decorators)
+        and (fields := _fields(scope))
+    }
+
+
+def _fields(scope: Scope) -> tuple[str, ...]:
+    """The fields of a data class; none where its objects may do more than to hold them."""
+    is_plain = len(scope.decorators) == 1 and _DATACLASS.match(scope.decorators[0])
+    if not is_plain or scope.node.child_by_field_name("superclasses") is not None:
+        return ()
+    found = []
+    for statement in named(field(scope.node, "body")):
+        if statement.type == "function_definition":
+            if not _is_idle(statement):
+                return ()
+        elif (name := _declared(statement)) is not None:
+            found.append(name)
+        elif not (named(statement) and named(statement)[0].type == "string"):
+            return ()
+    return tuple(found)
+
+
+def _declared(statement: Node) -> str | None:
+    """The field that `x: int` declares."""
+    inner = named(statement)[0] if statement.type == "expression_statement" else statement
+    if inner.type != "assignment" or inner.child_by_field_name("right") is not None:
+        return None
+    said = field(inner, "type")
+    return text_of(field(inner, "left")) if type_of(said) or text_of(said) == "str" else None
+
+
+def _is_idle(function: Node) -> bool:
+    """Whether a method runs only where it is called by its name."""
+    name = text_of(field(function, "name"))
+    return not (name.startswith("__") and name.endswith("__"))

@@ -6,17 +6,24 @@ They may look at what the model has, and do what they like with the rest.
 from __future__ import annotations
 
 import ast
+from collections.abc import Collection, Iterator
 from functools import lru_cache
 
 from tree_sitter import Node
 
+from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
+from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.generated.user_blocks import user_blocks
+from rebsync.reverse.ir.program import Function
+from rebsync.reverse.ir.python.lowering import python_program
+from rebsync.reverse.libraries.outcomes import LibraryOutcomes
+from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.slicing.log_words import HARMLESS
-from rebsync.reverse.python.generated.user_effects import effects_of
+from rebsync.reverse.syntax.py_index import PyCode
 from rebsync.reverse.syntax.py_module import module_of
-from rebsync.reverse.syntax.py_tree import field, named, text_of
-from rebsync.source import Source
+from rebsync.reverse.syntax.py_tree import Py, field, named, text_of
+from rebsync.source import Source, Span
 
 _LEAVING = frozenset(
     {"return_statement", "break_statement", "continue_statement", "raise_statement", "yield"}
@@ -31,6 +38,7 @@ _STORING = {
     "delete_statement": "",
     "for_in_clause": "left",
 }
+_FILES = "builtins.OSError"
 
 
 def is_users(reader: ModelExpressionReader, node: Node) -> bool:
@@ -44,7 +52,7 @@ def is_users(reader: ModelExpressionReader, node: Node) -> bool:
 def check(reader: ModelExpressionReader, node: Node) -> None:
     """Unread: a statement of a user's block does something to what the model has."""
     _check_part(reader, node)
-    effects = effects_of(reader.py, _modelled(reader.py.source))
+    effects = _effects_of(reader.py, _modelled(reader.py.source))
     for problem in effects.acting(reader.py.span(node)):
         raise reader.unread(node, f"in a user's block: {problem.why}")
 
@@ -115,3 +123,41 @@ def _is_looked_at(node: Node) -> bool:
         called = text_of(field(above.parent, "function")).rpartition(".")[2]
         return called in HARMLESS
     return above is not None and above.type in ("subscript", "interpolation", "comparison_operator")
+
+
+class _UserEffects:
+    """The effects of users' blocks of a module, by what the form says of their statements.
+
+    What they compute, keep for themselves and write to files is theirs; the rebec, its messages and
+    its time are the model's. Errors of files do not count: that they may be is said of no block.
+    `modelled` are modules that have to do with the model.
+    """
+
+    def __init__(self, py: Py, modelled: Collection[str]) -> None:
+        self.program = python_program(PyCode.of([py]))
+        table = LibraryOutcomes(Language.PYTHON, frozenset(modelled))
+        self.analysis = OutcomeAnalysis(self.program, table, self._is_model)
+
+    @staticmethod
+    def _is_model(name: str) -> bool:
+        """Whether a function is one of a class of the module."""
+        return "." in name.partition(":")[2]
+
+    def acting(self, span: Span) -> Iterator[Problem]:
+        """What the statements at a place may do besides to compute."""
+        around = [f for f in map(self.program.function, self.program.functions) if _is_in(span, f)]
+        if not around:
+            return
+        function = min(around, key=lambda f: f.place.end - f.place.start)
+        found = self.analysis.of_statements(function, span)
+        yield from sorted((p for p in found if p.raises != _FILES), key=str)
+
+
+@lru_cache(maxsize=8)
+def _effects_of(py: Py, modelled: frozenset[str]) -> _UserEffects:
+    """The effects of a module, read once."""
+    return _UserEffects(py, modelled)
+
+
+def _is_in(span: Span, function: Function) -> bool:
+    return function.place.start <= span.start and span.end <= function.place.end

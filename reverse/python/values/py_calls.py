@@ -45,20 +45,15 @@ from rebsync.reverse.python.values.py_worth import (
     distinct,
     resolved,
 )
-from rebsync.reverse.syntax.py_index import CLASS, FUNCTION, PyCode, Scope, arguments_of
+from rebsync.reverse.syntax.py_index import CLASS, FUNCTION, Scope, arguments_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _AROUND = frozenset({"parenthesized_expression", "await"})
 _CONTAINERS = frozenset({"dictionary", "pair", "list", "tuple"})
 
 
-def graph_of(code: PyCode) -> Graph:
-    """All that some files ask of ROS."""
-    return graph_with(PyValues(code))
-
-
 def graph_with(values: PyValues) -> Graph:
-    """The same of files some of whose values may be known."""
+    """All that files ask of ROS, some of whose values may be known."""
     facts = _Facts(values)
     every = (f for asked in asked_in(values) for f in facts.of(asked))
     return Graph(tuple(without_unused(every, [m.py for m in values.code.modules.values()])))

@@ -7,8 +7,10 @@ do and the code may not (over-approximation) makes a fit undetermined, and no re
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from math import inf
 
 from rebsync.model import Model
@@ -20,7 +22,6 @@ from rebsync.roundtrip.conform.components.diagnosis import TopicDiagnosis
 from rebsync.roundtrip.conform.components.environment import Closed
 from rebsync.roundtrip.conform.components.hypotheses import Hypothesis
 from rebsync.roundtrip.conform.components.inclusion import Inclusion, InclusionSearch
-from rebsync.roundtrip.conform.components.intervals import intervals
 from rebsync.roundtrip.conform.components.middle import middle, served_before
 from rebsync.roundtrip.conform.components.run import merged, steps_of
 from rebsync.roundtrip.conform.conformance import Conformance, Deviation, TopicInterval
@@ -179,7 +180,7 @@ class _Judge:
         way: tuple[Component, Sequence[Hypothesis]] | None = None
         if search.keeps and found.last is not None:
             way = self.component, search.way_to(found.last)
-            took = intervals(*way)
+            took = _intervals(*way)
         return Judged(compared, found.widest, None, (why,) if over else (), (), took, way)
 
     def _refused(self, search: InclusionSearch, found: Inclusion) -> Judged:
@@ -207,3 +208,38 @@ class _Judge:
 
 def _compared(found: Inclusion) -> int:
     return sum(found.furthest[-1].matched) if found.furthest else 0
+
+
+def _intervals(component: Component, run: Sequence[Hypothesis]) -> tuple[TopicInterval, ...]:
+    """The times from what a server got to what it published on a topic, and from one to the next.
+
+    The first of servers of messages from outside ("delay"), the second of servers of messages that
+    the rebec sends itself, such as timers ("period").
+    """
+    found: dict[tuple[str, str, str], array[float]] = {}
+    last: dict[tuple[int, int], float] = {}
+    for before, after in pairwise(run):
+        inputs = [component.inputs[n] for n in _newly_taken(before, after)]
+        changed = enumerate(zip(before.matched, after.matched, strict=True))
+        for topic, stamp in (
+            (k, component.outputs[k][was].stamp) for k, (was, now) in changed if now > was
+        ):
+            if after.last < 0 or (component.kept[topic] and not before.matched[topic]):
+                continue
+            name = component.program.servers[after.last].name
+            if inputs:
+                key = name, component.topics[topic], "delay"
+                found.setdefault(key, array("d")).append(stamp - inputs[0].stamp)
+                continue
+            before_it = last.get((after.last, topic))
+            if before_it is not None:
+                key = name, component.topics[topic], "period"
+                found.setdefault(key, array("d")).append(stamp - before_it)
+            last[after.last, topic] = stamp
+    return tuple(TopicInterval(component.name, *key, seconds) for key, seconds in found.items())
+
+
+def _newly_taken(before: Hypothesis, after: Hypothesis) -> list[int]:
+    """The inputs that are passed in a step."""
+    advanced = {*range(before.base, after.base), *after.taken}
+    return sorted(advanced - before.taken)

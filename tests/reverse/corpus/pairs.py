@@ -13,12 +13,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from rebsync.records import dataclass
-from rebsync.reverse.calls.ros_calls import graph_of
+from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.files.reading import Chosen, packages
 from rebsync.reverse.graph_json import graph_data
-from rebsync.reverse.python.values.py_calls import graph_of as python_graph
+from rebsync.reverse.python.values.py_calls import graph_with
+from rebsync.reverse.python.values.py_values import PyValues
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.reverse.syntax.py_index import PyCode
@@ -157,8 +158,8 @@ def _graphs(given: Chosen) -> Iterator[dict[str, list[Json]]]:
     """The graphs of a package: of its C++ and of its Python."""
     cpp = [s for p, s in sorted(given.files.items()) if Path(p).suffix in CODE]
     python = [s for p, s in sorted(given.files.items()) if is_python(p, s)]
-    yield {**graph_data(graph_of(Code.of(map(parse, cpp))))}
-    yield {**graph_data(python_graph(PyCode.of(map(parse_python, python))))}
+    yield {**graph_data(Asking(Code.of(map(parse, cpp))).graph)}
+    yield {**graph_data(graph_with(PyValues(PyCode.of(map(parse_python, python)))))}
 
 
 # --- comparing ----------------------------------------------------------------------------------

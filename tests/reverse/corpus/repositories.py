@@ -9,12 +9,13 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from rebsync.records import dataclass
-from rebsync.reverse.calls.ros_calls import graph_of
+from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.files.reading import Chosen, packages
 from rebsync.reverse.graph_json import graph_data
-from rebsync.reverse.python.values.py_calls import graph_of as python_graph
+from rebsync.reverse.python.values.py_calls import graph_with
+from rebsync.reverse.python.values.py_values import PyValues
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.reverse.syntax.py_index import PyCode
@@ -75,7 +76,9 @@ def python_result(name: str, root: Path) -> Result:
     answers = [
         {**answer, "file": Path(answer["file"]).relative_to(root).as_posix()}
         for sources in code
-        for answer in answers_of(graph_data(python_graph(PyCode.of(map(parse_python, sources)))))
+        for answer in answers_of(
+            graph_data(graph_with(PyValues(PyCode.of(map(parse_python, sources)))))
+        )
     ]
     seconds = time.perf_counter() - start
     every = [source for sources in code for source in sources]
@@ -103,7 +106,7 @@ def result(name: str, root: Path, within: Sequence[str], bodies: bool = False) -
 def _answers(package: Chosen, root: Path) -> Iterator[Json]:
     """What the nodes of a package ask ROS for, by the files of the repository."""
     code = [s for path, s in sorted(package.files.items()) if Path(path).suffix in CODE]
-    for answer in answers_of(graph_data(graph_of(Code.of(map(parse, code))))):
+    for answer in answers_of(graph_data(Asking(Code.of(map(parse, code))).graph)):
         yield {**answer, "file": Path(answer["file"]).relative_to(root).as_posix()}
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.reverse.calls.ros_calls import graph_of
+from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
 from rebsync.source import Source
@@ -42,6 +42,7 @@ def test_what_is_found_is_what_the_comments_say(case: Path) -> None:
     files = _files(case)
     code = Code.of(parse(Source(path, text)) for path, text in files.items())
     found = [
-        f"{f.site.place.source.path}:{f.site.place.line}: {noted(f)}" for f in graph_of(code).facts
+        f"{f.site.place.source.path}:{f.site.place.line}: {noted(f)}"
+        for f in Asking(code).graph.facts
     ]
     assert found == _said(files)

@@ -6,7 +6,7 @@ from time import process_time
 
 import pytest
 
-from rebsync.reverse.calls.ros_calls import graph_of
+from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.graph import FromParameter, OneOf, PublisherFact, RateFact, Unresolved
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
@@ -50,7 +50,7 @@ CASES = {
 @pytest.mark.parametrize("case", CASES)
 def test_what_is_too_far_away_is_unknown(case: str) -> None:
     code = Code.of([parse(Source("a.cpp", CASES[case]))])
-    found = [f for f in graph_of(code).facts if isinstance(f, PublisherFact)]
+    found = [f for f in Asking(code).graph.facts if isinstance(f, PublisherFact)]
     assert [type(f.topic) for f in found] == [Unresolved]
 
 
@@ -84,7 +84,7 @@ GROWING = {
 def test_what_doubles_with_each_stage_takes_no_longer(case: str) -> None:
     before = process_time()
     code = Code.of([parse(Source("a.cpp", GROWING[case]))])
-    found = [f for f in graph_of(code).facts if isinstance(f, RateFact)]
+    found = [f for f in Asking(code).graph.facts if isinstance(f, RateFact)]
     assert len(found) == 1
     assert process_time() - before < _SECONDS
 
@@ -92,7 +92,7 @@ def test_what_doubles_with_each_stage_takes_no_longer(case: str) -> None:
 def test_what_other_functions_read_stands_in_for_a_parameter() -> None:
     text = 'struct C { ros::NodeHandle n; int x = 2; void f() { n.getParam("a", x); }'
     text += f"void g() {{ x = 7; }} void h() {{ {_RATE} }};"
-    facts = graph_of(Code.of([parse(Source("a.cpp", text))])).facts
+    facts = Asking(Code.of([parse(Source("a.cpp", text))])).graph.facts
     rates = [f.hz for f in facts if isinstance(f, RateFact)]
     assert rates == [OneOf((FromParameter("a", 7), 7))]
 
@@ -102,5 +102,5 @@ def test_many_facts_of_one_function() -> None:
     members = _each("int v$_;")
     text = f"struct C {{ C(ros::NodeHandle n) {{ {body} }} {members} }};"
     text += f"{_MAIN} C c(n); }}"
-    found = graph_of(Code.of([parse(Source("a.cpp", text))])).facts
+    found = Asking(Code.of([parse(Source("a.cpp", text))])).graph.facts
     assert len(found) == 2 * (_LONG - 1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rebsync.reverse.calls.ros_calls import graph_of
+from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.graph import Fact, PublisherFact
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import parse
@@ -15,7 +15,7 @@ _CALL = 'n.advertise<std_msgs::Bool>("x", 1)'
 
 def _fact(text: str) -> Fact:
     code = Code.of([parse(Source("a.cpp", text))])
-    (fact,) = (f for f in graph_of(code).facts if isinstance(f, PublisherFact))
+    (fact,) = (f for f in Asking(code).graph.facts if isinstance(f, PublisherFact))
     return fact
 
 

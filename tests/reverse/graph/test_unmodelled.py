@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rebsync.reverse.calls.ros_calls import graph_of
+from rebsync.reverse.calls.ros_calls import Asking
 from rebsync.reverse.graph import Graph, UnmodelledFact
 from rebsync.reverse.python.values.py_unmodelled import whole_graph
 from rebsync.reverse.python.values.py_values import PyValues
@@ -23,7 +23,7 @@ CASES = sorted((Path(__file__).parent / "unmodelled_cases").iterdir())
 def _graph(source: Source) -> Graph:
     if source.path.endswith(".py"):
         return whole_graph(PyValues(PyCode.of([parse_python(source)])))
-    return graph_of(Code.of([parse(source)]))
+    return Asking(Code.of([parse(source)])).graph
 
 
 def _noted(fact: UnmodelledFact) -> str:

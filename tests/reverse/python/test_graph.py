@@ -8,7 +8,8 @@ import pytest
 
 from rebsync.reverse.findings import Findings
 from rebsync.reverse.python.recovery import PythonCode, read_python
-from rebsync.reverse.python.values.py_calls import graph_of
+from rebsync.reverse.python.values.py_calls import graph_with
+from rebsync.reverse.python.values.py_values import PyValues
 from rebsync.reverse.syntax.py_index import PyCode
 from rebsync.reverse.syntax.py_tree import parse, unparsed
 from rebsync.source import Source
@@ -40,7 +41,7 @@ def test_what_is_found_is_what_the_comments_say(case: Path) -> None:
     assert [unparsed(py) for py in trees] == [[] for _ in trees]
     found = [
         f"{f.site.place.source.path}:{f.site.place.line}: {noted(f)}"
-        for f in graph_of(PyCode.of(trees)).facts
+        for f in graph_with(PyValues(PyCode.of(trees))).facts
     ]
     assert found == _said(files)
 
@@ -55,7 +56,7 @@ def test_what_is_no_python_is_listed_and_the_rest_is_read() -> None:
 
 def test_places_count_characters() -> None:
     text = "import rospy\nname = 'é€'; rospy.init_node('n')\n"
-    fact = graph_of(PyCode.of([parse(Source("a.py", text))])).facts[0]
+    fact = graph_with(PyValues(PyCode.of([parse(Source("a.py", text))]))).facts[0]
     assert fact.site.place.source.slice(fact.site.place.span) == "init_node('n')"
 
 
@@ -65,5 +66,5 @@ def test_cycles_end() -> None:
         "    self.x = self.x + 'a'\n    return self.f()\n"
         "a = b\nb = a\nrospy.Publisher(a + A().f() + B().x, a)\n"
     )
-    (fact,) = graph_of(PyCode.of([parse(Source("a.py", text))])).facts
+    (fact,) = graph_with(PyValues(PyCode.of([parse(Source("a.py", text))]))).facts
     assert noted(fact).startswith("publisher ?")
