@@ -68,11 +68,12 @@ def is_logging(node: Node) -> bool:
 
 
 def tells(reader: CppStatementReader, node: Node) -> bool:
-    """Whether a statement logs, or calls a function of the class that only does."""
+    """Whether a statement logs, or calls a function of a generated class that only does."""
     inner = named(node)[0] if node.type == "expression_statement" and named(node) else node
-    own = text_of(part(inner, "function")) if inner.type == "call_expression" else ""
-    is_own = isinstance(reader.scope.functions.get(own), Ignored)
-    return is_own or is_logging(node)
+    name = text_of(part(inner, "function")) if inner.type == "call_expression" else ""
+    if reader.scope.open:
+        return name.startswith(libraries.logging())
+    return isinstance(reader.scope.functions.get(name), Ignored) or is_logging(node)
 
 
 def is_unused(reader: CppStatementReader, statement: Node, node: Node) -> bool:

@@ -40,6 +40,7 @@ _NUMBER = (
 )
 _VALUE = re.compile(rf"{_NUMBER}|(?:std::)?atomic<{_NUMBER}>|(?:std::)?atomic_(?:bool|int|uint)")
 _ARRAY = re.compile(rf"(?:std::)?array<{_NUMBER},\d+>")
+_OF_ALL = frozenset({"fill", "size", "at", "front", "back"})
 _STATEMENTS = ("declaration", "for_range_loop")
 _DECLARING = (
     *("declaration", "parameter_declaration", "optional_parameter_declaration", "for_range_loop"),
@@ -103,9 +104,9 @@ def _scope(
 def _members(
     code: Code, form: CppForm, owner: CppClass, shown: Collection[tuple[str, str]]
 ) -> dict[str, Member]:
-    """What the members of a class are as long as none is dead."""
+    """What the members of a class and its heirs are as long as none is dead."""
     members: dict[str, Member] = {}
-    for above in reversed(code.lineage(owner.name)):
+    for above in reversed(_family(code, owner)):
         for member in above.fields:
             plain: Member = Variable(member.name)
             if declared_type(code, member.type) is None:
@@ -135,13 +136,21 @@ def _is_of_another(code: Code, owner: CppClass, name: Node) -> bool:
     is_part = above is not None and above.type == "field_expression"
     if is_part and above and text_of(part(above, "argument")) != "this":
         return False
-    line = {c.name for c in code.lineage(owner.name)}
+    family = {c.name for c in _family(code, owner)}
     around = {n.id for n in ancestors(name)}
     return any(
         not around.isdisjoint((of.node.id, *(f.node.id for f in code.functions_of(of))))
         for of in code.classes.values()
-        if of.name not in line and owner.name not in {c.name for c in code.lineage(of.name)}
+        if of.name not in family
     )
+
+
+def _family(code: Code, owner: CppClass) -> list[CppClass]:
+    """A class, those that it descends from, nearest first, and those that descend from it."""
+    line = code.lineage(owner.name)
+    names = {c.name for c in line}
+    heirs = (c for c in code.classes.values() if owner in code.lineage(c.name)[1:])
+    return line + [c for c in heirs if c.name not in names]
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,8 +200,8 @@ class _Slice:
         is_told = is_logging(statement)  # that it may fail is told of the log itself
         if function is None or not (is_told or self._is_sure(cpp, statement)):
             return None
-        line = self.code.lineage(self.owner.name)
-        own = [f for above in line for f in self.code.functions_of(above)]
+        family = _family(self.code, self.owner)
+        own = [f for each in family for f in self.code.functions_of(each)]
         members = {**self.members, **dict.fromkeys(self.dead, Outside())}
         locals_ = _locals(function) - members.keys()
         scope = _scope(self.code, self.form, own, members)
@@ -209,9 +218,28 @@ class _Slice:
         return set() if is_told else written | effects.inner
 
     def _is_sure(self, cpp: Cpp, statement: Node) -> bool:
-        """Whether a statement cannot fail."""
-        is_caught = self.form.raises(cpp, statement) is None
-        return is_caught and not unsure_lookups(self.code, self.owner, statement)
+        """Whether a statement cannot fail, nor change what lies beside a member in memory."""
+        if inside(statement, "pointer_expression"):
+            return False
+        arrays = (f.name for f in self.owner.fields if _ARRAY.fullmatch(squeezed(f.type)))
+        places = self.code.named(cpp, statement, sorted(self.dead.intersection(arrays)))
+        if not all(map(_is_element, places)) or self.form.raises(cpp, statement) is not None:
+            return False
+        return not unsure_lookups(self.code, self.owner, statement)
+
+
+def _is_element(name: Node) -> bool:
+    """Whether an array is named for an element by a literal, or for all elements at once."""
+    above = name.parent
+    if above is not None and above.type == "field_expression" and part(above, "field") == name:
+        name, above = above, above.parent
+    match above.type if above is not None else "":
+        case "subscript_expression" if above:
+            return text_of(part(above, "indices")).strip("[]").isdecimal()
+        case "field_expression" if above:
+            return text_of(part(above, "field")) in _OF_ALL
+        case type_:
+            return type_ == "for_range_loop"
 
 
 def _locals(function: Node) -> set[str]:
