@@ -41,6 +41,7 @@ _NUMBER = (
 _VALUE = re.compile(rf"{_NUMBER}|(?:std::)?atomic<{_NUMBER}>|(?:std::)?atomic_(?:bool|int|uint)")
 _ARRAY = re.compile(rf"(?:std::)?array<{_NUMBER},\d+>")
 _OF_ALL = frozenset({"fill", "size", "at", "front", "back"})
+_WHOLE = ("for_range_loop", "assignment_expression", "binary_expression", "init_declarator")
 _STATEMENTS = ("declaration", "for_range_loop")
 _DECLARING = (
     *("declaration", "parameter_declaration", "optional_parameter_declaration", "for_range_loop"),
@@ -239,7 +240,7 @@ def _is_element(name: Node) -> bool:
         case "field_expression" if above:
             return text_of(part(above, "field")) in _OF_ALL
         case type_:
-            return type_ == "for_range_loop"
+            return type_ in _WHOLE
 
 
 def _locals(function: Node) -> set[str]:
