@@ -25,7 +25,6 @@ from rebsync.reverse.bodies.cpp_time import pause, units
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.effects.cpp_call_effects import check_operator
 from rebsync.reverse.bodies.effects.cpp_effects import Effects, touching
-from rebsync.reverse.bodies.effects.cpp_failing import failing
 from rebsync.reverse.bodies.effects.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import (
@@ -79,7 +78,7 @@ def read(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None
             return cpp_optionals.assign(reader, target, value)
         case "binary_expression" if _streams(node):
             Effects(reader.cpp, reader.scope).check(node)
-            return iter(()) if reader.scope.open else failing(reader, node)
+            return iter(())
         case "call_expression":
             return _called(reader, node)
         case _:

@@ -33,7 +33,6 @@ from rebsync.reverse.bodies.cpp_expressions import MOVE
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_unknowns import Demote, Unknown
-from rebsync.reverse.bodies.effects import cpp_failing
 from rebsync.reverse.bodies.effects.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.effects.unknown_names import UnknownNames
@@ -163,10 +162,10 @@ class CppStatements(CppStatementReader):
         return ()
 
     def _is_outside(self, node: Node) -> bool:
-        """Whether a statement that people wrote touches nothing of the model."""
+        """Whether a statement that people wrote, or that logs, touches nothing of the model."""
         if cpp_aliases.declares_nothing(self, node):
             return True
-        if not self.scope.open or node.type == "declaration":
+        if node.type == "declaration" or not (self.scope.open or cpp_users.tells(self, node)):
             return False
         if (at := self._touching) and node.start_byte <= at[0] and at[1] <= node.end_byte:
             return False
@@ -247,8 +246,6 @@ class CppStatements(CppStatementReader):
             case "compound_statement" | "initializer_list":
                 block = m.Block(self.branch(node).statements, annotations, span)
                 yield from block.statements if cpp_plain_locals.is_hoisting(node) else (block,)
-            case "if_statement" if cpp_users.only_logs(self, node):
-                pass
             case "if_statement":
                 yield from cpp_control.branches(self, node, annotations)
             case "while_statement":
@@ -333,8 +330,11 @@ class CppStatements(CppStatementReader):
         if not children:
             yield m.Empty(annotations, self.cpp.span(node))
             return
-        if cpp_users.is_log(self, node, expression := children[0]):
-            yield from cpp_failing.failing(self, expression)
+        if cpp_users.tells(self, node):
+            if (touches := touching(self.cpp, self.scope, node)) is not None:
+                raise touches
+            return
+        if cpp_users.is_unused(self, node, expression := children[0]):
             return
         if declared := cpp_plain_locals.late(self, expression):
             yield m.Local(declared, annotations, self.cpp.span(node))

@@ -12,7 +12,6 @@ from tree_sitter import Node
 from rebsync.reverse.bodies.cpp_plain_locals import declared_names
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.effects.cpp_effects import Effects
-from rebsync.reverse.bodies.effects.cpp_failing import may_fail
 from rebsync.reverse.bodies.effects.known_functions import UNUSED
 from rebsync.reverse.bodies.scope import Ignored
 from rebsync.reverse.libraries import cpp as libraries
@@ -46,17 +45,6 @@ def check_names(reader: CppStatementReader, node: Node) -> None:
                 raise reader.unread(node, f'this hides "{name}" from what follows')
 
 
-def only_logs(reader: CppStatementReader, node: Node) -> bool:
-    """Whether a branch of generated code does nothing but to log, and cannot fail.
-
-    Raises `Unread` where that does more to the model than to look at it.
-    """
-    if reader.scope.open or not is_logging(node) or may_fail(reader, node):
-        return False
-    Effects(reader.cpp, reader.scope).check(node)
-    return True
-
-
 def is_logging(node: Node) -> bool:
     """Whether a statement does nothing but to log, by how it is written."""
     match node.type:
@@ -79,28 +67,23 @@ def is_logging(node: Node) -> bool:
             return False
 
 
-def is_log(reader: CppStatementReader, statement: Node, node: Node) -> bool:
-    """Whether the expression of a statement logs, or says of a variable that nothing uses it.
+def tells(reader: CppStatementReader, node: Node) -> bool:
+    """Whether a statement logs, or calls a function of a generated class that only does."""
+    inner = named(node)[0] if node.type == "expression_statement" and named(node) else node
+    name = text_of(part(inner, "function")) if inner.type == "call_expression" else ""
+    if reader.scope.open:
+        return name.startswith(libraries.logging())
+    return isinstance(reader.scope.functions.get(name), Ignored) or is_logging(node)
+
+
+def is_unused(reader: CppStatementReader, statement: Node, node: Node) -> bool:
+    """Whether the expression of a statement says of variables that nothing uses them.
 
     Raises `Unread` where that does more to the model than to look at it.
     """
-    if node.type != "call_expression":
+    if node.type != "call_expression" or text_of(part(node, "function")) != UNUSED:
         return False
-    function = part(node, "function")
-    name = text_of(function)
-    own = reader.scope.functions.get(name)
-    if name == UNUSED:
-        given = [a for a in named(part(node, "arguments")) if a.type != "identifier"]
-        if not all(is_calm(reader.expressions.read(a)) for a in given):
-            raise reader.unread(statement, "this does something, whatever becomes of its value")
-        return True
-    if isinstance(own, Ignored) and not reader.scope.open:
-        Effects(reader.cpp, reader.scope).check(part(node, "arguments"))
-        return True
-    logs = name.startswith(libraries.logging()) and function.type == "identifier"
-    if not logs and (reader.scope.open or name not in libraries.names_of(Kind.LOG)):
-        return False
-    if reader.scope.open:  # then it is not outside
-        raise reader.unread(statement, "what is logged here changes what the model has")
-    Effects(reader.cpp, reader.scope).check(node)
+    given = [a for a in named(part(node, "arguments")) if a.type != "identifier"]
+    if not all(is_calm(reader.expressions.read(a)) for a in given):
+        raise reader.unread(statement, "this does something, whatever becomes of its value")
     return True

@@ -16,14 +16,13 @@ from rebsync.reverse.bodies.effects.cpp_effects import Effects
 from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import Called, Inline, Outside, Scope, Variable, meant_by
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.generated.cpp_dead import is_own_parameter
 from rebsync.reverse.generated.cpp_names import declared_type
-from rebsync.reverse.generated.cpp_parameters import deciding_parameter
+from rebsync.reverse.generated.cpp_parameters import deciding_parameter, is_own_parameter
 from rebsync.reverse.generated.cpp_roles import parameters_of
-from rebsync.reverse.generated.cpp_shown import OFFERS, is_free
 from rebsync.reverse.generated.cpp_timers import MAKES, makes
 from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros2_words import arguments_in
+from rebsync.reverse.generated.slicing.publishers import OFFERS, is_free
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, squeezed, text_of

@@ -49,7 +49,6 @@ from rebsync.reverse.generated.cpp_posts import learn_servers, posts_in_bodies
 from rebsync.reverse.generated.cpp_publishing import meaning_of
 from rebsync.reverse.generated.cpp_roles import Roles, roles_of, shown_of
 from rebsync.reverse.generated.cpp_sends import add_sends, families_of
-from rebsync.reverse.generated.cpp_shown import shown_only
 from rebsync.reverse.generated.cpp_timers import (
     Timer,
     checked,
@@ -61,6 +60,8 @@ from rebsync.reverse.generated.cpp_values import initial_values
 from rebsync.reverse.generated.own_parameters import with_own
 from rebsync.reverse.generated.receivers import known_rebecs
 from rebsync.reverse.generated.ros2_words import is_of_ros
+from rebsync.reverse.generated.slicing.members import add_silent
+from rebsync.reverse.generated.slicing.publishers import shown_only
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import text_of
 
@@ -104,6 +105,8 @@ class Classes:
         self.shown = shown_only(self.code) if self.alone else frozenset()
         classes, given = self.code.classes.values(), (self.messages, self.served)
         self.roles |= {owner.name: roles_of(self.code, owner) for owner in classes}
+        for owner in classes:
+            add_silent(self.code, self.form, owner, self.roles[owner.name], self.shown)
         self.messages, self.served = as_handed_on(self.code, *given, self.roles)
         self.fields = {t.rpartition("/")[2]: f for t, f in self.messages.items()}
         self.types |= {carry(name, NO_CLASSES) for name in self.served.classes}  # of Python

@@ -13,7 +13,7 @@ from rebsync.reserved import RUNTIME_FUNCTIONS
 from rebsync.reverse.bodies.scope import Around, Function, Inline, Member, Outside, Scope
 from rebsync.reverse.generated.cpp_free import has_plain_types, passed_by_reference
 from rebsync.reverse.generated.cpp_idle import working
-from rebsync.reverse.generated.cpp_silent import telling_publishers
+from rebsync.reverse.generated.slicing.publishers import telling_publishers
 from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_declarations import with_defaults
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
@@ -46,7 +46,8 @@ def as_by_hand(
     for above in code.lineage(owner.name):
         for name in _referring(above):
             members[name] = Outside(reaches=True)
-        members |= telling_publishers(code, above, shown)
+        if scope.form is not None:
+            members |= telling_publishers(code, scope.form, above, shown)
     functions: dict[str, Function] = dict(scope.functions)
     free = (f for (of, _), found in code.definitions.items() if not of for f in found)
     own = (f for above in code.lineage(owner.name) for f in code.functions_of(above))

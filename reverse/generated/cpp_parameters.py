@@ -13,9 +13,9 @@ from rebsync.reverse.bodies.types.cpp_types import type_of
 from rebsync.reverse.generated.cpp_values import initial_values
 from rebsync.reverse.generated.env_values import constant
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
-from rebsync.reverse.generated.parameters import DECLARES, MOST_DECLARED
-from rebsync.reverse.generated.ros2_words import arguments_in, constant_of_model
-from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, string_of
+from rebsync.reverse.generated.parameters import DECLARES, MOST_DECLARED, READS
+from rebsync.reverse.generated.ros2_words import arguments_in, constant_of_model, known_rebec
+from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
@@ -94,6 +94,16 @@ def deciding_parameter(
     reader = _ParameterReader(code, constructor, {}, {})
     found = [r.parameter for r in reader.assigned("", asked, statement) if r.constant is None]
     return found[0] if found else None
+
+
+def is_own_parameter(value: Node) -> bool:
+    """Whether a value is that of a parameter that is none of the model."""
+    call = call_of(value)
+    if call is None or call.name not in READS or not call.arguments:
+        return False
+    key = string_of(call.arguments[0])
+    is_own = key is not None and constant_of_model(key) is None and known_rebec(key) is None
+    return is_own and call.on != "global" and not list(calls_in(part(call.node, "arguments")))
 
 
 def _is_negated(node: Node) -> bool:

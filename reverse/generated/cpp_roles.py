@@ -17,7 +17,6 @@ from rebsync.names import original, uncarry
 from rebsync.records import dataclass
 from rebsync.reserved import OWN_TOPICS
 from rebsync.reverse.bodies.scope import Sends
-from rebsync.reverse.generated.cpp_dead import dead_members
 from rebsync.reverse.generated.cpp_descriptors import priority_of, server_of, tells_priority
 from rebsync.reverse.generated.cpp_idle import working
 from rebsync.reverse.generated.cpp_parameters import (
@@ -26,7 +25,6 @@ from rebsync.reverse.generated.cpp_parameters import (
     own_parameters,
 )
 from rebsync.reverse.generated.cpp_queues import queue_length
-from rebsync.reverse.generated.cpp_silent import only_logged
 from rebsync.reverse.generated.own_parameters import OwnParameter
 from rebsync.reverse.generated.parameters import READS, read_by
 from rebsync.reverse.generated.receivers import Receivers, add_receiver
@@ -160,10 +158,6 @@ def roles_of(code: Code, owner: CppClass) -> Roles:
         if any(marker.startswith("statevar ") for marker in member.markers):
             roles.odd_globals.discard(member.name)
     roles.own, roles.reading = own_parameters(code, owner)
-    roles.silent = only_logged(code, owner, roles.own, roles.reading)
-    roles.silent |= dead_members(code, owner) - roles.globals.keys()
-    roles.told = [p for n, p in roles.own.items() if n in roles.silent]
-    roles.own = {n: p for n, p in roles.own.items() if n not in roles.silent}
     for constructor in (*owner.functions, *functions):
         if constructor.name == owner.name:
             for asking in named(constructor.body) if constructor.body is not None else ():

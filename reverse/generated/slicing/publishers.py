@@ -7,13 +7,15 @@ message of the library may be looked at by whoever is outside, as one of diagnos
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator
 
 from tree_sitter import Node
 
-from rebsync.reverse.generated.cpp_dead import divides
-from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, string_of
-from rebsync.reverse.syntax.cpp_index import Code
+from rebsync.reverse.bodies.effects.cpp_form import CppForm
+from rebsync.reverse.bodies.effects.cpp_lookups import unsure_lookups
+from rebsync.reverse.bodies.scope import Publishes
+from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, last_name, part, squeezed, text_of
 
 OFFERS = frozenset({"advertise", "create_publisher"})
@@ -24,12 +26,6 @@ _PLACES = frozenset(
     }
 )
 _NAMES = ("type_identifier", "namespace_identifier", "identifier")
-# What tells of the node and its clock, or turns a number into another one, or into a text.
-_GIVES = re.compile(
-    r"(?:this->)?(?:get_clock\(\)->)?now\(\)|ros::(?:Wall)?Time::now\(\)"
-    r"|static_cast<\w+>\(.*\)|std::to_string\([\w.>-]+\)|(?:this->)?get_name\(\)",
-    re.DOTALL,
-)
 # Subscribers to messages of any type.
 _ANY = re.compile(r"ShapeShifter|generic_subscription|GenericSubscription|AnyMsg")
 _TOPIC = re.compile(r"[a-z](?:_?[a-z0-9])*", re.IGNORECASE | re.ASCII)
@@ -37,6 +33,9 @@ _GLOBAL = re.compile(r"/?(?:[a-z](?:_?[a-z0-9])*/)*", re.IGNORECASE | re.ASCII)
 # What a topic is offered with: how deep its queue is, and whether the last message is kept.
 _PLAIN = frozenset({"number_literal", "identifier", "true", "false"})
 _QOS = re.compile(r"(?:rclcpp::)?(?:SystemDefaults|SensorData)?QoS\(\w*\)(?:\.\w+\(\w*\))*")
+# Packages whose messages tell people how a node does, and that no node of a model is sent.
+_TELLING = re.compile(r"(?:diagnostic_msgs|visualization_msgs)::")
+_PUBLISHER = re.compile(r"ros::Publisher|rclcpp::Publisher<(.*)>::SharedPtr")
 _RUNTIME = frozenset({"state", "cmd_vel", "odom", "clock", "tf", "rosout", "diagnostics"})
 
 
@@ -96,50 +95,50 @@ def _split(call: CppCall) -> tuple[str | None, str]:
     return (place if is_place and _TOPIC.fullmatch(name) else None), name
 
 
-def type_of(call: CppCall) -> str:
+def _type_of(call: CppCall) -> str:
     """The type that a call is for."""
     return squeezed(call.types[0]) if len(call.types) == 1 else ""
 
 
-def sends(function: Node, member: str, type_: str, sizes: Mapping[str, int]) -> bool:
-    """Whether a function publishes by a member nothing but its own messages of a type.
+def telling_publishers(
+    code: Code, form: CppForm, owner: CppClass, shown: Collection[tuple[str, str]]
+) -> dict[str, Publishes]:
+    """The publishers of messages for people that the constructor of a class makes, by member.
 
-    These must be filled with values that cannot fail to be; `sizes` are those of arrays.
+    `shown` are types with topics that nobody in the code hears.
     """
-    made = {
-        text_of(part(d, "declarator"))
-        for d in inside(function, "declaration")
-        if squeezed(part(d, "type")) == type_ and part(d, "declarator").type == "identifier"
-    }
-    given = [c.arguments for c in calls_in(function) if c.on == member and c.name == "publish"]
-    used = [n for n in inside(function, "identifier", "field_identifier") if text_of(n) == member]
-    made |= {f"{type_}()", f"{type_}{{}}"}  # empty messages have no name
-    is_known = all(len(a) == 1 and squeezed(a[0]) in made for a in given)
-    stores = inside(function, "assignment_expression") if given else []
-    filled = (n for n in stores if text_of(part(n, "left")).partition(".")[0] in made)
-    is_sure = not any(_may_fail(n, sizes) for n in filled)
-    return is_known and is_sure and len(used) == len(given) + len(_stores(function, member))
+    made: dict[str, list[CppCall | None]] = {}
+    functions = [f for f in code.functions_of(owner) if f.body is not None]
+    for function in functions:
+        for name, value in assigned_in(function.body) if function.name == owner.name else ():
+            made.setdefault(name, []).append(call_of(value))
+    members = {f.name: _PUBLISHER.fullmatch(squeezed(f.type)) for f in owner.fields}
+    found = {}
+    for name, calls in made.items():
+        call, declared = calls[0], members.get(name)
+        if len(calls) > 1 or call is None or call.name not in OFFERS or declared is None:
+            continue
+        if not is_plain(call) or declared[1] not in (None, type_ := _type_of(call)):
+            continue
+        is_shown = (type_, topic_of(call)) in shown
+        if _TELLING.match(type_) or (
+            is_shown and all(_sends(code, form, owner, f, name) for f in functions)
+        ):
+            found[name] = Publishes(())
+    return found
 
 
-def _may_fail(store: Node, sizes: Mapping[str, int]) -> bool:
-    """Whether to find the value of a store may throw, divide by nothing, or look at no object."""
-    given = [n for n in inside(store, "call_expression") if _GIVES.fullmatch(squeezed(n))]
-    within = {n.id for n in given}
-    clocks = [n for n in given if squeezed(n).endswith("now()")]
-    within |= {i.id for n in clocks for i in inside(n, "field_expression", "call_expression")}
-    reached = [n for n in inside(store, "field_expression") if "->" in text_of(n)]
-    is_foreign = any(text_of(part(n, "argument")) != "this" and n.id not in within for n in reached)
-    looks = inside(store, "pointer_expression")
-    looks += [n for n in inside(store, "subscript_expression") if not _is_there(n, sizes)]
-    calls = [n for n in inside(store, "call_expression") if n.id not in within]
-    return divides(store, ()) or is_foreign or bool(looks) or bool(calls)
-
-
-def _is_there(element: Node, sizes: Mapping[str, int]) -> bool:
-    """Whether an array of the class has an element by this number."""
-    size = sizes.get(text_of(part(element, "argument")).removeprefix("this->"), 0)
-    index = text_of(element).rpartition("[")[2].removesuffix("]").strip()
-    return index.isdecimal() and int(index) < size
+def _sends(code: Code, form: CppForm, owner: CppClass, function: CppFunction, member: str) -> bool:
+    """Whether a function only publishes by a member; nothing that fills the messages may fail."""
+    given = [c for c in calls_in(function.body) if c.on == member and c.name == "publish"]
+    used = code.named(function.cpp, function.node, [member])
+    messages = {text_of(a) for c in given for a in c.arguments}
+    stores = inside(function.body, "expression_statement") if given else []
+    filled = [n for n in stores if squeezed(n).partition(".")[0] in messages]
+    may_fail = (
+        form.raises(function.cpp, n) is not None or unsure_lookups(code, owner, n) for n in filled
+    )
+    return len(used) == len(given) + len(_stores(function.node, member)) and not any(may_fail)
 
 
 def _stores(function: Node, member: str) -> list[Node]:
@@ -156,7 +155,7 @@ def _offers(code: Code) -> Iterator[tuple[str, str, Node]]:
             call = call_of(node)
             if call is None or call.name not in OFFERS:
                 continue
-            type_, topic = type_of(call), topic_of(call)
+            type_, topic = _type_of(call), topic_of(call)
             if type_ and topic:
                 yield type_, topic, call.arguments[0]
 
