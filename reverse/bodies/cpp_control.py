@@ -115,6 +115,8 @@ def switched(
     declared, looked_at = _head(reader, part(node, "condition"))
     subject = cpp_special.subject(reader, looked_at, part(node, "body"))
     cases = list(_cases(reader, part(node, "body")))
+    if all(case.value is None for case in cases):
+        raise reader.unread(node, "the model has no switch without cases")
     reader.scope = outside
     cases = _default_last(reader, node, cases)
     read = m.Switch(subject, tuple(cases), annotations, reader.cpp.span(node))

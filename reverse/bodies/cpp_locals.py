@@ -98,13 +98,20 @@ def tested(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
 
 
 def _static(reader: CppStatementReader, declared: DeclaratorParts) -> None:
-    """A local that keeps its value: a state variable, or a value that nobody knows."""
+    """A local that keeps its value: a state variable, or a value that nobody knows.
+
+    What its first value does counts: it may be a pointer to what the model has.
+    """
     if isinstance(reader.scope.members.get(declared.name), Variable | Record):
+        if declared.value is not None and reader.scope.open:
+            effects = Effects(reader.cpp, reader.scope, frozenset(reader.own))
+            _check_value(reader, effects, declared)
         return
+    why = "this local keeps its value from call to call"
+    unread = reader.unread(declared.node, why, "make it a member")
     if not reader.scope.open:
-        why = "this local keeps its value from call to call"
-        raise reader.unread(declared.node, why, "make it a member")
-    reader.meaning(declared.name, _hidden(reader, declared))
+        raise unread
+    _outside(reader, declared, unread)
 
 
 def _hidden(reader: CppStatementReader, declared: DeclaratorParts) -> Outside:

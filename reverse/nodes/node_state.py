@@ -330,10 +330,10 @@ class State:
                 value = _value(declarator)
                 if isinstance(meaning, Variable) and value is not None:
                     stores.append(Stores(m.Name(meaning.name), value))
-            if only_static:
+            if only_static:  # the declaration is read as well: its first values may do something
                 self.initial += [(function.cpp, s) for s in stores]
-                stores = []
-            instead[node.id] = tuple(stores)
+            else:
+                instead[node.id] = tuple(stores)
         return instead
 
     def members_of(self, function: CppFunction | None) -> Mapping[str, Member]:

@@ -313,7 +313,7 @@ class _ClassReader:
         )
         setup.prepare()
         for function in unit.functions:
-            setup.instead |= state.outlive(function, set(), True)
+            state.outlive(function, set(), True)
         return setup
 
     def _beside(self, unit: Unit, start: Start | None) -> Sequence[Start]:
