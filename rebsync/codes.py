@@ -259,6 +259,7 @@ RUNS = {
     "RS932": "a model without the symmetries that are to reduce its states",
     "RS933": "no cluster that can search: Ray is missing, nobody answers, or too few processors",
     "RS934": "something that a cluster does not decide",
+    "RS935": "a property that --monotone is not true of",
 }
 
 CONFORMANCE = {

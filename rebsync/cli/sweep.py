@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import signal
+import sys
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from itertools import product
@@ -58,6 +59,11 @@ class SweptResult:
     measures: tuple[tuple[str, int | str | None, int | str | None], ...]
     states: int
     seconds: float
+    checks: Verdict  # of what is checked in every model
+    assumed: bool = False  # not searched: taken from --monotone
+
+    def told(self, verdict: Verdict) -> str:
+        return f"{verdict}, if monotone" if self.assumed else verdict
 
 
 def parameter(text: str) -> Swept:
@@ -85,13 +91,15 @@ def sweep(
     options: Options,
     *,
     untimed: bool,
+    monotone: bool = False,
 ) -> Iterator[SweptResult]:
     """The results for all combinations of values, the last parameter changing first.
 
     `asked` are the texts of expressions to be measured, and of pairs of events. The searches are
-    made on all processors, each within the bounds of the options.
+    made on all processors, each within the bounds of the options; `monotone`: those of a bisection.
     RebsyncError: a constant does not exist, or may not have a value.
     """
+    from rebsync.cli.bisection import bisected, in_order
     from rebsync.reverse.files.parallel import in_processes
 
     if len({p.name for p in parameters}) < len(parameters):
@@ -102,8 +110,21 @@ def sweep(
     task = partial(
         _verified, problem.source, problem.property_source, asked, declared, options, untimed
     )
-    every = product(*(parameter.values for parameter in parameters))
-    return in_processes(every, task, lambda _: problem.source.path)
+
+    def searched(every: Iterable[tuple[str, ...]]) -> Iterator[SweptResult]:
+        return in_processes(iter(every), task, lambda _: problem.source.path)
+
+    if monotone:
+        return bisected(in_order(parameters), searched, partial(_warn, problem.source.path))
+    return searched(product(*(parameter.values for parameter in parameters)))
+
+
+def _warn(path: str, message: str) -> None:
+    """Tells people what contradicts --monotone."""
+    from rebsync.cli.bisection import contradiction
+    from rebsync.report import print_report
+
+    print_report([contradiction(path, message)], sys.stderr)
 
 
 def _declared(problem: Problem, name: str) -> Declarator:
@@ -159,7 +180,9 @@ def with_values(text: str, declared: Sequence[Declarator], values: Sequence[str]
 
 
 def _unfinished(values: tuple[str, ...]) -> SweptResult:
-    return SweptResult(values, "undetermined", "it was interrupted", (), (), (), (), 0, 0.0)
+    return SweptResult(
+        values, "undetermined", "it was interrupted", (), (), (), (), 0, 0.0, "undetermined"
+    )
 
 
 def _row(values: tuple[str, ...], result: Result) -> SweptResult:
@@ -173,7 +196,14 @@ def _row(values: tuple[str, ...], result: Result) -> SweptResult:
         tuple((m.expression, _value(m.least), _value(m.greatest)) for m in result.measures),
         result.states,
         result.seconds,
+        _checks(result),
     )
+
+
+def _checks(result: Result) -> Verdict:
+    if any(not violation.formula for violation in result.violations):
+        return "violated"
+    return "satisfied" if result.reason is None else "undetermined"
 
 
 def _value(extreme: Extreme | None) -> int | str | None:
@@ -212,7 +242,7 @@ def _drawn(model: str, parameters: Sequence[Swept], rows: Iterable[SweptResult])
     from rebsync.checker.show.sweep_svg import Column, sweep_svg
 
     columns = [
-        Column(row.values, (("verdict", row.verdict), *row.properties), row.measures)
+        Column(row.values, (("verdict", row.verdict), *row.properties), row.measures, row.assumed)
         for row in rows
     ]
     return sweep_svg(model, [p.name for p in parameters], columns)
@@ -233,12 +263,15 @@ def sweep_lines(
     for row in rows:
         found.append(row)
         values = "  ".join(f"{v:>{w}}" for v, w in zip(row.values, wide, strict=True))
-        yield one_line(f"  {values}  {row.verdict:<12}  {row.states:>12,}  {_why(row)}".rstrip())
+        states = "" if row.assumed else f"{row.states:,}"
+        told = row.told(row.verdict)
+        yield one_line(f"  {values}  {told:<12}  {states:>12}  {_why(row)}".rstrip())
     yield ""
-    for verdict in ("satisfied", "violated", "undetermined"):
-        count = sum(row.verdict == verdict for row in found)
-        if count:
-            yield f"{verdict} for {count} of {len(found)}{_which(parameters, found, verdict)}"
+    order = ("satisfied", "violated", "undetermined")
+    every = {row.told(row.verdict): order.index(row.verdict) for row in found}
+    for told in sorted(every, key=lambda told: (every[told], told)):
+        count = sum(row.told(row.verdict) == told for row in found)
+        yield f"{told} for {count} of {len(found)}{_which(parameters, found, told)}"
     for caveat in dict.fromkeys(caveat for row in found for caveat in row.caveats):
         yield one_line(f"caveat: {caveat}")
 
@@ -251,18 +284,19 @@ def _why(row: SweptResult) -> str:
     return "; ".join(filter(None, (ranges, why, reason)))
 
 
-def _which(parameters: Sequence[Swept], rows: Sequence[SweptResult], verdict: str) -> str:
-    """The values of the only parameter with a verdict, neighbours as ranges: `: n = 5..8, 11`."""
+def _which(parameters: Sequence[Swept], rows: Sequence[SweptResult], told: str) -> str:
+    """The values of the only parameter of which it is told, as ranges: `: n = 5..8, 11`."""
     if len(parameters) > 1:
         return ""
     runs: list[list[str]] = []
     before = ""
     for row in rows:
-        if row.verdict == verdict == before:
+        now = row.told(row.verdict)
+        if now == told == before:
             runs[-1].append(row.values[0])
-        elif row.verdict == verdict:
+        elif now == told:
             runs.append([row.values[0]])
-        before = row.verdict
+        before = now
     listed = (f"{r[0]}..{r[-1]}" if len(r) > 2 else ", ".join(r) for r in runs)
     return f": {parameters[0].name} = {', '.join(listed)}"
 
@@ -279,17 +313,17 @@ def sweep_json(model: str, parameters: Sequence[Swept], rows: Iterable[SweptResu
             "results": [
                 {
                     "values": dict(zip(names, map(value_of, row.values), strict=True)),
-                    "verdict": row.verdict,
+                    "verdict": row.told(row.verdict),
                     "reason": row.reason,
                     "caveats": list(row.caveats),
-                    "properties": dict(row.properties),
+                    "properties": {name: row.told(found) for name, found in row.properties},
                     "violations": [{"kind": kind, "name": name} for kind, name in row.violations],
                     "measures": {
                         text: {"least": least, "greatest": greatest}
                         for text, least, greatest in row.measures
                     },
-                    "states": row.states,
-                    "seconds": row.seconds,
+                    "states": None if row.assumed else row.states,
+                    "seconds": None if row.assumed else row.seconds,
                 }
                 for row in rows
             ],

@@ -164,6 +164,11 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     metavar="env.NAME=VALUES",
     help="Verify once for each of 5..20 or 1,2,5 as value of a constant.",
 )
+@click.option(
+    "--monotone",
+    is_flag=True,
+    help="Of --for-all: no property changes its verdict twice; search by bisection.",
+)
 @click.option("--full", is_flag=True, help="Show all steps of all runs.")
 @click.option("--states", metavar="FILE", help="Draw the state space: .dot, .svg or .json.")
 @click.option(
@@ -215,6 +220,8 @@ def _one(model: str, given: dict[str, Any], output: str) -> Status:
     _check_cluster(given)
     if given["swept"]:
         return _swept(model, given, output)
+    if given["monotone"]:
+        raise click.UsageError("--monotone is about the values of --for-all")
     if given["replay"] is not None and (given["states"] or given["export"]):
         raise click.UsageError("--replay makes one run: leave --states and --export out")
     if given["serve"] and (given["replay"] is not None or given["export"]):
@@ -269,7 +276,8 @@ def _swept(model: str, given: dict[str, Any], output: str) -> Status:
     problem = measured(_read(model, given).named(given["names"]), *asked)
     keep_what_is_read(problem, output)
     options = _options({**given, "everything": not given["stop_at"]}, model)
-    rows = sweep(problem, asked, parameters, options, untimed=given["language"] == "core")
+    view = {"untimed": given["language"] == "core", "monotone": given["monotone"]}
+    rows = sweep(problem, asked, parameters, options, **view)
     return write_sweep(problem.source.path, parameters, rows, given["style"], output)
 
 

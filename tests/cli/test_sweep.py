@@ -143,3 +143,101 @@ def test_the_table_is_drawn(model: str, tmp_path: Path) -> None:
         f"{values}: greatest {5 if values.endswith('1') else 4}" for values, _ in cells
     ]
     assert len(drawn.findall(".//{http://www.w3.org/2000/svg}path[@class='way']")) == 2
+
+
+# --- bisection
+
+BORDERS = """\
+property { Assertion { Low: walker.place <= limit; High: limit < 9; Odd: %s; } }
+"""
+
+
+def _bisected(cwd: Path, odd: str, *more: str) -> tuple[dict[int, dict[str, Any]], str]:
+    """The results by value, and what is told beside them."""
+    (cwd / "walker.property").write_text(BORDERS % odd)
+    options = ("--for-all", "limit=0..15", "--monotone", "--format", "json", *more)
+    done = rebsync("verify", "walker.rebeca", *options, cwd=cwd)
+    found = json.loads(done.out)
+    Draft202012Validator(SCHEMA).validate(found)
+    return {each["values"]["limit"]: each for each in found["results"]}, done.err
+
+
+def _searched(results: dict[int, dict[str, Any]]) -> list[int]:
+    return [value for value, each in results.items() if each["states"] is not None]
+
+
+def test_one_border_takes_six_searches(model: str, tmp_path: Path) -> None:
+    """Values are taken from the least on, however they are written."""
+    values = ",".join(map(str, reversed(range(16))))
+    done = rebsync("verify", model, "--for-all", f"limit={values}", "--monotone", cwd=tmp_path)
+    assert (done.status, done.err) == (3, "")
+    lines = done.out.splitlines()
+    assert lines[3].split() == ["0", "violated", "6", "Low"]
+    assert lines[4].split() == ["1", "violated,", "if", "monotone"]
+    assert lines[-4:] == [
+        "satisfied for 3 of 16: limit = 5, 7, 15",
+        "satisfied, if monotone for 8 of 16: limit = 6, 8..14",
+        "violated for 3 of 16: limit = 0, 3, 4",
+        "violated, if monotone for 2 of 16: limit = 1, 2",
+    ]
+
+
+def test_each_property_has_its_own_border(model: str, tmp_path: Path) -> None:
+    """Of one that changes between two values that are not searched nothing can be known."""
+    results, told = _bisected(tmp_path, "limit != 13")
+    assert (told, _searched(results)) == ("", [0, 3, 4, 5, 7, 8, 9, 11, 15])
+    for limit, each in results.items():
+        suffix = "" if each["states"] else ", if monotone"
+        holds = {"Low": limit >= 5, "High": limit < 9, "Odd": True}
+        assert each["properties"] == {
+            name: ("satisfied" if true else "violated") + suffix for name, true in holds.items()
+        }
+        assert each["verdict"] == ("satisfied" if 5 <= limit < 9 else "violated") + suffix
+
+
+def test_a_contradiction_is_told_and_all_is_searched(model: str, tmp_path: Path) -> None:
+    results, told = _bisected(tmp_path, "limit < 4 || limit > 10")
+    assert _searched(results) == [*range(16)]
+    assert 'RS935 "Odd" is not monotone: satisfied for 0, violated for 4, satisfied for 11' in told
+    assert [v for v, each in results.items() if each["properties"]["Odd"] == "violated"] == [
+        *range(4, 11)
+    ]
+
+
+def test_what_is_always_checked_has_a_border(model: str, tmp_path: Path) -> None:
+    """A deadlock from some value on is no verdict of a property."""
+    (tmp_path / "walker.property").unlink()
+    ends = MODEL.replace("self.go() after", "if (limit < 9) self.go() after")
+    (tmp_path / "walker.rebeca").write_text(ends)
+    options = ("--for-all", "limit=0..15", "--monotone", "--format", "json")
+    results = json.loads(rebsync("verify", model, *options, cwd=tmp_path).out)["results"]
+    verdicts = [each["verdict"].split(",")[0] for each in results]
+    assert verdicts == ["satisfied"] * 9 + ["violated"] * 7
+    assert sum(each["states"] is not None for each in results) == 6
+
+
+def test_what_is_undetermined_has_no_border(model: str, tmp_path: Path) -> None:
+    results, told = _bisected(tmp_path, "true", "--max-states", "2")
+    assert (told, _searched(results)) == ("", [*range(16)])
+
+
+def test_what_was_not_searched_is_drawn_so(model: str, tmp_path: Path) -> None:
+    options = ("--for-all", "limit=2..9", "--monotone", "--format", "svg")
+    drawn = rebsync("verify", model, *options, cwd=tmp_path).out
+    assert "8: Low satisfied, if monotone" in drawn
+    assert "9: Low satisfied<" in drawn
+    assert "if monotone</text>" in drawn
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ("--monotone", "about the values of --for-all"),
+        ("--monotone --for-all limit=1..2 --for-all step=1..2", "the values of one --for-all"),
+        ("--monotone --for-all quick=true,false", "about numbers"),
+    ],
+)
+def test_what_has_no_order_is_refused(model: str, tmp_path: Path, options: str, said: str) -> None:
+    done = rebsync("verify", model, *options.split(), cwd=tmp_path)
+    assert done.status == 2
+    assert said in done.err

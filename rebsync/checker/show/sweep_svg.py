@@ -19,6 +19,7 @@ _STYLE = """\
 .sweep rect.satisfied{fill:#2e9e4f}
 .sweep rect.violated{fill:#c62828}
 .sweep rect.undetermined{fill:#b8860b}
+.sweep rect.assumed{fill-opacity:.15;stroke:#767676}
 """
 
 
@@ -29,6 +30,7 @@ class Column:
     values: tuple[str, ...]
     verdicts: tuple[tuple[str, str], ...]
     measures: tuple[tuple[str, int | str | None, int | str | None], ...]
+    assumed: bool = False  # not searched: taken from --monotone
 
     @property
     def label(self) -> str:
@@ -51,7 +53,10 @@ def sweep_svg(model: str, names: Sequence[str], columns: Sequence[Column]) -> st
         y += GAP
         parts += _measured(text, columns, left, y, wide)
         y += BAND
-    parts += [*_axis(", ".join(names), columns, left, y, wide), *_legend(left, y + HEIGHT + GAP)]
+    parts += [
+        *_axis(", ".join(names), columns, left, y, wide),
+        *_legend(left, y + HEIGHT + GAP, columns),
+    ]
     width = left + wide * len(columns) + 6 * MARGIN
     height = y + 4 * HEIGHT
     return (
@@ -87,10 +92,13 @@ def _verdicts(
     cells = []
     for at, column in enumerate(columns):
         if verdict := dict(column.verdicts).get(name):
-            told = element("title", f"{column.label}: {name} {verdict}")
+            remark, kind = (
+                (", if monotone", f"{verdict} assumed") if column.assumed else ("", verdict)
+            )
+            told = element("title", f"{column.label}: {name} {verdict}{remark}")
             x, tall = left + wide * at, TALL[verdict]
             place = {"x": x, "y": y + HEIGHT - tall, "width": wide - 1, "height": tall}
-            cells.append(element("rect", told, class_=verdict, **place))
+            cells.append(element("rect", told, class_=kind, **place))
     return cells
 
 
@@ -139,9 +147,10 @@ def _axis(name: str, columns: Sequence[Column], left: float, y: float, wide: flo
     return [_text(name, MARGIN, y + 16, "label"), *labels]
 
 
-def _legend(left: float, y: float) -> Iterator[Markup]:
-    for at, (verdict, tall) in enumerate(TALL.items()):
+def _legend(left: float, y: float, columns: Sequence[Column]) -> Iterator[Markup]:
+    kinds = {**TALL, **({"assumed": 15.0} if any(c.assumed for c in columns) else {})}
+    for at, (verdict, tall) in enumerate(kinds.items()):
         x = left + 120 * at
         place = {"x": x, "y": y + 16 - tall, "width": 10.0, "height": tall}
         yield element("rect", class_=verdict, **place)
-        yield _text(verdict, x + 16, y + 16)
+        yield _text("if monotone" if verdict == "assumed" else verdict, x + 16, y + 16)

@@ -262,7 +262,7 @@ static void enlarge_memo(struct kernel *k, struct memo *m, uint64_t components)
     size = MEMO;
     while (size < 8 * components && size < most)
         size *= 2;
-    struct remembered *entries = malloc(size * sizeof *entries);
+    uint64_t *entries = malloc(size * sizeof *entries);
     if (!entries && m->entries)
         return;
     if (!entries)
@@ -271,11 +271,35 @@ static void enlarge_memo(struct kernel *k, struct memo *m, uint64_t components)
     free(m->entries);
     m->entries = entries;
     m->mask = size - 1;
+    m->bits = (uint32_t)__builtin_ctzll(size);
 }
 
-static inline struct remembered *remembered(struct memo *m, uint64_t key)
+/* The place of a question about a local state, and what tells it there from others (a quotient); NULL
+ * when the numbers are too large for that. */
+static inline uint64_t *place_in(struct memo *m, uint32_t id, uint32_t asked, uint32_t *rest)
 {
-    return m->entries + (((key * UINT64_C(0x9E3779B97F4A7C15)) >> 40) & m->mask);
+    uint32_t high = id >> m->bits;
+    if (high >> 8 || asked >> 24)
+        return NULL;
+    *rest = high << 24 | asked;
+    return m->entries + ((id ^ ((asked * UINT64_C(0x9E3779B97F4A7C15)) >> 40)) & m->mask);
+}
+
+/* A result that is remembered, or NONE. */
+static inline uint32_t recall(struct memo *m, uint32_t id, uint32_t asked)
+{
+    uint32_t rest = 0;
+    uint64_t *place = place_in(m, id, asked, &rest), entry = place ? *place : UINT64_MAX;
+    return entry >> 32 == rest ? (uint32_t)entry : NONE;
+}
+
+static inline uint32_t memorise(struct memo *m, uint32_t id, uint32_t asked, uint32_t result)
+{
+    uint32_t rest;
+    uint64_t *place = place_in(m, id, asked, &rest);
+    if (place)
+        *place = (uint64_t)rest << 32 | result;
+    return result;
 }
 
 static void pass_message(cell *message, int64_t time)
@@ -306,14 +330,11 @@ static inline uint32_t later(struct kernel *k, uint32_t rebec, uint32_t id, int6
         return id;
     if (time >> 31)
         return compute_later(k, rebec, id, time);
-    uint64_t key = (uint64_t)id << 32 | (uint64_t)time;
-    struct remembered *known = remembered(&k->actors[rebec].passed, key);
-    if (known->key == key)
-        return known->value;
-    uint32_t value = compute_later(k, rebec, id, time);
-    known = remembered(&k->actors[rebec].passed, key);
-    known->key = key;
-    return known->value = value;
+    struct memo *memo = &k->actors[rebec].passed;
+    uint32_t after = recall(memo, id, (uint32_t)time);
+    if (after == NONE)
+        after = memorise(memo, id, (uint32_t)time, compute_later(k, rebec, id, time));
+    return after;
 }
 
 static int compare_messages(const cell *a, const cell *b, size_t stride)
@@ -373,14 +394,11 @@ static uint32_t compute_received(struct kernel *k, uint32_t rebec, uint32_t id, 
 /* The local state with one more message, for which there is a place. */
 static inline uint32_t received(struct kernel *k, uint32_t rebec, uint32_t id, uint32_t message)
 {
-    uint64_t key = (uint64_t)id << 32 | message;
-    struct remembered *known = remembered(&k->actors[rebec].received, key);
-    if (known->key == key)
-        return known->value;
-    uint32_t value = compute_received(k, rebec, id, message);
-    known = remembered(&k->actors[rebec].received, key);
-    known->key = key;
-    return known->value = value;
+    struct memo *memo = &k->actors[rebec].received;
+    uint32_t after = recall(memo, id, message);
+    if (after == NONE)
+        after = memorise(memo, id, message, compute_received(k, rebec, id, message));
+    return after;
 }
 
 /* --- numbers of messages */

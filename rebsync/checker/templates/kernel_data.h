@@ -27,13 +27,12 @@ struct component {
     uint32_t places : 28, flags : 4;
 };
 
-/* A fixed-size memory of results: what falls out is computed again. */
+/* A fixed-size memory of what becomes of local states: what falls out is computed again. An entry
+ * has the result, and above it what its place does not say of the question. */
 struct memo {
-    struct remembered {
-        uint64_t key;
-        uint32_t value;
-    } *entries;
+    uint64_t *entries;
     uint64_t mask;
+    uint32_t bits;
 };
 
 /* All local states of one rebec that occur, by number. */

@@ -73,14 +73,9 @@ static uint32_t compute_renamed(struct kernel *k, uint32_t rebec, uint32_t id, u
 /* The number of a local state under a permutation, or the hash of one behind a blind. */
 static inline uint32_t renamed(struct kernel *k, uint32_t rebec, uint32_t id, uint32_t number)
 {
-    uint64_t key = (uint64_t)id << 32 | number;
-    struct remembered *known = remembered(&k->actors[rebec].renamed, key);
-    if (known->key == key)
-        return known->value;
-    uint32_t value = compute_renamed(k, rebec, id, number);
-    known = remembered(&k->actors[rebec].renamed, key);
-    known->key = key;
-    return known->value = value;
+    struct memo *memo = &k->actors[rebec].renamed;
+    uint32_t value = recall(memo, id, number);
+    return value != NONE ? value : memorise(memo, id, number, compute_renamed(k, rebec, id, number));
 }
 
 /* What tells a rebec apart whatever rebecs are called: its own local state, and those of others as
