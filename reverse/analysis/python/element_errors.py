@@ -14,6 +14,7 @@ from rebsync.reverse.analysis.python.value_types import (
     ContainerType,
     OwnType,
     ValueTypes,
+    elements_of,
     own_type,
     union,
 )
@@ -93,11 +94,12 @@ class ElementErrors:
             self._notes.fails(node, _WRONG)
 
     def _fits(self, node: s.Statement, types: ValueTypes, taken: set[OwnType] | None) -> None:
-        if taken is not None and frozenset(map(own_type, types)) - {*taken, None}:
+        if taken is not None and frozenset(map(own_type, types)) - taken:
             self._notes.fails(node, _WRONG)
 
 
 def _inside(given: Sequence[ValueTypes]) -> ValueTypes:
     """The types of the elements of the first of some values, None among them."""
-    found = (type_.elements for type_ in union(given[:1]) if isinstance(type_, ContainerType))
-    return union(found)
+    found = union(given[:1])
+    own = (type_.elements for type_ in found if isinstance(type_, ContainerType))
+    return union(own) | elements_of(frozenset(t for t in found if not isinstance(t, ContainerType)))

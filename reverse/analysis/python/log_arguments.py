@@ -45,7 +45,7 @@ class LogArguments:
         if not (is_whole and names <= logs.keywords | _MESSAGE and (logs.formats or not rest)):
             self._notes.fails(node, REFUSED)
         elif message is not None and logs.only_text:
-            if self._kinds.of(message, facts) - {OwnType.TEXT, None}:
+            if self._kinds.of(message, facts) - {OwnType.TEXT}:
                 self._notes.fails(node, _WRONG)
         elif rest and isinstance(message, e.Literal) and isinstance(message.value, str):
             self._filled(node, message.value, rest, facts)

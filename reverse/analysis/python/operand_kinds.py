@@ -143,8 +143,7 @@ class OperandKinds:
         key = key_of(value, self._name)
         if isinstance(value, e.Local) and value.name in self._tested:
             return ANY_TYPE
-        is_object = value == e.Local(self._notes.function.receiver or "")
-        if key is None or is_object:
+        if key is None or self._types.attributes.receiver(value, self._name):
             return self._types.of(value, self._name)
         found = self._types.sources(key)
         if isinstance(key, Member):
