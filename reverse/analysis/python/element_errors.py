@@ -83,18 +83,19 @@ class ElementErrors:
         self._hashes(node, self._kinds.types(key, facts))
 
     def _orders(self, node: s.Statement, types: ValueTypes) -> None:
-        if not are_ordered(types, self._has_order):
+        if not are_ordered(self._kinds.known(types), self._has_order):
             self._notes.fails(node, _WRONG)
 
     def _has_order(self, name: str) -> bool:
         return not self._objects.class_lacks(name, Operator.LESS)
 
     def _hashes(self, node: s.Statement | e.Expression, types: ValueTypes) -> None:
-        if not is_hashable(types, self._decorators.has_hash):
+        if not is_hashable(self._kinds.known(types), self._decorators.has_hash):
             self._notes.fails(node, _WRONG)
 
     def _fits(self, node: s.Statement, types: ValueTypes, taken: set[OwnType] | None) -> None:
-        if taken is not None and frozenset(map(own_type, types)) - taken:
+        own = frozenset(map(own_type, self._kinds.known(types)))
+        if taken is not None and own - taken:
             self._notes.fails(node, _WRONG)
 
 

@@ -136,7 +136,7 @@ class InferredTypes:
     ) -> ValueTypes:
         values = list(elements)
         if own is OwnType.TUPLE and not any(isinstance(v, e.Spread) for v in values):
-            return pair(*(self._element(v, function) for v in values))  # type: ignore[arg-type]
+            return pair(*(self._element(v, function) for v in values))
         return sequence(own, *(self._element(v, function) for v in values))
 
     def _mapped(

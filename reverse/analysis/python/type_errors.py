@@ -225,7 +225,10 @@ class TypeErrors:
         taken: Collection[OwnType],
         facts: Facts,
     ) -> None:
-        if not all(self._is_taken(type_, taken) for type_ in self.kinds.types(value, facts)):
+        if not all(
+            self._is_taken(type_, taken)
+            for type_ in self.kinds.known(self.kinds.types(value, facts))
+        ):
             self._notes.fails(node, _WRONG)
 
     def _is_taken(self, type_: ValueType | None, taken: Collection[OwnType]) -> bool:
@@ -247,7 +250,8 @@ class TypeErrors:
         right: e.Expression,
         facts: Facts,
     ) -> None:
-        kinds = self.kinds.of(left, facts), self.kinds.of(right, facts)
+        types = self.kinds.types(left, facts), self.kinds.types(right, facts)
+        kinds = self.kinds.asked(left, facts), self.kinds.asked(right, facts)
         if operator in (Operator.IN, Operator.NOT_IN):
             wrong = bool(kinds[1] & {NUMBER, OwnType.MESSAGE}) or (
                 kinds[1] == {TEXT} and bool(kinds[0] - {TEXT, None})
@@ -258,7 +262,6 @@ class TypeErrors:
             wrong = any(not takes(operator, a, b) for a in kinds[0] for b in kinds[1])
             is_times = operator is Operator.MULTIPLY and _is_fraction(right)
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
-        types = self.kinds.types(left, facts), self.kinds.types(right, facts)
         if operator in _OF_TIMES and (
             _is_time_and_number(*types) or _is_time_and_number(*types[::-1])
         ):
@@ -285,12 +288,12 @@ class TypeErrors:
 
     def _puts(self, text: str, value: e.Expression, facts: Facts) -> bool:
         """Whether `%` may not put values into a text: too many, too few, or of another type."""
-        kinds = self.kinds.of(value, facts)
+        kinds = self.kinds.asked(value, facts)
         if isinstance(value, e.Build) and kinds == {OwnType.TUPLE}:
             values = [v for v in value.elements if not isinstance(v, e.Spread)]
             if len(values) < len(value.elements):
                 return True
-            found = refuses(text, [self.kinds.of(v, facts) for v in values])
+            found = refuses(text, [self.kinds.asked(v, facts) for v in values])
         else:
             values = [value]
             found = kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
