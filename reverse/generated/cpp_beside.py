@@ -24,6 +24,7 @@ from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros2_words import arguments_in
 from rebsync.reverse.generated.slicing.publishers import OFFERS, is_free
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in, string_of
+from rebsync.reverse.syntax.cpp_enclosing import locals_referred_to
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, squeezed, text_of
 
@@ -202,6 +203,8 @@ class Beside:
     def _looks(self, lambda_: Node) -> bool:
         captured = inside(lambda_, "lambda_capture_specifier")
         if captured and squeezed(captured[0]) not in ("[]", "[this]", "[=]", "[&]"):
+            return False
+        if locals_referred_to(lambda_, self.function):
             return False
         body = part(lambda_, "body")
         inner = {p.name for p in parameters_of(lambda_)}

@@ -45,14 +45,22 @@ def arguments_of(taken: Taken) -> list[Node] | None:
     """What a shim hands on; what its lambda has captured under another name, as it was there."""
     serve = taken.call.arguments[-1]
     called = call_in(serve)
-    if called is None:
+    if called is None or (called[1] and not holds_captured(taken)):
         return None
     captured = {
         text_of(part(each, "left")): part(each, "right")
         for each in inside(serve, "lambda_capture_initializer")
-        if not text_of(each).startswith("&")
     }
     return [captured.get(text_of(a), a) for a in called[1]]
+
+
+def holds_captured(taken: Taken) -> bool:
+    """Whether what serves a message has copies of what it uses: it runs when the shim has ended."""
+    serve, message = taken.call.arguments[-1], taken.message.name
+    captures = serve.child_by_field_name("captures")
+    held = (text_of(part(each, "right")) for each in inside(serve, "lambda_capture_initializer"))
+    is_copied = captures is None or "&" not in text_of(captures)
+    return is_copied and all(t == message or t.startswith(f"{message}->") for t in held)
 
 
 def _field(argument: Node, message: str) -> str | None:

@@ -35,6 +35,7 @@ from rebsync.reverse.generated.parameters import READS
 from rebsync.reverse.generated.ros2_words import SETS_UP, arguments_in
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
+from rebsync.reverse.syntax.cpp_enclosing import locals_referred_to
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
@@ -145,6 +146,9 @@ def _odd_in(
             yield told, "the mailbox is told of another priority than its most urgent server has"
         if (told := odd_queue(code, function)) is not None:
             yield told, "this is no number of messages that is known here"
+        for told in inside(function.node, "lambda_expression"):
+            if locals_referred_to(told, function):
+                yield told, "this refers to what is gone when it is called"
         for told in odd_handles(owner, function):
             yield told, "this is not given the node that the others are of"
     elif name in roles.shims and name not in topics:

@@ -12,7 +12,7 @@ from typing import TypeAlias
 from tree_sitter import Node
 
 from rebsync.model import Type
-from rebsync.reverse.generated.cpp_handed import arguments_of, handed_on
+from rebsync.reverse.generated.cpp_handed import arguments_of, handed_on, holds_captured
 from rebsync.reverse.generated.cpp_idle import working
 from rebsync.reverse.generated.cpp_names import declared_type
 from rebsync.reverse.generated.cpp_posts import tells_arguments
@@ -140,6 +140,6 @@ def _is_question(call: CppCall) -> bool:
 def _hands_fields_on(taken: Taken, order: Collection[str] | None) -> bool:
     """Whether a handler gets the fields; a lambda that is the handler takes what it wants."""
     if taken.handler is None:
-        return True
+        return holds_captured(taken)
     passed = handed_on(taken)
     return passed is not None and (order is None or passed == list(order))

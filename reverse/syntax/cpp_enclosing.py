@@ -8,12 +8,38 @@ from tree_sitter import Node
 
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
+from rebsync.reverse.syntax.cpp_tree import inside, part, text_of
+from rebsync.reverse.syntax.descendants import nodes_in
 
 
 def enclosing_function(node: Node, functions: Sequence[CppFunction]) -> CppFunction | None:
     """The function that a lambda stands in."""
     bodies = {f.body.id: f for f in functions if f.body is not None}
     return next((bodies[n.id] for n in (node, *ancestors(node)) if n.id in bodies), None)
+
+
+def locals_referred_to(lambda_: Node, function: CppFunction) -> set[str]:
+    """The locals and parameters of a function that a lambda in it captures by reference.
+
+    They are gone where the lambda is called after the function has returned.
+    """
+    referred, copied, before = set[str](), set[str](), ""
+    for capture in part(lambda_, "captures").children:
+        text = text_of(capture)
+        if capture.type in ("identifier", "lambda_capture_initializer"):
+            by_reference = "&" in before + text
+            (referred if by_reference else copied).update(_names_in(capture))
+        elif capture.type == "lambda_default_capture" and text == "&":
+            referred |= _names_in(part(lambda_, "body"))
+        before = text
+    local = {p.name for p in function.parameters}
+    for declared in inside(function.body, "declaration", "init_declarator"):
+        local |= {text_of(n) for n in declared.children_by_field_name("declarator")}
+    return local & (referred - copied)
+
+
+def _names_in(node: Node) -> set[str]:
+    return {text_of(n) for n in nodes_in(node) if n.type == "identifier"}
 
 
 def enclosing_statement(node: Node) -> Node | None:

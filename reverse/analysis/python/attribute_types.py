@@ -62,18 +62,29 @@ class AttributeTypes:
 
     def declared(self, value: e.Expression, function: str) -> list[t.Type]:
         """The types that a parameter or attribute, or an element of it, is declared with."""
-        around = self._program.function(function)
         match value:
             case e.Local(name):
+                around = self._program.function(function)
                 return [p.type for p in around.parameters if p.name == name]
-            case e.Attribute(e.Local(of), name) if of == around.receiver and around.owner:
-                classes = map(self._program.classes.get, self._graph.family(around.owner))
+            case e.Attribute(of, name) if owner := self.receiver(of, function):
+                classes = map(self._program.classes.get, self._graph.family(owner))
                 fields = (f for c in classes if c is not None for f in c.fields)
                 return [f.type for f in fields if f.name == name]
             case e.Index(of, index) if not isinstance(index, e.Slice):
                 return [a.element for a in self.declared(of, function) if isinstance(a, t.Array)]
             case _:
                 return []
+
+    def receiver(self, value: e.Expression, function: str) -> str | None:
+        """The class of the object that a method, or a function within it, is run for."""
+        match value:
+            case e.Local(name):
+                around = self._program.function(function)
+            case e.Captured(of, name):
+                around = self._program.function(of)
+            case _:
+                return None
+        return around.owner if name == around.receiver else None
 
     def _enumerations(self, types: ValueTypes) -> bool:
         return all(isinstance(type_, InstanceType) and self._has_members(type_) for type_ in types)

@@ -14,6 +14,7 @@ from rebsync.reverse.analysis.python.value_types import (
     ContainerType,
     OwnType,
     ValueTypes,
+    elements_of,
     own_type,
     union,
 )
@@ -82,22 +83,24 @@ class ElementErrors:
         self._hashes(node, self._kinds.types(key, facts))
 
     def _orders(self, node: s.Statement, types: ValueTypes) -> None:
-        if not are_ordered(types, self._has_order):
+        if not are_ordered(self._kinds.known(types), self._has_order):
             self._notes.fails(node, _WRONG)
 
     def _has_order(self, name: str) -> bool:
         return not self._objects.class_lacks(name, Operator.LESS)
 
     def _hashes(self, node: s.Statement | e.Expression, types: ValueTypes) -> None:
-        if not is_hashable(types, self._decorators.has_hash):
+        if not is_hashable(self._kinds.known(types), self._decorators.has_hash):
             self._notes.fails(node, _WRONG)
 
     def _fits(self, node: s.Statement, types: ValueTypes, taken: set[OwnType] | None) -> None:
-        if taken is not None and frozenset(map(own_type, types)) - {*taken, None}:
+        own = frozenset(map(own_type, self._kinds.known(types)))
+        if taken is not None and own - taken:
             self._notes.fails(node, _WRONG)
 
 
 def _inside(given: Sequence[ValueTypes]) -> ValueTypes:
     """The types of the elements of the first of some values, None among them."""
-    found = (type_.elements for type_ in union(given[:1]) if isinstance(type_, ContainerType))
-    return union(found)
+    found = union(given[:1])
+    own = (type_.elements for type_ in found if isinstance(type_, ContainerType))
+    return union(own) | elements_of(frozenset(t for t in found if not isinstance(t, ContainerType)))

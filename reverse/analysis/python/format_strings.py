@@ -96,5 +96,5 @@ def refuses(text: str, values: Sequence[Collection[OwnType | None]]) -> bool:
 def _is_refused(letter: str, kinds: Collection[OwnType | None]) -> bool:
     if letter in AS_TEXT:
         return False
-    taken = {OwnType.NUMBER, OwnType.TEXT, None} if letter == "c" else {OwnType.NUMBER, None}
+    taken = {OwnType.NUMBER, OwnType.TEXT} if letter == "c" else {OwnType.NUMBER}
     return letter not in "diouxXeEfFgGc" or not taken.issuperset(kinds)

@@ -119,8 +119,8 @@ class InferredTypes:
             case e.Attribute(of, name):
                 return self.attributes.of(self.of(of, function), of, name, function)
             case e.Local() | e.Temporary() | e.Captured() | e.Global():
-                if value == e.Local(self._graph.program.function(function).receiver or ""):
-                    return self._receiver(function)
+                if owner := self.attributes.receiver(value, function):
+                    return frozenset((InstanceType(owner),))
                 key = key_of(value, function)
                 return ANY_TYPE if key is None else self._stored(key)
             case _:
@@ -129,10 +129,6 @@ class InferredTypes:
     def _declared(self, value: e.Attribute, function: str) -> ValueTypes:
         return union(map(of_declared, self.attributes.declared(value, function)))
 
-    def _receiver(self, function: str) -> ValueTypes:
-        owner = self._graph.program.function(function).owner
-        return ANY_TYPE if owner is None else frozenset((InstanceType(owner),))
-
     # --- containers ------------------------------------------------------------------------------
 
     def _built(
@@ -140,7 +136,7 @@ class InferredTypes:
     ) -> ValueTypes:
         values = list(elements)
         if own is OwnType.TUPLE and not any(isinstance(v, e.Spread) for v in values):
-            return pair(*(self._part(v, function) for v in values))  # type: ignore[arg-type]
+            return pair(*(self._element(v, function) for v in values))
         return sequence(own, *(self._element(v, function) for v in values))
 
     def _mapped(
@@ -165,12 +161,6 @@ class InferredTypes:
                 return frozenset((OwnType.NONE,))
             case _:
                 return self.of(value, function)
-
-    def _part(self, value: e.Expression, function: str) -> ValueTypes:
-        """A part of a tuple; what is counted on differs each time, and is of any type here."""
-        key = key_of(value, function)
-        is_counter = key is not None and bool(self._graph.stores.changed(key))
-        return ANY_TYPE if is_counter else self._element(value, function)
 
     def with_puts(self, key: Key, types: ValueTypes) -> ValueTypes:
         """The types of a container's name with what is put into it under that name."""

@@ -45,7 +45,7 @@ class LogArguments:
         if not (is_whole and names <= logs.keywords | _MESSAGE and (logs.formats or not rest)):
             self._notes.fails(node, REFUSED)
         elif message is not None and logs.only_text:
-            if self._kinds.of(message, facts) - {OwnType.TEXT, None}:
+            if self._kinds.asked(message, facts) - {OwnType.TEXT}:
                 self._notes.fails(node, _WRONG)
         elif rest and isinstance(message, e.Literal) and isinstance(message.value, str):
             self._filled(node, message.value, rest, facts)
@@ -54,7 +54,7 @@ class LogArguments:
         """Notes that a message does not take what is to be put into it, or that this is None."""
         numbers = numbers_of(text, rest)
         is_object = any(self._kinds.is_object(value, facts) for value in numbers)
-        if is_object or refuses(text, [self._kinds.of(value, facts) for value in rest]):
+        if is_object or refuses(text, [self._kinds.asked(value, facts) for value in rest]):
             self._notes.fails(node, _WRONG)
         for value in numbers:
             self._nones.check(value, node, facts)

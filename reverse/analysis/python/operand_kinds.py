@@ -20,8 +20,10 @@ from rebsync.reverse.analysis.python.value_types import (
     A_NUMBER,
     ANY_TYPE,
     NO_TYPES,
+    InstanceType,
     LibraryType,
     OwnType,
+    ValueType,
     ValueTypes,
     at_index,
     of_declared,
@@ -35,6 +37,7 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import COMPARISONS
 from rebsync.reverse.ir.program import FunctionKind
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.attributes import TIMES
 
 ATTRIBUTES: Mapping[OwnType | None, frozenset[str]] = {
     OwnType.NUMBER: frozenset(dir(int)) | frozenset(dir(float)),
@@ -95,6 +98,19 @@ class OperandKinds:
             case _:
                 return self._types.of(value, self._name)
 
+    def asked(self, value: e.Expression, facts: Facts) -> Kinds:
+        """The types of Python's own that an operator or a text must take; None for any other.
+
+        Objects of classes answer for themselves, and times are told apart from numbers elsewhere.
+        """
+        types = self.known(self.types(value, facts))
+        kinds = frozenset(own_type(type_) for type_ in types if not _answers(type_))
+        return kinds - {None} if self._notes.table.trusts_types else kinds
+
+    def known(self, types: ValueTypes) -> ValueTypes:
+        """Types without any type, where values of no known type are trusted."""
+        return types - {None} if self._notes.table.trusts_types else types
+
     def is_object(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a value may be a library's object, which is no number and has no elements."""
         return any(isinstance(type_, LibraryType) for type_ in self.types(value, facts))
@@ -143,8 +159,7 @@ class OperandKinds:
         key = key_of(value, self._name)
         if isinstance(value, e.Local) and value.name in self._tested:
             return ANY_TYPE
-        is_object = value == e.Local(self._notes.function.receiver or "")
-        if key is None or is_object:
+        if key is None or self._types.attributes.receiver(value, self._name):
             return self._types.of(value, self._name)
         found = self._types.sources(key)
         if isinstance(key, Member):
@@ -171,6 +186,13 @@ class OperandKinds:
             for argument in node.arguments[:1]
             if node.callee.name in _ASKING and isinstance(argument.value, e.Local)
         )
+
+
+def _answers(type_: ValueType | None) -> bool:
+    """Whether objects of a type have operators of their own."""
+    return isinstance(type_, InstanceType) or (
+        isinstance(type_, LibraryType) and type_.name in TIMES
+    )
 
 
 def _is_nothing(value: object) -> bool:

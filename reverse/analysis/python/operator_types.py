@@ -1,6 +1,6 @@
 """Which operands of Python's own types operators take, and which values can be ordered or hashed.
 
-A value of which no type is known is trusted to fit.
+A value of which no type is known fits nothing.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _OF_SETS = (Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR, Operator.SUBTRA
 def takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bool:
     """Whether an operator takes operands of two types, as far as they are known."""
     if left is None or right is None:
-        return True
+        return False
     match operator:
         case _ if left is right is _NUMBER:
             return True
@@ -66,10 +66,8 @@ def _is_ordered(
     one: ValueType | None, other: ValueType | None, has_order: Callable[[str], bool]
 ) -> bool:
     match one, other:
-        case None, _:
-            return other is not OwnType.NONE
-        case _, None:
-            return one is not OwnType.NONE
+        case (None, _) | (_, None):
+            return False
         case InstanceType(name), _:
             return has_order(name)
         case _, InstanceType(name):
@@ -85,17 +83,10 @@ def _is_ordered(
 def _are_parts(
     one: tuple[ValueTypes, ...], other: tuple[ValueTypes, ...], has_order: Callable[[str], bool]
 ) -> bool:
-    """Whether tuples can be compared: their parts in turn, as long as these may be equal.
-
-    A part of unknown type is taken for one that differs each time, as a time or a counter does.
-    """
-    for first, second in zip(one, other, strict=False):
-        both = first | second
-        if not are_ordered(both - {None}, has_order):
-            return False
-        if None in both:
-            return OwnType.NONE not in both
-    return True
+    """Whether tuples can be compared: each part may be where two of them differ."""
+    return all(
+        are_ordered(first | second, has_order) for first, second in zip(one, other, strict=False)
+    )
 
 
 def is_hashable(types: ValueTypes, has_hash: Callable[[str], bool]) -> bool:
@@ -109,6 +100,8 @@ def _is_hashable(type_: ValueType | None, has_hash: Callable[[str], bool]) -> bo
             return is_hashable(elements, has_hash)
         case InstanceType(name):
             return has_hash(name)
+        case None:
+            return False
         case MessageType():
             return True  # some have one
         case _:

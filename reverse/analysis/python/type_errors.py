@@ -1,12 +1,12 @@
 """What Python asks of values of its own types that these have not: a TypeError, an AttributeError.
 
 A value that may be of several types must have what is asked in each; one of which no type is known
-is trusted.
+has nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection
 
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.origins import ClassOrigin
@@ -30,9 +30,11 @@ from rebsync.reverse.analysis.python.operator_types import (
     takes,
 )
 from rebsync.reverse.analysis.python.value_types import (
+    ContainerType,
     InstanceType,
     LibraryType,
     OwnType,
+    ValueType,
     ValueTypes,
     own_type,
 )
@@ -126,7 +128,7 @@ class TypeErrors:
             self._messages.made(node, node.callee.name, facts)
         match node.callee:
             case s.ValueCallee(value):
-                self._needs(node, value, set(), facts)
+                self._is_called(node, value, facts)
             case s.MethodCallee(e.Literal(str() as text), "format"):
                 self._fills(node, text, plain, facts)
             case s.MethodCallee(receiver, name, _, None):
@@ -136,7 +138,7 @@ class TypeErrors:
                     for value in plain[:1]:
                         self.iterates(node, value, facts)
                 if not self._notes.origins.methods_of_any(name):
-                    self._needs(node, e.Attribute(receiver, name), set(), facts)
+                    self._is_called(node, e.Attribute(receiver, name), facts)
             case s.LibraryCallee("builtins.range") if any(map(_is_fraction, plain)):
                 self._notes.fails(node, _WRONG)
             case s.LibraryCallee(name) if name in _OF_NUMBERS:
@@ -211,18 +213,32 @@ class TypeErrors:
         if self.kinds.of(target.object, facts) == {OwnType.MAPPING}:
             self._elements.is_key(target, target.index, facts)
 
+    def _is_called(self, node: s.Call, value: e.Expression, facts: Facts) -> None:
+        """What is called is no value of Python's own; what else it is, is asked of the call."""
+        if self.kinds.of(value, facts) - {None} or self.kinds.is_object(value, facts):
+            self._notes.fails(node, _WRONG)
+
     def _needs(
         self,
         node: s.Statement | e.Expression,
         value: e.Expression,
-        taken: Iterable[OwnType],
+        taken: Collection[OwnType],
         facts: Facts,
     ) -> None:
-        types = self.kinds.types(value, facts)
-        is_bare = any(isinstance(t, InstanceType) and self._objects.is_bare(t.name) for t in types)
-        is_bare |= self.kinds.is_object(value, facts)
-        if is_bare or frozenset(map(own_type, types)) - {*taken, None}:
+        if not all(
+            self._is_taken(type_, taken)
+            for type_ in self.kinds.known(self.kinds.types(value, facts))
+        ):
             self._notes.fails(node, _WRONG)
+
+    def _is_taken(self, type_: ValueType | None, taken: Collection[OwnType]) -> bool:
+        match type_:
+            case InstanceType(name):  # whose class answers as it is written: `_answers`
+                return not self._objects.is_bare(name)
+            case ContainerType(None):  # which is only gone through
+                return taken is ITERABLE
+            case _:
+                return own_type(type_) in taken
 
     # --- operators -------------------------------------------------------------------------------
 
@@ -234,7 +250,8 @@ class TypeErrors:
         right: e.Expression,
         facts: Facts,
     ) -> None:
-        kinds = self.kinds.of(left, facts), self.kinds.of(right, facts)
+        types = self.kinds.types(left, facts), self.kinds.types(right, facts)
+        kinds = self.kinds.asked(left, facts), self.kinds.asked(right, facts)
         if operator in (Operator.IN, Operator.NOT_IN):
             wrong = bool(kinds[1] & {NUMBER, OwnType.MESSAGE}) or (
                 kinds[1] == {TEXT} and bool(kinds[0] - {TEXT, None})
@@ -245,13 +262,22 @@ class TypeErrors:
             wrong = any(not takes(operator, a, b) for a in kinds[0] for b in kinds[1])
             is_times = operator is Operator.MULTIPLY and _is_fraction(right)
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
-        types = self.kinds.types(left, facts), self.kinds.types(right, facts)
         if operator in _OF_TIMES and (
             _is_time_and_number(*types) or _is_time_and_number(*types[::-1])
         ):
             wrong = True
         if operator is Operator.FLOOR_MODULO and isinstance(left, e.Literal):
             wrong |= isinstance(left.value, str) and self._puts(left.value, right, facts)
+            import os
+
+            if os.environ.get("DBGT"):
+                print(
+                    "UNKNOWN",
+                    operator,
+                    left if None in kinds[0] else "",
+                    right if None in kinds[1] else "",
+                    file=__import__("sys").stderr,
+                )
         if wrong:
             self._notes.fails(value, _WRONG)
         if operator in (Operator.IN, Operator.NOT_IN):
@@ -262,12 +288,12 @@ class TypeErrors:
 
     def _puts(self, text: str, value: e.Expression, facts: Facts) -> bool:
         """Whether `%` may not put values into a text: too many, too few, or of another type."""
-        kinds = self.kinds.of(value, facts)
+        kinds = self.kinds.asked(value, facts)
         if isinstance(value, e.Build) and kinds == {OwnType.TUPLE}:
             values = [v for v in value.elements if not isinstance(v, e.Spread)]
             if len(values) < len(value.elements):
                 return True
-            found = refuses(text, [self.kinds.of(v, facts) for v in values])
+            found = refuses(text, [self.kinds.asked(v, facts) for v in values])
         else:
             values = [value]
             found = kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])

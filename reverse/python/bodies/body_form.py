@@ -81,7 +81,13 @@ class PyForm:
 
     @cached_property
     def _outcomes(self) -> OutcomeAnalysis:
-        table = LibraryOutcomes(Language.PYTHON, trusts_others=True, fields=self._fields)
+        table = LibraryOutcomes(
+            Language.PYTHON,
+            trusts_others=True,
+            # What generated code declares is known; people's code has types that nobody wrote.
+            trusts_types=not self._without_runtime,
+            fields=self._fields,
+        )
         return OutcomeAnalysis(self.program, table, lambda name: False)
 
     def _fields(self, type_: str) -> Mapping[str, str] | None:

@@ -38,8 +38,8 @@ FILES = (
     *("gate6_python.toml", "gate6_cpp.toml", "gate7_cpp.toml", "gate7_python.toml"),
     *("gate8_cpp.toml", "gate8_python.toml", "gate9_cpp.toml", "gate9_python.toml"),
     *("gate10_cpp.toml", "gate10_python.toml", "gate11_cpp.toml", "gate11_python.toml"),
-    *("gate12_cpp.toml", "gate12_python.toml"),
-    *("looked_up.toml", "told_python.toml", "imports.toml"),
+    *("gate12_cpp.toml", "gate12_python.toml", "gate13_cpp.toml", "gate13_python.toml"),
+    *("looked_up.toml", "told_python.toml", "imports.toml", "captures.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
