@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import click
 
+from rebsync.cli.swept import Swept, SweptResult
 from rebsync.diagnostics import Diagnostic, Findings, Severity
 from rebsync.source import NOWHERE, Source
 
 if TYPE_CHECKING:
     from rebsync.checker.result import Verdict
-    from rebsync.cli.sweep import Swept, SweptResult
 
 Values: TypeAlias = tuple[str, ...]
 _CHECKS = ""  # stands among the properties for all that is checked in every model
@@ -72,8 +72,6 @@ def _verdicts(row: SweptResult) -> dict[str, Verdict]:
 
 
 def _assumed(values: Values, below: SweptResult) -> SweptResult:
-    from rebsync.cli.sweep import SweptResult
-
     return SweptResult(
         values, below.verdict, None, (), below.properties, (), (), 0, 0.0, below.checks, True
     )

@@ -16,8 +16,8 @@ import click
 from rebsync.checker.show import words
 from rebsync.cli.options import write_output
 from rebsync.cli.status import STATUS_OF, Status, worst
+from rebsync.cli.swept import Swept, SweptResult
 from rebsync.diagnostics import RebsyncError, did_you_mean
-from rebsync.records import dataclass
 from rebsync.source import Source
 from rebsync.statements import Declarator
 
@@ -33,37 +33,6 @@ _VALUE = re.compile(r"-?\d{1,18}(\.\d{1,18})?|true|false")
 Asked: TypeAlias = tuple[tuple[str, ...], tuple[tuple[str, str], ...]]
 
 _interrupted = False
-
-
-@dataclass(frozen=True, slots=True)
-class Swept:
-    """A constant of a model, and the values that it is to have, as they are written."""
-
-    name: str
-    values: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class SweptResult:
-    """What was found for some values.
-
-    `violations` are their kinds and names, `measures` the least and greatest values.
-    """
-
-    values: tuple[str, ...]
-    verdict: Verdict
-    reason: str | None
-    caveats: tuple[str, ...]
-    properties: tuple[tuple[str, Verdict], ...]
-    violations: tuple[tuple[str, str], ...]
-    measures: tuple[tuple[str, int | str | None, int | str | None], ...]
-    states: int
-    seconds: float
-    checks: Verdict  # of what is checked in every model
-    assumed: bool = False  # not searched: taken from --monotone
-
-    def told(self, verdict: Verdict) -> str:
-        return f"{verdict}, if monotone" if self.assumed else verdict
 
 
 def parameter(text: str) -> Swept:

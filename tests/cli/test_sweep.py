@@ -12,7 +12,8 @@ import pytest
 from jsonschema import Draft202012Validator  # type: ignore[import-untyped]
 
 from rebsync.cli.problem import analysed
-from rebsync.cli.sweep import Swept, parameter, with_values
+from rebsync.cli.sweep import parameter, with_values
+from rebsync.cli.swept import Swept
 from rebsync.source import Source
 from tests.cli.run import ROOT, rebsync
 
