@@ -13,7 +13,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.effects.cpp_form import CppForm
-from rebsync.reverse.bodies.effects.cpp_lookups import unsure_lookups
+from rebsync.reverse.bodies.effects.cpp_lookups import looked_up_in, unsure_lookups
 from rebsync.reverse.bodies.scope import Scope
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.annotations import best_priority
@@ -78,25 +78,28 @@ def check_plumbing(
         if function.body is None:
             continue
         odd = _odd_in(code, owner, function, lineage, fields, by_hand)
-        for node, why in (*odd, *_failing_logs(code, form, owner, function)):
+        for node, why in (*odd, *_failing(code, form, owner, function)):
             unread = Unread(function.cpp.span(node), why)
             findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
 
 
-def _failing_logs(
+def _failing(
     code: Code, form: CppForm, owner: CppClass, function: CppFunction
 ) -> Iterator[tuple[Node, str]]:
-    """What is logged around the bodies, and may end the program: `10 / count` where that is 0."""
-    for node in inside(function.body, "expression_statement", "declaration"):
-        if node.type == "declaration":
-            if declared_type(code, part(node, "type")) is None:  # a text to be logged, say
-                yield from ((n, _NOTHING) for n in unsure_lookups(code, owner, node))
-            continue
-        if not is_logging(node):
-            continue
-        if (why := form.raises(function.cpp, node)) is not None:
-            yield node, why
-        yield from ((n, _NOTHING) for n in unsure_lookups(code, owner, node))
+    """What may end the program, and the model has nothing of: what is logged, what is looked up.
+
+    Whether an array of the model has an element is a matter of the model, but for logs.
+    """
+    logs = [n for n in inside(function.body, "expression_statement") if is_logging(n)]
+    for log in logs:
+        if (why := form.raises(function.cpp, log)) is not None:
+            yield log, why
+    fields = (f for c in code.lineage(owner.name) for f in c.fields)
+    variables = {f.name for f in fields if declared_type(code, f.type) is not None}
+    for lookup in unsure_lookups(code, owner, function.body) if function.body is not None else ():
+        is_told = any(log.start_byte <= lookup.start_byte < log.end_byte for log in logs)
+        if is_told or looked_up_in(lookup) not in variables:
+            yield lookup, _NOTHING
 
 
 def _odd_servers(code: Code, roles: Roles) -> Iterator[tuple[Cpp, Node, str]]:

@@ -220,12 +220,8 @@ def check_handed(effects: EffectReader, argument: Node) -> None:
 
 
 def check_deleted(effects: EffectReader, node: Node) -> None:
-    """Raises `Touches` where to end an object may run what was not read."""
-    form, pointer = effects.scope.form, named(node)[-1]
-    why = form.unread_calls.of_deleted(effects.cpp, pointer) if form is not None else None
-    if why is not None:
-        raise effects.touches(node, f'what "{text_of(node)}" does is not known: {why}')
-    effects.check(pointer)
+    """Raises `Touches`: what ends may be the object itself, or what others still use."""
+    raise effects.touches(node, "this ends an object that something may still use")
 
 
 def _function(effects: EffectReader, call: CppCall, name: str) -> bool:

@@ -118,9 +118,8 @@ class Indices:
     def _size(self, element: Node) -> int | None:
         """How many elements an array has, wherever that is declared; None if that is not known."""
         name = text_of(part(element, "argument")).removeprefix("this->")
-        if name in self._members:
-            found = _SIZE.search(self._members[name])
-            return int(found[1] or found[2]) if found is not None else None
+        if found := _SIZE.search(self._members.get(name, "")):
+            return int(found[1] or found[2])
         sizes = {size for cpp in self._code.files for size in _declared(cpp.root, name)}
         return next(iter(sizes)) if len(sizes) == 1 else None
 

@@ -1,9 +1,9 @@
-"""Elements and objects that logs of generated C++ look up, and that may not be there.
+"""Elements and objects that generated C++ looks up, and that may not be there.
 
-The language leaves undefined what such a log does; the node may end. Members, variables of the file
-and locals are looked at by their declarations: arrays beyond their ends, sequences that may be
-empty, pointers and optionals that nothing sets. A condition around, or before, that asks for them
-makes them sure.
+The language leaves undefined what such a statement does; the node may end. Members, variables of
+the file and locals are looked at by their declarations: arrays beyond their ends, sequences that
+may be empty, pointers and optionals that nothing sets, and texts that a pointer may not lead to. A
+condition around, or before, that asks for them makes them sure.
 """
 
 from __future__ import annotations
@@ -28,17 +28,24 @@ _SEQUENCE = re.compile(
 # What a constant sequence is made of: elements in braces that call nothing, or a text.
 _GIVEN = re.compile(r"const.*?\w=?(?:\{+([^{}();]+)\}+|\(?\{?\"([^\"\\]*)\"[})]?);?")
 _POINTER = re.compile(r"(?:std::)?(?:shared_ptr|unique_ptr|optional)<|[\w:]+\*")
-_KINDS = ("subscript_expression", "pointer_expression", "call_expression", "field_expression")
-_ENDS = frozenset({"front", "back", "top"})
+_KINDS = (
+    *("subscript_expression", "pointer_expression", "call_expression", "field_expression"),
+    "declaration",
+)
+_ENVIRONMENT = re.compile(r"(?:std::)?getenv\(")
+_NOTHING = ("", "nullptr", "std::nullopt", "{", "NULL", "0")
+_ENDS = frozenset({"front", "back", "top", "pop", "pop_back", "pop_front"})
 _FIRST = re.compile(r"(?:std::(?:next|prev)\()?(\w+)\.(?:c?begin|c?rbegin|c?end)\(\).*")
-_SEARCH = re.compile(r"(?:std::)?(?:find|find_if|lower_bound|upper_bound)\(.*|\w+\.find\(.*")
+_SEARCH = re.compile(
+    r"(?:std::)?(?:find|find_if|lower_bound|upper_bound)\(.*|\w+\.find\(.*|\w+\.lock\(\)"
+)
 _DECLARATORS = ("init_declarator", "array_declarator", "reference_declarator", "pointer_declarator")
 _BODIES = ("function_definition", "lambda_expression")
 _GREATEST = re.compile(r"(?:std::)?(?:max|min)_element\((\w+)\.c?begin\(\),.*")
 
 
 def unsure_lookups(code: Code, owner: CppClass, log: Node) -> list[Node]:
-    """What a log looks up in members of a class and nothing shows to be there."""
+    """What a statement, or a body, looks up and nothing shows to be there."""
     line = code.lineage(owner.name)
     declared = [d for above in line for d in inside(above.node, "field_declaration")]
     members = {text_of(n): squeezed(d) for d in declared for n in inside(d, "field_identifier")}
@@ -69,6 +76,12 @@ def _variables(code: Code, log: Node) -> dict[str, str]:
     return found
 
 
+def looked_up_in(lookup: Node) -> str:
+    """The variable that something is looked up in: `holders` of `holders[0].x` and `*holders`."""
+    found = re.search(r"\w+", squeezed(lookup).removeprefix("*").removeprefix("this->"))
+    return found[0] if found is not None else ""
+
+
 class _Lookups:
     """Looks up members and variables by their declarations, without layout.
 
@@ -89,6 +102,11 @@ class _Lookups:
                 return self._of_nothing(node, part(node, "argument"))
             case "field_expression" if operator_of(node) == "->":
                 return self._of_nothing(node, part(node, "argument"))
+            case "call_expression" if any(map(self._is_no_text, named(part(node, "arguments")))):
+                return True
+            case "declaration" if re.search(r"\bstring\b", text_of(part(node, "type"))):
+                values = (d.child_by_field_name("value") for d in named(node))
+                return any(self._is_no_text(v) for v in values if v is not None)
             case "call_expression" if not named(part(node, "arguments")):
                 function = part(node, "function")
                 if function.type != "field_expression":
@@ -128,6 +146,8 @@ class _Lookups:
     def _of_nothing(self, node: Node, argument: Node) -> bool:
         """Whether there may be no object behind a pointer, or an iterator."""
         text = squeezed(argument)
+        if "nullptr" in text:
+            return True
         found = _FIRST.fullmatch(text) or _GREATEST.fullmatch(text)
         if found is not None:
             return self._is_empty(node, found[1])
@@ -138,12 +158,23 @@ class _Lookups:
             return False
         return not self._is_set(name, declared) and not is_asked(node, name, Question.OBJECT)
 
+    def _is_no_text(self, value: Node) -> bool:
+        """Whether a pointer to a text, which a function or a string gets, may lead to none."""
+        if _ENVIRONMENT.search(squeezed(value)) and value.type == "call_expression":
+            return True
+        name, declared = self._declared(value)
+        if "char*" not in declared or value.type not in ("identifier", "field_expression"):
+            return False
+        return not self._is_set(name, declared) and not is_asked(value, name, Question.OBJECT)
+
     def _is_set(self, name: str, declared: str) -> bool:
         """Whether something gives a pointer or an optional what it points to."""
         given = re.search(rf"{name}(?:=|\{{|\()(.*?)[;}})]", declared)
-        if given is not None and given[1] not in ("", "nullptr", "std::nullopt", "{"):
+        if given is not None and given[1] not in _NOTHING and not _ENVIRONMENT.match(given[1]):
             return True
-        stores = r"=(?!=)\s*(?!nullptr|std::nullopt)|\.(?:reset|emplace)\(\S|\{|\("
+        stores = (
+            r"=(?!=)(?!\s*(?:nullptr|std::nullopt|NULL|0;))|\.(?:reset|emplace)\((?!\s*\))|\{|\("
+        )
         sets = re.compile(rf"\b{name}\s*(?:{stores})")
         return any(sets.search(text) for text in self._texts)
 

@@ -25,6 +25,7 @@ from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import Called, Member, Outside, Scope, Variable
 from rebsync.reverse.generated.cpp_hand import acts
 from rebsync.reverse.generated.cpp_names import declared_type, has_mailbox, runtime_of
+from rebsync.reverse.generated.cpp_parameters import is_own_parameter
 from rebsync.reverse.generated.cpp_roles import Roles
 from rebsync.reverse.generated.slicing.publishers import telling_publishers
 from rebsync.reverse.libraries import cpp as libraries
@@ -63,11 +64,23 @@ def add_silent(
     left = {f.name for f in free if f.name in roles.own or _is_candidate(code, form, f.type)}
     if left:
         members = _members(code, form, owner, shown)
-        known = {f.node.id for f in fields} | roles.reading
+        known = {f.node.id for f in fields} | roles.reading | _reading(code, owner)
         found = _sliced(_Slice(code, form, owner, members, known, frozenset(left)))
         roles.silent = {n for n in found.dead if n in roles.own or n in found.told}
     roles.told = [p for n, p in roles.own.items() if n in roles.silent] + roles.told
     roles.own = {n: p for n, p in roles.own.items() if n not in roles.silent}
+
+
+def _reading(code: Code, owner: CppClass) -> set[int]:
+    """The statements of constructors that give a member what a parameter of people says."""
+    constructors = [f for f in code.functions_of(owner) if f.name == owner.name]
+    return {
+        statement.id
+        for function in constructors
+        for statement in inside(function.body, "expression_statement")
+        for stored in named(statement)[:1]
+        if stored.type == "assignment_expression" and is_own_parameter(part(stored, "right"))
+    }
 
 
 def _is_candidate(code: Code, form: CppForm, type_: Node) -> bool:
