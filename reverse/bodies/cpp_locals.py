@@ -17,6 +17,7 @@ from rebsync.reverse.bodies import (
     cpp_plain_locals,
 )
 from rebsync.reverse.bodies.cpp_declared import DeclaratorParts, number_of, only_value, taken_apart
+from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_misparsed import check_misparsed
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
@@ -196,7 +197,7 @@ def _declared(reader: CppStatementReader, declared: DeclaratorParts) -> Iterator
         return
     array = _array(reader, declared)
     kept = array or reader.scope.carried(declared.type)
-    if kept is None:
+    if kept is None or (kept.type == TEXT and has_mailbox(reader.scope)):
         raise reader.unread(declared.node, f'the model has no type "{declared.text}"')
     if (kept.bits or kept.wide) and not reader.scope.open:
         raise reader.unread(declared.node, f'"{declared.text}" is none of the model\'s types')
@@ -215,9 +216,6 @@ def _copies(declared: DeclaratorParts) -> bool:
 
 def _is_auto(declared: DeclaratorParts) -> bool:
     return declared.text in ("auto", "const auto") or declared.type.type.startswith("placeholder")
-
-
-# --- kinds of locals ----------------------------------------------------------------------------
 
 
 def _typed(

@@ -17,21 +17,31 @@ from rebsync.reverse.syntax.cpp_calls import CppCall, string_of
 _TEXTS = ("string_literal", "concatenated_string")
 
 
+_PRINTING = frozenset(f"{of}{name}" for of in ("", "std::") for name in ("printf", "fprintf"))
+
+
 def has_odd_format(scope: Scope, call: CppCall) -> bool:
     """Whether what a log says has places without values, or numbers where texts are to stand."""
-    if not call.name.startswith(libraries.logging()) or "_STREAM" in call.name:
-        return False
+    letters, values = _filled(call)
+    return len(letters) > len(values) or any(_is_number(scope, v) for v in texts_in(call))
+
+
+def texts_in(call: CppCall) -> list[Node]:
+    """The values that a log, or a function of C that prints, puts in as texts: `%s`."""
+    letters, values = _filled(call)
+    return [value for letter, value in zip(letters, values, strict=False) if letter == "s"]
+
+
+def _filled(call: CppCall) -> tuple[list[str], list[Node]]:
+    """The letters of what a call fills into a text, and the values; empty for other calls."""
+    is_log = call.name.startswith(libraries.logging()) and "_STREAM" not in call.name
     texts = [i for i, each in enumerate(call.arguments) if each.type in _TEXTS]
     at = 1 if "_NAMED" in call.name else 0
-    if len(texts) <= at:
-        return False
+    if not (is_log or call.name in _PRINTING) or len(texts) <= at:
+        return [], []
     text = string_of(call.arguments[texts[at]])
     letters = conversions(text) if text is not None else None
-    values = call.arguments[texts[at] + 1 :]
-    if letters is None or len(letters) > len(values):
-        return letters is not None
-    found = zip(letters, values, strict=False)
-    return any(letter == "s" and _is_number(scope, value) for letter, value in found)
+    return letters or [], list(call.arguments[texts[at] + 1 :])
 
 
 def _is_number(scope: Scope, value: Node) -> bool:

@@ -14,8 +14,10 @@ from collections.abc import Mapping
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.cpp_present import Question, is_asked
+from rebsync.reverse.bodies.effects.cpp_formats import texts_in
 from rebsync.reverse.bodies.effects.cpp_indices import Indices
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass
 from rebsync.reverse.syntax.cpp_tree import inside, named, operator_of, part, squeezed, text_of
 
@@ -33,6 +35,10 @@ _KINDS = (
     "declaration",
 )
 _ENVIRONMENT = re.compile(r"(?:std::)?getenv\(")
+_OF_NUMBERS = re.compile(
+    r"(?:static|const(?:expr)?|mutable|std::|unsigned)*"
+    r"(?:u?int(?:8|16|32|64)_t|size_t|int|long|unsigned|float|double|bool)(?!.*\*)"
+)
 _NOTHING = ("", "nullptr", "std::nullopt", "{", "NULL", "0")
 _ENDS = frozenset({"front", "back", "top", "pop", "pop_back", "pop_front"})
 _FIRST = re.compile(r"(?:std::(?:next|prev)\()?(\w+)\.(?:c?begin|c?rbegin|c?end)\(\).*")
@@ -103,6 +109,10 @@ class _Lookups:
             case "field_expression" if operator_of(node) == "->":
                 return self._of_nothing(node, part(node, "argument"))
             case "call_expression" if any(map(self._is_no_text, named(part(node, "arguments")))):
+                return True
+            case "call_expression" if (call := call_of(node)) is not None and any(
+                _OF_NUMBERS.match(self._declared(text)[1]) for text in texts_in(call)
+            ):
                 return True
             case "declaration" if re.search(r"\bstring\b", text_of(part(node, "type"))):
                 values = (d.child_by_field_name("value") for d in named(node))
