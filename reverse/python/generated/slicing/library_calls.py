@@ -109,7 +109,7 @@ _FUNCTIONS: dict[str, tuple[int, Sequence[Takes]]] = {
     **dict.fromkeys(("list", "tuple", "len", "any", "all", "reversed"), (1, (_elements,))),
     "enumerate": (1, (_elements, _number)),
     "zip": (1, (_elements, _elements, _elements)),
-    **dict.fromkeys(("set", "frozenset", "sorted"), (1, (_comparable,))),
+    **dict.fromkeys(("set", "frozenset", "sorted", "max", "min"), (1, (_comparable,))),
     "sum": (1, (_numbers,)),
     "dict": (0, ()),
     "collections.Counter": (0, ()),
@@ -134,6 +134,8 @@ _METHODS: dict[str, tuple[int, Sequence[Takes]]] = {
     "get": (1, (_key, _anything)),
     **dict.fromkeys(("clear", "copy", "items", "keys", "values", "most_common"), (0, ())),
     **dict.fromkeys(("upper", "lower", "strip", "title", "capitalize", "split"), (0, ())),
+    **dict.fromkeys(("lstrip", "rstrip", "swapcase", "casefold", "isdigit"), (0, ())),
+    "replace": (2, (_text, _text)),
     **dict.fromkeys(("ljust", "rjust", "center", "zfill"), (1, (_number,))),
     **dict.fromkeys(("startswith", "endswith"), (1, (_text,))),
     "join": (1, (_texts,)),
@@ -155,6 +157,8 @@ def takes(name: str, given: Sequence[tuple[str | None, ValueTypes]], *, whole: b
     plain = name.removeprefix("builtins.")
     if plain in _OF_WHOLE and not whole:
         return False
+    if plain in ("max", "min") and len(given) > 1:
+        return all(each == given[0] == (None, A_NUMBER) for each in given)
     return plain in _FUNCTIONS and _fits(_FUNCTIONS[plain], _NAMED.get(plain, {}), given)
 
 
