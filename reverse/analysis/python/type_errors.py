@@ -139,22 +139,36 @@ class TypeErrors:
                         self.iterates(node, value, facts)
                 if not self._notes.origins.methods_of_any(name):
                     self._is_called(node, e.Attribute(receiver, name), facts)
-            case s.LibraryCallee("builtins.range") if any(map(_is_fraction, plain)):
+            case s.LibraryCallee(name):
+                self._library_call(node, name, plain, facts)
+            case _:
+                pass
+
+    def _library_call(
+        self, node: s.Call, name: str, plain: list[e.Expression], facts: Facts
+    ) -> None:
+        match name:
+            case "builtins.range" if any(map(_is_fraction, plain)):
                 self._notes.fails(node, _WRONG)
-            case s.LibraryCallee(name) if name in _OF_NUMBERS:
+            case _ if name in _OF_NUMBERS:
                 taken = {NUMBER, TEXT, OwnType.BYTES} if name in _OF_TEXTS else {NUMBER}
                 for value in plain:
                     self._needs(node, value, taken, facts)
-            case s.LibraryCallee("builtins.format") if len(plain) > 1:
+            case "builtins.format" if len(plain) > 1:
                 self._styled(node, plain[0], plain[1], facts)
-            case s.LibraryCallee("builtins.len"):
+            case "builtins.len":
                 for value in plain[:1]:
                     self._needs(node, value, SIZED, facts)
                     self._answers(node, value, ImplicitCall.LENGTH)
-            case s.LibraryCallee("builtins.reversed"):
+            case "builtins.reversed":
                 for value in plain:
                     self._needs(node, value, SIZED, facts)
-            case s.LibraryCallee(name) if name in _OF_ELEMENTS:
+            case "builtins.isinstance" if len(plain) > 1:
+                if self.kinds.of(plain[1], facts) - {None, OwnType.TUPLE}:
+                    self._notes.fails(node, _WRONG)
+            case "builtins.zip" if any(a.name for a in node.arguments):
+                self._notes.fails(node, _WRONG)  # `strict`: where one is longer
+            case _ if name in _OF_ELEMENTS:
                 for value in plain if name == "builtins.zip" else plain[:1]:
                     self.iterates(node, value, facts)
             case _:

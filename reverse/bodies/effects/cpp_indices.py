@@ -22,6 +22,7 @@ from rebsync.reverse.syntax.cpp_tree import inside, named, operator_of, part, sq
 
 _CAST = re.compile(r"static_cast<(?:(?:std::)?(?:u?int(?:32|64)_t|size_t)|int|unsigned(?:int)?)>")
 _SIZE = re.compile(r"array<.*,(\d+)>|\[(\d+)\]")
+_CONSTANT = re.compile(r"const(?:expr)?\w.*?[\w>](?:=|\{)(\d+)\}?;?\Z")
 _COMPARED = frozenset({"==", "!=", "<", ">", "<=", ">="})
 _COUNTED = frozenset({"+", "-", "*", "/", "%"})
 _MIRRORED = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
@@ -44,13 +45,20 @@ class Indices:
         names = [text_of(n) for n in inside(index, "identifier", "field_identifier")]
         if not any(self._is_kept(name) for name in names):
             return False
+        if _goes_through(element, index):
+            return False
         found, size = self._interval(index), self._size(element)
         return found is None or size is None or not Interval(0, size - 1).includes(found)
 
     def _is_kept(self, name: str) -> bool:
-        """Whether a name is that of a member that changes."""
+        """Whether a name is that of a variable, other than a constant with a number."""
         declared = self._members.get(name, "")
-        return bool(declared) and not declared.startswith(("const", "staticconst"))
+        return bool(declared) and self._constant(name) is None
+
+    def _constant(self, name: str) -> int | None:
+        """The number that a constant is declared with, where one is written there."""
+        found = _CONSTANT.search(self._members.get(name, ""))
+        return int(found[1]) if found is not None else None
 
     def _interval(self, node: Node) -> Interval | None:
         """What an expression may be; None for what is not known."""
@@ -63,8 +71,10 @@ class Indices:
                 return exactly(int(node.type == "true"))
             case "parenthesized_expression":
                 return self._interval(named(node)[0])
+            case "identifier" if (constant := self._constant(text)) is not None:
+                return exactly(constant)
             case "identifier" | "field_expression" if self._is_kept(text):
-                return _narrowed(text, node, self._stored(text))
+                return _counted(text, node) or _narrowed(text, node, self._stored(text))
             case "call_expression" if _CAST.fullmatch(squeezed(part(node, "function"))):
                 return self._interval(named(part(node, "arguments"))[0])
             case "conditional_expression":
@@ -139,6 +149,50 @@ def _declared(root: Node, name: str) -> Iterator[int | None]:
                 yield int(found[1] or found[2])
             else:
                 yield len(named(value)) if is_open and value is not None else None
+
+
+def _goes_through(element: Node, index: Node) -> bool:
+    """Whether a loop counts an index from 0 to the size of what is looked up in, which stays."""
+    of, name = squeezed(part(element, "argument")).removeprefix("this->"), squeezed(index)
+    loop = _counting(name, element) if name.isidentifier() and of.isidentifier() else None
+    if loop is None:
+        return False
+    bound = (
+        rf"{name}(?:<|!=)(?:static_cast<\w+>\({of}\.size\(\)\)|{of}\.size\(\)|std::size\({of}\))"
+    )
+    changes = rf"\b{of}(?:\.(?!(?:size|at|front|back|empty)\()\w|=(?!=))"
+    is_whole = re.fullmatch(bound, squeezed(part(loop, "condition"))) is not None
+    return is_whole and re.search(changes, squeezed(part(loop, "body"))) is None
+
+
+def _counted(name: str, node: Node) -> Interval | None:
+    """What a loop counts around a place: `for (int i = 0; i < 3; ++i)`."""
+    loop = _counting(name, node)
+    if loop is None:
+        return None
+    first = re.search(r"=(\d+);?\Z", squeezed(part(loop, "initializer")))
+    bound = re.fullmatch(rf"{name}(<=?)(\d+)", squeezed(part(loop, "condition")))
+    if first is None or bound is None:
+        return None
+    last = int(bound[2]) - (bound[1] == "<")
+    return Interval(int(first[1]), last) if int(first[1]) <= last else None
+
+
+def _counting(name: str, node: Node) -> Node | None:
+    """The loop around a place that declares a variable, and changes it by counting up alone."""
+    for loop in ancestors(node):
+        if loop.type in ("function_definition", "lambda_expression"):
+            return None
+        start, update = (loop.child_by_field_name(f) for f in ("initializer", "update"))
+        if loop.type != "for_statement" or start is None or update is None:
+            continue
+        if re.search(rf"[\w>]{name}=\d+;?\Z", squeezed(start)) is None:
+            continue
+        stored = rf"(?:\+\+|--|&){name}\b|\b{name}(?:\+\+|--|[-+*/%&|^]?=(?!=)|<<=|>>=)"
+        is_up = squeezed(update) in (f"++{name}", f"{name}++")
+        changed = re.search(stored, squeezed(part(loop, "body"))) is not None
+        return loop if is_up and not changed else None
+    return None
 
 
 def _narrowed(name: str, node: Node, found: Interval) -> Interval:

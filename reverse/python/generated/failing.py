@@ -46,11 +46,8 @@ def told_people(expressions: ModelExpressionReader, node: Node) -> list[m.Statem
 
 def _logs_methods(expressions: ModelExpressionReader, node: Node) -> bool:
     """Whether a statement logs, and calls methods of the model for what it logs."""
-    if node.type != "expression_statement" or not any(
-        _is_method(expressions, n) for n in nodes_in(node)
-    ):
-        return False  # by its effects, which know what each function takes
-    return only_logs(node, replace(expressions.names.silent.looks, own=methods_of(expressions)))
+    looks = replace(expressions.names.silent.looks, own=methods_of(expressions))
+    return node.type == "expression_statement" and only_logs(node, looks)
 
 
 def may_fail(expressions: ModelExpressionReader, node: Node) -> bool:

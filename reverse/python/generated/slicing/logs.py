@@ -82,8 +82,7 @@ class Looks:
         holder, name = field(function, "object"), text_of(field(function, "attribute"))
         if name in ON_CLOCKS:
             return holder.type == "call" and not named(field(call, "arguments"))
-        is_joining = name == "join" and self._joins_texts(call)
-        return self.is_text(holder) and ((name in OF_TEXTS and not self.own) or is_joining)
+        return self.is_text(holder) and name == "join" and self._joins_texts(call)
 
     def _calls_plain(self, call: Node) -> bool:
         """Whether what a call itself calls of what it gets are functions of Python's own."""
