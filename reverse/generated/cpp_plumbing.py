@@ -88,16 +88,19 @@ def _failing(
 ) -> Iterator[tuple[Node, str]]:
     """What may end the program, and the model has nothing of: what is logged, what is looked up.
 
-    Whether an array of the model has an element is a matter of the model, but for logs.
+    Whether an array of the model has an element is a matter of the model, but for logs and what
+    has none of its types.
     """
     logs = [n for n in inside(function.body, "expression_statement") if is_logging(n)]
     for log in logs:
         if (why := form.raises(function.cpp, log)) is not None:
             yield log, why
+    texts = inside(function.body, "declaration")
+    told = [*logs, *(n for n in texts if declared_type(code, part(n, "type")) is None)]
     fields = (f for c in code.lineage(owner.name) for f in c.fields)
     variables = {f.name for f in fields if declared_type(code, f.type) is not None}
     for lookup in unsure_lookups(code, owner, function.body) if function.body is not None else ():
-        is_told = any(log.start_byte <= lookup.start_byte < log.end_byte for log in logs)
+        is_told = any(n.start_byte <= lookup.start_byte < n.end_byte for n in told)
         if is_told or looked_up_in(lookup) not in variables:
             yield lookup, _NOTHING
 

@@ -86,7 +86,7 @@ class LibraryOutcomes:
     language: Language
     opaque: frozenset[str] = frozenset()
     trusts_others: bool = False
-    trusts_types: bool = False
+    trusts_types: bool = True
     messages: frozenset[str] = frozenset()
     fields: MessageFields = no_fields
 

@@ -220,8 +220,14 @@ def check_handed(effects: EffectReader, argument: Node) -> None:
 
 
 def check_deleted(effects: EffectReader, node: Node) -> None:
-    """Raises `Touches`: what ends may be the object itself, or what others still use."""
-    raise effects.touches(node, "this ends an object that something may still use")
+    """Raises `Touches` where to end an object may run what was not read, or others still use it."""
+    form, pointer = effects.scope.form, named(node)[-1]
+    if has_mailbox(effects.scope) or gives_itself(pointer):
+        raise effects.touches(node, "this ends an object that something may still use")
+    why = form.unread_calls.of_deleted(effects.cpp, pointer) if form is not None else None
+    if why is not None:
+        raise effects.touches(node, f'what "{text_of(node)}" does is not known: {why}')
+    effects.check(pointer)
 
 
 def _function(effects: EffectReader, call: CppCall, name: str) -> bool:

@@ -154,6 +154,11 @@ class UnreadCalls:
         is_function = owner is not None and self._declares(owner, _CALL)
         return self._of_class(owner, _CALL, Provenance.MADE) if owner and is_function else None
 
+    def of_deleted(self, cpp: Cpp, pointer: Node) -> str | None:
+        """Why to end what a pointer leads to may."""
+        type_ = self._statics.dereferenced(self._statics.of(cpp, pointer))
+        return self._parts.of_object(type_, is_held=True)
+
     # --- functions outside of classes, and what is held in variables ----------------------------
 
     def _free(self, cpp: Cpp, call: CppCall) -> str | None:
