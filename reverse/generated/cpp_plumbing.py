@@ -95,8 +95,10 @@ def _failing(
     for log in logs:
         if (why := form.raises(function.cpp, log)) is not None:
             yield log, why
+    ways = inside(function.body, "if_statement")
     texts = inside(function.body, "declaration")
-    told = [*logs, *(n for n in texts if declared_type(code, part(n, "type")) is None)]
+    told = [*logs, *(n for n in ways if is_logging(n))]
+    told += [n for n in texts if declared_type(code, part(n, "type")) is None]
     fields = (f for c in code.lineage(owner.name) for f in c.fields)
     variables = {f.name for f in fields if declared_type(code, f.type) is not None}
     for lookup in unsure_lookups(code, owner, function.body) if function.body is not None else ():

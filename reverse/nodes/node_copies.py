@@ -14,7 +14,7 @@ from rebsync.reverse.bodies.effects.cpp_roots import identifiers_in
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.nodes.node_servers import Server
 from rebsync.reverse.nodes.node_units import Unit
-from rebsync.reverse.syntax.cpp_enclosing import enclosing_function
+from rebsync.reverse.syntax.cpp_enclosing import enclosing_function, locals_of
 from rebsync.reverse.syntax.cpp_index import CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, part, text_of
 
@@ -53,7 +53,7 @@ def _captured(unit: Unit, lambda_: Node) -> Iterator[str]:
     if "=" in texts:
         function = enclosing_function(lambda_, unit.functions)
         used = {text_of(n) for n in identifiers_in(part(lambda_, "body"))}
-        yield from sorted(used & (_locals(function) if function is not None else set()))
+        yield from sorted(used & (locals_of(function) if function is not None else set()))
 
 
 def _is_name(node: Node) -> bool:
@@ -66,18 +66,9 @@ def _is_reference(bound: Node) -> bool:
     return bound.type in ("pointer_expression", "this") or called.endswith("ref")
 
 
-def _locals(function: CppFunction) -> set[str]:
-    """The names of locals and parameters of a function."""
-    body = function.body
-    declared = [] if body is None else list(inside(body, "init_declarator", "declaration"))
-    inner = (d.child_by_field_name("declarator") for d in declared)
-    names = {text_of(n) for d in inner if d is not None for n in (d, *identifiers_in(d))}
-    return names | {p.name for p in function.parameters}
-
-
 def _changes(unit: Unit, function: CppFunction, at: Node, name: str) -> bool:
     """Whether a variable may get another value after a place: a local there, a member anywhere."""
-    is_local = name in _locals(function)
+    is_local = name in locals_of(function)
     for other in unit.functions if not is_local else (function,):
         if other.body is None:
             continue

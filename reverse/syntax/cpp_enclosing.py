@@ -32,10 +32,15 @@ def locals_referred_to(lambda_: Node, function: CppFunction) -> set[str]:
         elif capture.type == "lambda_default_capture" and text == "&":
             referred |= _names_in(part(lambda_, "body"))
         before = text
-    local = {p.name for p in function.parameters}
-    for declared in inside(function.body, "declaration", "init_declarator"):
-        local |= {text_of(n) for n in declared.children_by_field_name("declarator")}
-    return local & (referred - copied)
+    return locals_of(function) & (referred - copied)
+
+
+def locals_of(function: CppFunction) -> set[str]:
+    """The names of locals and parameters of a function."""
+    declared = inside(function.body, "declaration", "init_declarator", "for_range_loop")
+    declarators = [d for n in declared for d in n.children_by_field_name("declarator")]
+    names = {name for d in declarators if d.type != "init_declarator" for name in _names_in(d)}
+    return names | {p.name for p in function.parameters}
 
 
 def _names_in(node: Node) -> set[str]:

@@ -103,7 +103,7 @@ class OperandKinds:
 
         Objects of classes answer for themselves, and times are told apart from numbers elsewhere.
         """
-        types = self.known(self.types(value, facts))
+        types = self.types(value, facts)
         kinds = frozenset(own_type(type_) for type_ in types if not _answers(type_))
         return kinds - {None} if self._notes.table.trusts_types else kinds
 
