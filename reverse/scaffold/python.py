@@ -22,6 +22,7 @@ from rebsync.reverse.scaffold.python_parameters import as_declared
 from rebsync.reverse.scaffold.python_trees import (
     MODULE,
     bindings,
+    is_log,
     plain,
     said,
     span_of,
@@ -102,7 +103,7 @@ class _Class:
             if not isinstance(function, ast.FunctionDef):
                 continue
             if function.name in ("__init__", "_wire"):
-                for statement in said(function.body):
+                for statement in said(function.body, is_log):
                     yield from self._set_up(function, statement)
             elif function.name == "_publish_state":
                 yield from self._told(function)
@@ -112,7 +113,7 @@ class _Class:
         names = {a.arg: "served" for a in function.args.args[1:]}
         named = replace(self, owner=_message_of(function).removesuffix("State"))
         late, is_made, message = "", False, _message_in(function)
-        for statement in said(function.body):
+        for statement in said(function.body, is_log):
             if message and not any(_is_named(n, message) for n in ast.walk(statement)):
                 continue  # extraction lists what does more than to tell people something
             match statement:
@@ -151,7 +152,10 @@ class _Class:
         arguments = value.args if isinstance(value, ast.Call) else []
         method = called.removeprefix("self._mailbox.")
         if called == "Mailbox":
-            rest = [plain(a) for a in arguments if ast.unparse(a) not in ("node", "self")][1:]
+            first, *rest = [*map(plain, arguments), ""]
+            of_node = first in ("node", "self")
+            yield self.fact("set-up", "mailbox", "Mailbox(self)" if of_node else "Mailbox()", at)
+            rest = [given for given in rest[of_node:] if given]
             yield self.fact("best priority", "", ", ".join(rest) or "none", at)
         elif method != called:
             yield from self._connected(member, method, arguments, at)
@@ -303,7 +307,7 @@ def _undescribed(value: ast.expr) -> ast.expr:
     """A call without the description of the parameter that it declares."""
     match value:
         case ast.Call(ast.Name("declared" | "declared_array"), [*rest, ast.Constant(str())]):
-            return ast.Call(value.func, rest, value.keywords)
+            return ast.Call(value.func, [*rest, ast.Constant("...")], value.keywords)
         case ast.Call(of, [inner]):
             return ast.Call(of, [_undescribed(inner)], value.keywords)
         case _:

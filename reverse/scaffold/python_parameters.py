@@ -58,4 +58,5 @@ def _ignores(call: ast.Call, more: list[ast.expr]) -> bool:
 
 
 def _declared(key: ast.expr, default: ast.expr) -> ast.expr:
-    return ast.Call(ast.Name("declared"), [ast.Name("self"), key, default], [])
+    described = ast.Constant("...")
+    return ast.Call(ast.Name("declared"), [ast.Name("self"), key, default, described], [])

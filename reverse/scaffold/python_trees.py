@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 
 from rebsync.reserved import RUNTIME_HEADERS
@@ -14,6 +14,12 @@ from rebsync.source import Source, Span
 
 # The modules of the run-time part.
 MODULE = re.compile(rf"(?:.*/)?(?:__init__|{'|'.join(RUNTIME_HEADERS)})\.py\Z")
+
+# What takes one text, and is there wherever its module is imported.
+_LOGS_TEXTS = re.compile(
+    r"(?:rospy\.log(?:debug|info|warn|err|fatal)(?:_once)?|print"
+    r"|(?:logging|rebec\.get_logger\(\)|rclpy\.logging\.get_logger\('\w+'\))\.(?:debug|info|warning|error))\Z"
+)
 
 
 def tree_of(source: Source) -> ast.Module | None:
@@ -39,13 +45,13 @@ def span_of(source: Source, node: ast.AST) -> Span:
     return Span(place(first, column), place(last, end))
 
 
-def said(body: list[ast.stmt]) -> Iterator[ast.stmt]:
-    """The statements but for texts, logging, and imports for type checkers."""
+def said(body: list[ast.stmt], logs: Callable[[ast.Call], bool]) -> Iterator[ast.stmt]:
+    """The statements but for texts, what only `logs`, and imports for type checkers."""
     for statement in body:
         match statement:
             case ast.Expr(ast.Constant()) | ast.Pass():
                 continue
-            case ast.Expr(ast.Call() as call) if is_log(call):
+            case ast.Expr(ast.Call() as call) if logs(call):
                 continue
             case ast.If(ast.Name("TYPE_CHECKING")):
                 continue
@@ -56,8 +62,42 @@ def said(body: list[ast.stmt]) -> Iterator[ast.stmt]:
                 yield statement
 
 
+def logs_texts(call: ast.Call) -> bool:
+    """Whether a call logs texts and names of the node alone, so that nothing of it may fail."""
+    if _LOGS_TEXTS.match(ast.unparse(call.func)) is None or call.keywords:
+        return False
+    match call.args:
+        case [ast.Constant(str())]:
+            return True
+        case [ast.JoinedStr(values)]:
+            return all(map(_is_text, values))
+        case [ast.Constant(str(text)), *names]:
+            return text.count("%s") == text.count("%") == len(names) and all(map(_is_name, names))
+        case _:
+            return False
+
+
+def _is_text(part: ast.expr) -> bool:
+    match part:
+        case ast.FormattedValue(value, format_spec=None):
+            return _is_name(value)
+        case _:
+            return isinstance(part, ast.Constant)
+
+
+def _is_name(value: ast.expr) -> bool:
+    """Whether it asks for the name of the node."""
+    match value:
+        case ast.Call(ast.Attribute(ast.Name("rebec"), method), [], []):
+            return method in own_name_methods()
+        case ast.Call(function, [], []):
+            return ast.unparse(function) in own_names()
+        case _:
+            return False
+
+
 def is_log(call: ast.Call) -> bool:
-    """Whether a call only logs what is there already."""
+    """Whether a call only logs what is there already; whether it may fail, extraction asks."""
     if log_words().match(ast.unparse(call.func)) is None:
         return False
     inside = [n for a in (*call.args, *call.keywords) for n in ast.walk(a)]
@@ -96,7 +136,7 @@ class _Plain(ast.NodeTransformer):
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         node.returns = None
-        node.body = list(said(node.body)) or [ast.Pass()]
+        node.body = list(said(node.body, logs_texts)) or [ast.Pass()]
         self.generic_visit(node)
         return node
 

@@ -25,11 +25,15 @@ _OWN_NAME = re.compile(r'#include "(\w+)/|#ifndef (\w+)_\w+_H\b|#ifndef (\w+)__\
 _OPEN_ESCAPE = re.compile(r'\\(?:x[0-9a-fA-F]+|[0-7]{1,2})"\Z')
 # What a rebec is made of, extraction reads.
 _REBEC = re.compile(r"::\w+rebec\(node[,)]|.*(?:node\.param|readArray)\(")
-_LOGS = ("ROS_", "RCLCPP_", "printf(", "std::cout", "std::cerr")
-# What stands in the arguments of a log and does nothing but give a value; and what does more.
-_LOOKS = frozenset({"get_logger", "get_name", "getName", "getNamespace", "c_str", "what", "now"})
-_CALLED = re.compile(r"(\w+)(?:<[^()]*>)?\(")
-_CHANGES = re.compile(r"\+\+|--|(?<![=!<>])=(?!=)")
+# What logs texts and names of the node alone: of this nothing may fail.
+_LEVEL = r"(?:DEBUG|INFO|WARN|ERROR|FATAL)(?:_ONCE)?"
+_ROS1_NAME = r"ros::this_node::getName(?:space)?\(\)\.c_str\(\)"
+_LOGGER = r'(?:\w+(?:->|\.)|this->)?get_logger\(\)|rclcpp::get_logger\(""\)'
+_LOGS = re.compile(
+    rf'(?:ROS_{_LEVEL}\(""(?P<ros1>(?:,{_ROS1_NAME})*)\)'
+    rf'|RCLCPP_{_LEVEL}\((?:{_LOGGER}),""(?P<ros2>(?:,\w+(?:->|\.)get_name\(\))*)\)'
+    r'|(?:std::)?printf\(""\)|std::c(?:out|err)(?:<<(?:""|std::endl))+);\Z'
+)
 _LITERAL = re.compile(r'"(?:\\.|[^"\\])*"')
 _TOKEN = re.compile(rf'{LINE_COMMENT}|/\*.*?\*/|"(?:\\.|[^"\\])*"|\w+|\S', re.DOTALL)
 
@@ -116,10 +120,10 @@ def _all_statements(source: Source, own: frozenset[str]) -> Iterator[Piece]:
 
 
 def _only_logs(statement: str) -> bool:
-    """Whether a statement without its layout logs, and does nothing else to do so."""
-    if not statement.startswith(_LOGS):
-        return False
-    plain = _LITERAL.sub('""', statement)
-    called = _CALLED.findall(plain)
-    own = called[:1] if plain.startswith(("ROS_", "RCLCPP_", "printf(")) else []
-    return not _CHANGES.search(plain) and all(c in _LOOKS for c in called[len(own) :])
+    """Whether a statement without its layout logs, and nothing of it may fail."""
+    found = _LOGS.match(_LITERAL.sub('""', statement))
+    if found is None or statement.startswith("std::c"):
+        return found is not None
+    text = "".join(_LITERAL.findall(statement)).replace("%%", "")
+    names = (found["ros1"] or found["ros2"] or "").count(",")
+    return text.count("%s") == text.count("%") == names

@@ -11,6 +11,7 @@ from itertools import zip_longest
 from rebsync.reverse.scaffold.python_programs import SERVES, plain_program
 from rebsync.reverse.scaffold.python_trees import (
     bindings,
+    logs_texts,
     said,
     span_of,
     tree_of,
@@ -139,7 +140,7 @@ def _without_diagnostics(module: ast.Module) -> ast.Module:
 
 def _parts(body: list[ast.stmt], own: frozenset[str]) -> Iterator[tuple[str, ast.stmt]]:
     """Each statement, what is inside of it apart, with its text."""
-    for statement in said(body):
+    for statement in said(body, logs_texts):
         if isinstance(statement, _IMPORTS) or _is_told_to_people(statement):
             continue
         inner = [getattr(statement, name, []) for name in ("body", "orelse", "finalbody")]

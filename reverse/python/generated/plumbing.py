@@ -60,6 +60,7 @@ _CALLED = frozenset(
         "self._mailbox.on_served",
     }
 )
+_WITHOUT_ARGUMENTS = frozenset({"object", "ABC", "abc.ABC", "Generic", "Protocol"})
 _IN_CLASS = frozenset({"function_definition", "decorated_definition", "pass_statement"})
 _PLAIN = frozenset({"__init__", "_wire", "_publish_state", "mailbox"})
 _STORING = frozenset({"assignment", "named_expression", "lambda", "await", "yield"})
@@ -229,12 +230,22 @@ class Plumbing:
             return True
         if declares_plain(call) and string_value(arguments[1]) is not None:
             return True
+        if called == "super().__init__" and arguments and not self._takes_arguments():
+            return False
         return called in _CALLED or only_declares(call, function.node)
+
+    def _takes_arguments(self) -> bool:
+        """Whether a class above has a constructor that takes any: that of `object` does not."""
+        line = (self.roles.owner, *self.above)
+        bases = (c.node.child_by_field_name("superclasses") for c in line)
+        names = {text_of(b).partition("[")[0] for found in bases if found for b in named(found)}
+        others = names - _WITHOUT_ARGUMENTS - {c.name for c in self.above}
+        return bool(others) or any("__init__" in c.names for c in self.above)
 
     def _is_connected(self, member: str, arguments: list[Node]) -> bool:
         """Whether topics are called after the servers they lead to."""
         # The feedback of an action stands behind the shim.
-        shims = [handed_over(a).removeprefix("self.") for a in (*arguments[5:6], arguments[-1])]
+        shims = [handed_over(a).removeprefix("self.") for a in (*arguments[5:6], *arguments[-1:])]
         shim = next((s for s in shims if s in self.roles.topics), None)
         if shim is not None:
             key = self.roles.topics[shim].removeprefix("port/")

@@ -327,7 +327,7 @@ def _does(
         inner = named(statement)[0] if statement.type == "expression_statement" else None
         called, arguments = call_parts(inner) or ("", [])
         passed = [p.name for p in function.parameters[1:]]
-        if called == "self._mailbox.receive" and len(arguments) == 5:
+        if called == "self._mailbox.receive" and len(arguments) == 5 and function.parameters:
             _received(roles, function, arguments, servers)
         elif called == "self._mailbox.post" and arguments and "when" in passed:
             server = servers.get(text_of(arguments[0]), ("", ()))[0]
