@@ -129,7 +129,8 @@ class Beside:
         if call.name not in READS:
             return call.name.rpartition("::")[2] in _REGISTERS
         keys = [n for cpp in self.code.files for n in inside(cpp.root, "string_literal")]
-        is_once = [squeezed(n) for n in keys].count(squeezed(call.arguments[0])) == 1
+        key = [squeezed(n) for n in call.arguments[:1]]
+        is_once = [[squeezed(n)] for n in keys].count(key) == 1
         return not (is_once and is_own_parameter(call.node))
 
     def _calls_back(self, statement: Node) -> bool:
@@ -154,7 +155,8 @@ class Beside:
         if call.name in _HEARS:
             is_plain = len(others) > 1 and not inside(others[0], "lambda_expression")
             return is_plain and is_free(self.code, first) and self._is_calm(others[1:])
-        return call.name == _SETS and self._is_calm(call.arguments) and self._agrees(call)
+        is_set = call.name == _SETS and bool(call.arguments)
+        return is_set and self._is_calm(call.arguments) and self._agrees(call)
 
     def _type_of(self, member: str) -> str:
         """The type of a member, without its layout."""

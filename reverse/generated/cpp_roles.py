@@ -241,7 +241,7 @@ def _member(roles: Roles, member: str, call: CppCall) -> None:
         case "declare_parameter", "" | "this" if (known := known_rebec(first)) is not None:
             _known(roles, member, original(known))
         case "declare_parameter", "" | "this" if (env := constant_of_model(first)) is not None:
-            roles.globals[member] = env, call.arguments[1]
+            roles.globals[member] = env, (call.arguments[1:2] or [call.node])[0]
         case "subscribe", on if on in _OWN_HANDLES and len(call.arguments) in (3, 4):
             if _is_deep(call.arguments[1]):
                 roles.wired.add(call.node.id)

@@ -58,27 +58,30 @@ def told_in_cpp(source: Source, text: str) -> Iterator[Fact]:
         message = ""
         if (made := _MADE.search(body)) is not None:
             owner, message = made.groups()  # messages of ROS have no underscores in their names
-        others = _others(body, message)
-        if others is None:
-            continue  # in which of its blocks the message is filled depends
-        told = _Telling(served, message, topics, body)
-        is_sent = False
-        for m in _STATEMENT.finditer(others):
-            start = telling.start(3) + m.end() - len(m[0].lstrip())
-            span, found = Span(start, telling.start(3) + m.end()), told.by(m[0].strip())
-            if found is not None:
-                name, value = found
-                late = " once it is published" if is_sent else ""
-                yield Fact(TOLD, owner, name, f"{value}{late}", source, span)
-                is_sent |= value.startswith("published")
+        if any(re.search(r"\breturn\b", block) for block in _INNER.findall(body)):
+            continue  # what is behind it depends on it
+        told, sent = _Telling(served, message, topics, body), len(body)
+        for span, statement, is_inner in _statements(body, message):
+            if (found := told.by(statement)) is None:
+                continue
+            name, value = found
+            late = " once it is published" if span.start > sent else ""
+            value = f"{value} in a block" if is_inner else value
+            place = Span(telling.start(3) + span.start, telling.start(3) + span.end)
+            yield Fact(TOLD, owner, name, f"{value}{late}", source, place)
+            if value.startswith("published") and not is_inner:
+                sent = min(sent, span.start)
 
 
-def _others(body: str, message: str) -> str | None:
-    """A body without what stands in blocks of its own; None if these name the message."""
-    blocks = [m[0] for m in _INNER.finditer(body)]
-    if any(re.search(rf"\b{message}\b(?!\s*::)|\breturn\b", block) for block in blocks):
-        return None
-    return _INNER.sub(lambda m: ";".rjust(len(m[0])), body)
+def _statements(body: str, message: str) -> Iterator[tuple[Span, str, bool]]:
+    """The statements and their places; behind them those of inner blocks that name the message."""
+    rest = _INNER.sub(lambda m: ";".rjust(len(m[0])), body)
+    for m in _STATEMENT.finditer(rest):
+        yield Span(m.end() - len(m[0].lstrip()), m.end()), m[0].strip(), False
+    for block in _INNER.finditer(body):
+        for m in _STATEMENT.finditer(body, block.start() + 1, block.end() - 1):
+            if message and re.search(rf"\b{message}\b(?!\s*::)", m[0]):
+                yield Span(m.end() - len(m[0].lstrip()), m.end()), m[0].strip(), True
 
 
 @dataclass(frozen=True, slots=True)
