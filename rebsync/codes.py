@@ -172,6 +172,7 @@ FILES = {
     "RS814": "a pipe, a device or the like where a file is wanted",
     "RS815": "a path that leads out of what it belongs to",
     "RS816": "a part of rebsync that is not installed",
+    "RS817": "an exception that rebsync did not expect: a mistake of its own",
     "RS820": "a folder for the cache that is not used, as others could have written to it",
     "RS830": "a number of more digits than rebsync reads",
 }

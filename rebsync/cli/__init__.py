@@ -6,6 +6,7 @@ import gc
 import os
 import signal
 import sys
+import traceback
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -79,10 +80,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = _report(
             RebsyncError.of(".", "RS111", "something here nests deeper than rebsync reads")
         )
-    except Exception:  # ctypes and `__set_name__` turn what a signal raises into another
-        if not _ending:
+    except Exception as error:  # ctypes and `__set_name__` turn what a signal raises into another
+        if not _ending and arguments is not None:
             raise
-        status = _ended_by(_ending[-1])
+        status = _ended_by(_ending[-1]) if _ending else _unforeseen(error)
     except SystemExit as error:  # click's own answer to a broken pipe
         status = Status.BROKEN_PIPE if error.code == 1 else error.code
     if arguments is None and hasattr(signal, "setitimer"):
@@ -167,6 +168,15 @@ def _usage(error: click.ClickException) -> Status:
     with suppress(OSError):
         shown.show()
     return Status.UNUSABLE
+
+
+def _unforeseen(error: Exception) -> Status:
+    """Nothing is known then, which is another status than that of a drift."""
+    with suppress(OSError):
+        traceback.print_exception(error)
+    hint = "please report it, with the lines above and the file that was read"
+    what = f"a mistake of rebsync itself: {type(error).__name__}: {error}"
+    return _report(RebsyncError.of(".", "RS817", what, hint=hint))
 
 
 def _say(message: str, status: Status) -> Status:

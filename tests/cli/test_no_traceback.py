@@ -228,3 +228,20 @@ def test_files_that_may_not_be_read(ahead: Path, tmp_path: Path, name: str) -> N
         refused += "permission denied" in done.err + done.out
     assert refused
     path.chmod(0o755)
+
+
+def test_mistakes_of_its_own_are_no_drift() -> None:
+    """What nobody foresaw ends as what cannot be used does, and says whose mistake it is."""
+    script = (
+        "import sys\n"
+        "from rebsync import cli\n"
+        "def failing(*_, **__): raise IndexError('nothing there')\n"
+        "cli.rebsync.main = failing\n"
+        "sys.exit(cli.main())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], env=environment(), cwd=ROOT, capture_output=True, text=True
+    )
+    assert done.returncode == 2, done.stderr
+    assert "RS817 a mistake of rebsync itself: IndexError: nothing there" in done.stderr
+    assert "in failing" in done.stderr
