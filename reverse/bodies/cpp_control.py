@@ -9,8 +9,10 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_locals, cpp_loops, cpp_plain_locals, cpp_special
+from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.effects.cpp_effects import Effects
+from rebsync.reverse.bodies.effects.cpp_unset_locals import SCALARS
 from rebsync.reverse.bodies.scope import Outside, Record, Variable
 from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
@@ -171,14 +173,37 @@ def _case(reader: CppStatementReader, node: Node, annotations: tuple[m.Annotatio
     return m.Case(read, statements, annotations, reader.cpp.span(node))
 
 
+def _returned_empty(
+    reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]
+) -> Iterator[m.Statement]:
+    """`return {};`: 0, but behind the last statement of a method, where only C++ wants it."""
+    kept = reader.returns
+    if kept is None and _ends_function(node):
+        return
+    type_ = kept.type if isinstance(kept, Variable) else None if kept else reader.scope.returns
+    zero = zero_of(type_) if type_ is not None and type_.name in SCALARS else None
+    if zero is None and not isinstance(kept, Outside):
+        raise reader.unread(node, "the model does not know which value this is")
+    yield m.Return(zero, annotations, reader.cpp.span(node))
+
+
+def _ends_function(node: Node) -> bool:
+    """Whether a statement is the last of a function."""
+    body = node.parent
+    is_last = body is not None and named(body)[-1] == node
+    function = body.parent if body is not None and is_last else None
+    return function is not None and function.type == "function_definition"
+
+
 def returned(
     reader: CppStatementReader, node: Node, annotations: tuple[m.Annotation, ...]
 ) -> Iterator[m.Statement]:
     """`return`: its value goes where the function's value is kept."""
     values = named(node)
-    if values and values[0].type == "initializer_list" and not named(values[0]):
-        return  # what C++ wants behind the last statement of a method
     span = reader.cpp.span(node)
+    if values and values[0].type == "initializer_list" and not named(values[0]):
+        yield from _returned_empty(reader, node, annotations)
+        return
     if not values:
         yield m.Return(None, annotations, span)
         return

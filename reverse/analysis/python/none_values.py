@@ -246,6 +246,8 @@ def falls_through(body: s.Body) -> bool:
     match body[-1] if body else None:
         case s.Return() | s.Raise() | s.Break() | s.Continue():
             return False
+        case s.If(e.Literal(True), then):
+            return falls_through(then)
         case s.If(_, then, otherwise):
             return falls_through(then) or falls_through(otherwise)
         case s.With(_, _, inner) | s.Block(inner):

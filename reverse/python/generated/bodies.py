@@ -38,6 +38,7 @@ from rebsync.reverse.python.generated.overloads import resolved
 from rebsync.reverse.python.generated.plain_functions import giving_texts
 from rebsync.reverse.python.generated.posts import own_posts
 from rebsync.reverse.python.generated.py_types import passed_on, type_of
+from rebsync.reverse.python.generated.results import without_result
 from rebsync.reverse.python.generated.roles import PyRoles, PySends, plain_name
 from rebsync.reverse.python.generated.slicing.silent import silent_in
 from rebsync.reverse.python.generated.statements import Statements
@@ -201,6 +202,9 @@ class ModelBodies:
             span = function.py.span(field(function.node, "name"))
             why = f'the model has no type for what "{function.name}" gives'
             self.findings.unreadable(function.py.source, Unread(span, why, _HINT), within)
+        elif found.name != "void" and "abstractmethod" not in function.decorators:
+            for unread in without_result(self.form, function):
+                self.findings.unreadable(function.py.source, unread, within)
         return found or m.Type("void")
 
     def reader(self, owner: Scope, function: Scope, within: str) -> Statements:

@@ -38,6 +38,7 @@ from rebsync.reverse.python.generated.py_types import (
     without_parentheses,
 )
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.statements import UNREADABLE
 
@@ -146,7 +147,9 @@ class Statements(ModelStatementReader):
 
     def _return(self, node: Node) -> list[m.Statement]:
         values = [v for v in named(node) if v.type != "none"]
-        if values and is_unset(without_parentheses(values[0])):
+        function = climb(node, lambda n: n.type == "function_definition")
+        is_last = function is not None and node == named(field(function, "body"))[-1]
+        if is_last and values and is_unset(without_parentheses(values[0])):
             return []  # only Python wants one here
         value = self.expressions.expression(values[0]) if values else None
         return [m.Return(value, span=self.expressions.py.span(node))]
