@@ -18,7 +18,7 @@ from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_conditions import IfSection, alternatives
 from rebsync.reverse.syntax.cpp_declarations import only_braces
 from rebsync.reverse.syntax.cpp_text import has_alternatives, is_split, read_branch
-from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.syntax.misread import misread
 from rebsync.source import Span
 

@@ -52,7 +52,8 @@ def rewrite(node: _Node, rule: Callable[[object], object]) -> _Node:
     Nodes in which nothing changes stay the ones that they are.
     """
     changed: dict[str, object] = {}
-    for name in m.child_fields(type(node)):
+    kind: type = type(node)
+    for name in m.child_fields(kind):
         value = getattr(node, name)
         if isinstance(value, tuple):
             inner = tuple([rewrite(each, rule) for each in value])
