@@ -23,7 +23,8 @@ settings.load_profile(os.environ.get("REBSYNC_HYPOTHESIS", "quick"))
 # files that alone take minutes.
 _LONG = (
     *("ros1/", "ros2/", "ros2py/", "forward/test_compiles", "hooks/"),
-    *("reverse/native/", "roundtrip/edits/"),
+    *("reverse/native/", "roundtrip/edits/", "roundtrip/faults/", "roundtrip/test_mutations"),
+    *("roundtrip/test_sync", "test_readme"),
 )
 
 

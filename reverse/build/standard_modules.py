@@ -7,7 +7,7 @@ import sys
 import sysconfig
 from pathlib import Path
 
-from rebsync.reverse.syntax.py_module import bound_in, module_of
+from rebsync.reverse.syntax.py_module import bound_in
 
 # Compiled modules have their names in a file of the interpreter, or are part of it.
 _FOLDERS = tuple(dict.fromkeys(map(sysconfig.get_path, ("stdlib", "platstdlib"))))
@@ -41,7 +41,7 @@ def gives(module: str, name: str) -> bool:
     source = _source_of(module)
     if source is None:
         return _is_compiled(module)
-    bound = bound_in(tree) if (tree := module_of(source)) is not None else None
+    bound = bound_in(source)
     return bound is None or name in bound
 
 

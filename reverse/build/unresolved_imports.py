@@ -130,15 +130,12 @@ class Importable:
         if own := self._files(module, path):
             join = "" if module.endswith(".") else "."
             return bool(self._files(f"{module}{join}{name}", path)) or any(
-                bound is None or name in bound for bound in map(self._bound, own)
+                bound is None or name in bound
+                for bound in (bound_in(self.modules[f].text) for f in own)
             )
         if top in WHOLE and inside == "msg":
             return name in WHOLE[top]
         return not is_standard(module) or gives(module, name)
-
-    def _bound(self, path: str) -> frozenset[str] | None:
-        tree = module_of(self.modules[path].text)
-        return bound_in(tree) if tree is not None else None
 
     def _files(self, name: str, path: str) -> list[str]:
         """The files that a name with dots may be, without the packages around them."""

@@ -19,8 +19,13 @@ def module_of(text: str) -> ast.Module | None:
             return None
 
 
-def bound_in(tree: ast.Module) -> frozenset[str] | None:
+# Each import of a package asks this of the modules that it may mean.
+@lru_cache(maxsize=128)
+def bound_in(text: str) -> frozenset[str] | None:
     """The names that a module binds for who imports it; None where only a run tells them all."""
+    tree = module_of(text)
+    if tree is None:
+        return None
     found: set[str] = set()
     for node in ast.walk(tree):
         match node:

@@ -18,7 +18,7 @@ from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_conditions import IfSection, alternatives
 from rebsync.reverse.syntax.cpp_declarations import only_braces
 from rebsync.reverse.syntax.cpp_text import has_alternatives, is_split, read_branch
-from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.reverse.syntax.misread import misread
 from rebsync.source import Span
 
@@ -27,6 +27,7 @@ NO_PYTHON = "this is no Python that can be read"
 _LONGEST = 120
 _WORD = re.compile(r"\w+")
 _DIRECTIVES = re.compile(r"^[ \t]*#(?:[^\n\\]|\\(?:\r?\n)?)*", re.MULTILINE)
+_INCLUDES = re.compile(rb"#[ \t]*(?:include|import)")  # also `#include_next`
 # In these an include is no list of declarations for the file.
 _SCOPES = frozenset(
     {"compound_statement", "field_declaration_list", "enumerator_list", "initializer_list"}
@@ -56,13 +57,16 @@ def unparsed(cpp: Cpp) -> Iterator[Finding]:
 
 def _included_code(cpp: Cpp) -> Iterator[Finding]:
     """Where a file is included that is not read as a header at that place."""
-    for node in inside(cpp.root, "preproc_include", "preproc_call"):
-        if not text_of(node).startswith("#include"):
+    for directive in _INCLUDES.finditer(cpp.data):
+        word = cpp.root.descendant_for_byte_range(*directive.span())
+        node = word.parent if word is not None else None
+        if node is None or node.type not in ("preproc_include", "preproc_call"):
             continue
         named_ = node.child_by_field_name("path")
         path = text_of(named_) if named_ is not None else ""
         is_inner = any(above.type in _SCOPES for above in ancestors(node))
-        is_header = path.startswith("<") or path.strip('"').endswith(tuple(HEADERS))
+        is_bare = path.startswith("<") and "." not in path.rpartition("/")[2]  # as <vector> is
+        is_header = is_bare or path.strip('"<>').endswith(tuple(HEADERS))
         if is_inner or not is_header:
             why = "what this includes is not read at this place"
             hint = "include headers at the top of a file" if is_inner else "name it a header: .hpp"

@@ -154,13 +154,13 @@ def _match_alike(
     matching: Matching, left: Operand, right: Operand, classes: dict[str, str]
 ) -> None:
     lefts, rights = _unpaired(matching)
+    both = [(x, r) for x in lefts for r in rights if x.kind == r.kind]
+    pairs = [(x, r) for x, r in both if x.owner == classes.get(r.owner, r.owner)]
+    if not pairs:
+        return  # most models: how they use their names need not be known
     blind = {item.name for item in (*lefts, *rights)}
     uses = (_uses(left, blind), _uses(right, blind))
-    scores: list[tuple[float, Item, Item]] = []
-    for x in lefts:
-        for r in rights:
-            if x.kind == r.kind and x.owner == classes.get(r.owner, r.owner):
-                scores.append((_alike(x, r, uses, blind, classes), x, r))
+    scores = [(_alike(x, r, uses, blind, classes), x, r) for x, r in pairs]
     matching.take(_greedy(scores))
 
 

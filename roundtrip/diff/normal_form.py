@@ -16,7 +16,8 @@ folded apart from that (`as_in_python`), as C++ does show it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
+from operator import is_not
 from typing import TypeVar, cast
 
 from rebsync import model as m
@@ -51,18 +52,15 @@ def rewrite(node: _Node, rule: Callable[[object], object]) -> _Node:
     Nodes in which nothing changes stay the ones that they are.
     """
     changed: dict[str, object] = {}
-    for each in fields(node):  # type: ignore[arg-type]
-        if not each.compare:
-            continue
-        value = getattr(node, each.name)
+    kind: type = type(node)
+    for name in m.child_fields(kind):
+        value = getattr(node, name)
         if isinstance(value, tuple):
-            inner = tuple(rewrite(v, rule) if is_dataclass(v) else v for v in value)
-            if any(new is not old for new, old in zip(inner, value, strict=True)):
-                changed[each.name] = inner
-        elif is_dataclass(value):
-            inner_node = rewrite(value, rule)
-            if inner_node is not value:
-                changed[each.name] = inner_node
+            inner = tuple([rewrite(each, rule) for each in value])
+            if any(map(is_not, inner, value)):
+                changed[name] = inner
+        elif value is not None and (rewritten := rewrite(value, rule)) is not value:
+            changed[name] = rewritten
     rebuilt = replace(node, **changed) if changed else node  # type: ignore[type-var]
     return cast("_Node", rule(rebuilt))
 

@@ -11,7 +11,7 @@ from rebsync import model as m
 from rebsync.diagnostics import RebsyncError
 from rebsync.records import dataclass
 from rebsync.roundtrip.diff.difference import Depth, Element, Place, place
-from rebsync.roundtrip.diff.normal_form import as_in_python, normal, rewrite
+from rebsync.roundtrip.diff.normal_form import as_in_python, normal
 from rebsync.source import NOWHERE, Source, SourceSpan, Span
 from rebsync.statements import UNREADABLE
 from rebsync.static import Analysis, analyse
@@ -108,11 +108,10 @@ def side(given: SourcedModel, depth: Depth, others: frozenset[str] | None = None
         if others is not None and depth is Depth.EQUAL:
             classes = (c if c.name in others else as_in_python(c) for c in model.classes)
             model = replace(model, classes=tuple(classes))
-        model = rewrite(model, lambda node: node)  # each node once: symbols go by identity
+        analysis = analyse(model, fragment=True, incomplete=True)
+        items = tuple(_items(model))
     except RecursionError:
         raise too_deep(given) from None
-    analysis = analyse(model, fragment=True, incomplete=True)
-    items = tuple(_items(model))
     return Operand(model, analysis, given, depth, items, others is not None)
 
 

@@ -16,7 +16,7 @@ from rebsync.checker.pins import pins_module
 from rebsync.checker.problem import Problem
 from rebsync.checker.steps import Semantics
 from tests.checker.comparing import System
-from tests.checker.test_models import ROWS, Expected, read, rows
+from tests.checker.test_models import Expected, read, rows
 from tests.cli.run import rebsync
 
 _HOST = Path(__file__).parent / "pins"
@@ -73,16 +73,6 @@ def test_the_host_walks_what_verify_does(row: Expected, host: Path, tmp_path: Pa
     asserted = {each.name for each in system.properties.assertions}
     false = {f"property {name}" for name in asserted if holds[name] != str(row.states)}
     assert false == {v for v in row.violations if v.removeprefix("property ") in asserted}
-
-
-@pytest.mark.skipif(not shutil.which("pins2lts-seq"), reason="no LTSmin")
-def test_ltsmin_itself_finds_what_verify_does(tmp_path: Path) -> None:
-    """Of a module that was compiled with our part of its headers."""
-    row = next(row for row in ROWS if row.model == "light_timed")
-    library = _module(_of(read(row.model), row.view), tmp_path)
-    command = ["pins2lts-seq", str(library)]
-    done = subprocess.run(command, check=True, capture_output=True, text=True)
-    assert f"{row.states} states {row.transitions} transitions" in done.stdout + done.stderr
 
 
 def test_labels_are_what_is_true_or_false(host: Path, tmp_path: Path) -> None:

@@ -86,13 +86,15 @@ def written(files: dict[str, str], directory: Path, stem: str, config: Config) -
     return package
 
 
-def complaints(packages: Sequence[Path], directory: Path) -> list[str]:
-    """What compilers say about the sources of packages; nothing, that is the goal."""
+def complaints(packages: Sequence[Path], directory: Path, common: Path) -> list[str]:
+    """What compilers say about the sources of packages; nothing, that is the goal.
+
+    `common` is what `precompiled` gave.
+    """
     headers = directory / "headers"
     environment = {"PATH": SYSTEM_PATH, "LANG": "C.UTF-8"}
     command = [SYSTEM_PYTHON, "-c", _MESSAGES, str(headers), *map(str, packages)]
     subprocess.run(command, check=True, env=environment)
-    common = _precompiled(directory)
     jobs = [(p, s) for p in packages for s in _sources(p)]
     with ThreadPoolExecutor(2) as pool:
         found = pool.map(lambda job: _complaint(job[0], job[1], headers, common), jobs)
@@ -104,7 +106,8 @@ def _sources(package: Path) -> Iterable[Path]:
     return [s for s in found if not s.stem.endswith("_node") or "param" in s.read_text()]
 
 
-def _precompiled(directory: Path) -> Path:
+def precompiled(directory: Path) -> Path:
+    """What every source begins with, compiled once: that takes as long as six sources."""
     common = directory / "common.h"
     common.write_text("#include <ros/ros.h>\n#include <std_msgs/Header.h>\n#include <random>\n")
     _compile(["-x", "c++-header", str(common), "-o", f"{common}.gch"])

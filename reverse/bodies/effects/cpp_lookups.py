@@ -72,9 +72,9 @@ def _variables(code: Code, log: Node) -> dict[str, str]:
         locals_: dict[str, str] = {}
         for name in code.named(cpp, cpp.root, sorted(names)):
             declared = climb(name, lambda above: above.type not in _DECLARATORS)
-            function = climb(name, lambda above: above.type == "function_definition")
             if declared is None or declared.type not in ("declaration", "parameter_declaration"):
                 continue
+            function = climb(name, lambda above: above.type == "function_definition")
             if function is None or function == around:
                 kept = outside if function is None else locals_
                 kept[text_of(name)] = squeezed(declared)

@@ -258,11 +258,11 @@ ALIKE = (
 
 def faults(patrol: Patrol) -> tuple[Fault, ...]:
     """All faults of the package in a dialect."""
-    return (*ALIKE, *_of_texts(patrol), *_of_entries(patrol))
+    return (*ALIKE, *of_code(patrol), *_of_entries(patrol))
 
 
-def _of_texts(patrol: Patrol) -> Iterator[Fault]:
-    """What can be wrong with what a source says."""
+def of_code(patrol: Patrol) -> Iterator[Fault]:
+    """What can be wrong with what a source says, which each language reads in its own way."""
     source, written = patrol.source, patrol.edits[0][0]
     marked = text(source, lambda t: t + _CONFLICT)
     odd = text(written, lambda t: f"{patrol.comment} \udcff\n{t}")
@@ -277,15 +277,15 @@ def _of_texts(patrol: Patrol) -> Iterator[Fault]:
     for name, change in (("CRLF", _crlf), ("a BOM", _bom), ("no end of line at the end", _unended)):
         both = (text(path, change) for path in dict.fromkeys((source, written, MODEL_FILE)))
         yield Fault(f"files with {name}", all_of(*both), 0)
+    yield Fault("a source deleted", gone(source), 4, "RS969")
+    yield Fault("the launch file deleted", gone(patrol.launch), 4, "RS969")
 
 
 def _of_entries(patrol: Patrol) -> Iterator[Fault]:
-    """What can be wrong with the entries of directories: gone, of another's, links."""
+    """What can be wrong with the entries of directories: of another's, links."""
     source, written = patrol.source, patrol.edits[0][0]
     folder, _, name = source.rpartition("/")
     suffix, above = name.rpartition(".")[2], written.rpartition("/")[0]
-    yield Fault("a source deleted", gone(source), 4, "RS969")
-    yield Fault("the launch file deleted", gone(patrol.launch), 4, "RS969")
     yield Fault("a source that is read-only", mode(written, 0o444), 2, "RS803", is_user=True)
     yield Fault("a directory that is read-only", mode(above, 0o555), 2, "RS803", is_user=True)
     yield Fault("a source that may not be read", mode(source, 0), 4, "RS941", is_user=True)
