@@ -28,7 +28,7 @@ UNHASHABLE = frozenset(
     {OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE, OwnType.MODEL_ARRAY}
 )
 _ADDED = SEQUENCES | {OwnType.QUEUE}
-_ORDERED = (Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL)
+ORDERED = (Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL)
 _WITHOUT_ORDER = frozenset({OwnType.MAPPING, OwnType.NONE, OwnType.MESSAGE, OwnType.MODEL_ARRAY})
 _OF_SETS = (Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR, Operator.SUBTRACT)
 
@@ -47,7 +47,7 @@ def takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bo
             return {left, right} in [{_NUMBER, each} for each in _ADDED]
         case Operator.FLOOR_MODULO:
             return left in (OwnType.TEXT, OwnType.BYTES)
-        case _ if operator in _ORDERED:
+        case _ if operator in ORDERED:
             return left is right and left not in _WITHOUT_ORDER
         case _ if operator in _OF_SETS:
             is_mapping = left is right is OwnType.MAPPING and operator is Operator.BIT_OR
@@ -60,6 +60,11 @@ def are_ordered(types: ValueTypes, has_order: Callable[[str], bool]) -> bool:
     """Whether each value of some types can be compared with each; `has_order` asks of a class."""
     pairs = combinations_with_replacement(sorted(types, key=str), 2)
     return all(_is_ordered(one, other, has_order) for one, other in pairs)
+
+
+def are_comparable(left: ValueTypes, right: ValueTypes, has_order: Callable[[str], bool]) -> bool:
+    """Whether each value of some types can be compared with each of others."""
+    return all(_is_ordered(one, other, has_order) for one in left for other in right)
 
 
 def _is_ordered(
