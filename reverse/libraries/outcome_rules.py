@@ -174,8 +174,12 @@ RULES = (
         python="math.isfinite math.isinf math.isnan math.hypot math.atan2 math.atan", gives="number"
     ),
     OutcomeRule(
-        python="math.sin math.cos math.tan math.degrees math.radians math.copysign", gives="number"
+        python="math.sin math.cos math.tan",
+        raises="builtins.ValueError",
+        gives="number",
+        when=Raises.INFINITE,
     ),
+    OutcomeRule(python="math.degrees math.radians math.copysign", gives="number"),
     OutcomeRule(python="math.tanh math.pi math.inf math.nan math.e math.tau math.isclose"),
     OutcomeRule(python="math.fsum math.prod math.dist math.gcd math.erf", gives="number"),
     OutcomeRule(
@@ -277,7 +281,7 @@ RULES = (
     ),
     OutcomeRule(python="set.pop", empty="builtins.KeyError", size=Size.LOSES),
     OutcomeRule(python=".remove", raises="builtins.ValueError", size=Size.ANY, when=Raises.ABSENT),
-    OutcomeRule(python=".index", raises="builtins.ValueError", when=Raises.ABSENT),
+    OutcomeRule(python=".index .rindex", raises="builtins.ValueError", when=Raises.ABSENT),
     OutcomeRule(python="set.remove", raises="builtins.KeyError", size=Size.ANY, when=Raises.ABSENT),
     OutcomeRule(python=".discard .clear", size=Size.ANY),
     OutcomeRule(".pop_front .pop_back .pop", size=Size.LOSES),

@@ -234,6 +234,8 @@ class OutcomeCalls:
                     self._enters(node, method)
             case LibraryOrigin(name, False):
                 self._library(node, name, self.notes.table.function(name), None, facts)
+                if not self.notes.is_parameter(value):
+                    self._given.of_value(node, name, facts)
             case _ if is_standard(value):
                 pass  # a distribution, a comparison: it gives a value
             case _ if (of := self.expressions.operators.class_of(value)) is not None:

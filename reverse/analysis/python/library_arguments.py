@@ -75,9 +75,18 @@ class LibraryArguments:
         """Notes that a call of a function or method may be refused what it gives."""
         if self._notes.table.language is not Language.PYTHON:
             return
+        self._asks(node, self._named(node.callee, facts), facts)
+        self._called_for_each(node, facts)
+
+    def of_value(self, node: s.Call, name: str, facts: Facts) -> None:
+        """The same of a function that is stored under a name, or in a partial one."""
+        if self._notes.table.is_of_language(name) and not self._notes.table.function(name).acts:
+            self._asks(node, [name], facts)
+
+    def _asks(self, node: s.Call, names: Iterable[str], facts: Facts) -> None:
         if any(a.stars for a in node.arguments):
             return
-        for name in self._named(node.callee, facts):
+        for name in names:
             given = _given(node)
             fitting = [each for each in signatures(name) if _is_bound(each, given.keys())]
             if not fitting:
@@ -88,7 +97,6 @@ class LibraryArguments:
                 self._notes.fails(node, _BEYOND)
             for value in self._asking(fitting, given):
                 self._expressions.none.check(value, node, facts)
-        self._called_for_each(node, facts)
 
     def _named(self, callee: Callee, facts: Facts) -> Iterable[str]:
         """The full names of what is called in Python's own library, and does no more than that."""

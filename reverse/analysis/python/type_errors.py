@@ -271,6 +271,7 @@ class TypeErrors:
             wrong = False
         else:
             wrong = any(not takes(operator, a, b) for a in kinds[0] for b in kinds[1])
+            wrong |= any(_is_refused(operator, a, b) for a in types[0] for b in types[1])
             wrong |= operator in ORDERED and not self._elements.are_comparable(*types)
             wrong |= operator in _OF_BITS and any(map(self._floats.has, (left, right)))
             is_times = operator is Operator.MULTIPLY and self._floats.has(right)
@@ -359,6 +360,15 @@ def _is_time_and_number(one: ValueTypes, other: ValueTypes) -> bool:
     """Whether one value may be a time or duration of a client library, and one a number."""
     is_time = any(isinstance(t, LibraryType) and t.name in TIMES for t in one)
     return is_time and OwnType.NUMBER in other
+
+
+def _is_refused(operator: Operator, left: ValueType | None, right: ValueType | None) -> bool:
+    """Whether an object of a library, other than times of clients, is no operand of an operator."""
+    is_object = any(isinstance(t, LibraryType) and t.name not in TIMES for t in (left, right))
+    is_other = left is None or right is None or isinstance(left, InstanceType)
+    is_text = operator is Operator.FLOOR_MODULO and left is OwnType.TEXT
+    is_other |= is_text or isinstance(right, InstanceType)
+    return is_object and not is_other and not given_by(operator, left, right)
 
 
 def _is_none(value: e.Expression) -> bool:

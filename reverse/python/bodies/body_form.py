@@ -177,11 +177,17 @@ class PyForm:
         """The functions of the files, by their names in the form."""
         scopes = (*self._code.scopes.values(), *self._code.modules.values())
         by_place = {(id(s.py), s.py.span(s.node)): s for s in scopes}
-        found = (
-            (n, by_place.get((id(py), self.program.function(n).place)))
-            for n, py in self._file_of.items()
-        )
-        return {name: scope for name, scope in found if scope is not None}
+        found = {}
+        for name, py in self._file_of.items():
+            place = self.program.function(name).place
+            scope = by_place.get((id(py), place))
+            if scope is None:  # of a generator expression: it stands in another function
+                around = [
+                    s for (of, at), s in by_place.items() if of == id(py) if _is_in(place, at)
+                ]
+                scope = min(around, key=lambda s: s.py.span(s.node).end - s.py.span(s.node).start)
+            found[name] = scope
+        return found
 
     @cached_property
     def _loops(self) -> ProgramLoops:
