@@ -198,34 +198,12 @@ _MODULES: Mapping[str, str] = {
 }
 # Modules of Python's own library of which nodes ask names; submodules are none.
 _OWN_MODULES = frozenset(
-    [
-        "abc",
-        "bisect",
-        "collections",
-        "contextlib",
-        "copy",
-        "dataclasses",
-        "datetime",
-        "decimal",
-        "enum",
-        "functools",
-        "heapq",
-        "itertools",
-        "json",
-        "math",
-        "operator",
-        "queue",
-        "random",
-        "re",
-        "statistics",
-        "string",
-        "struct",
-        "sys",
-        "threading",
-        "time",
-        "typing",
-        "uuid",
-    ]
+    {
+        *("abc", "bisect", "collections", "contextlib", "copy", "dataclasses", "datetime"),
+        *("decimal", "enum", "functools", "heapq", "itertools", "json", "math", "operator"),
+        *("queue", "random", "re", "statistics", "string", "struct", "sys", "threading"),
+        *("time", "typing", "uuid"),
+    }
 )
 # Constants of messages are written in capitals; the rest are what generators add.
 _OF_MESSAGES = frozenset(

@@ -31,6 +31,7 @@ from rebsync.reverse.analysis.python.operator_types import (
     ITERABLE,
     ORDERED,
     SEQUENCES,
+    given_by,
     takes,
 )
 from rebsync.reverse.analysis.python.value_types import (

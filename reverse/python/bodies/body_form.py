@@ -180,13 +180,11 @@ class PyForm:
         found = {}
         for name, py in self._file_of.items():
             place = self.program.function(name).place
-            scope = by_place.get((id(py), place))
-            if scope is None:  # of a generator expression: it stands in another function
-                around = [
-                    s for (of, at), s in by_place.items() if of == id(py) if _is_in(place, at)
-                ]
-                scope = min(around, key=lambda s: s.py.span(s.node).end - s.py.span(s.node).start)
-            found[name] = scope
+            of_file = {at: s for (of, at), s in by_place.items() if of == id(py)}
+            # A generator expression, which is no scope there, is of what it stands in.
+            around = [at for at in of_file if at == place or _is_in(place, at)]
+            if around:
+                found[name] = of_file[min(around, key=lambda at: at.end - at.start)]
         return found
 
     @cached_property
