@@ -49,6 +49,7 @@ class Raises(Enum):
     ZERO_SECOND = "a second one that may be zero"
     ZERO_STEP = "a third one that may be zero"
     INFINITE = "a first one that may be no number, or greater than all"
+    BOUNDLESS = "a first one that may be greater than all"
     TEXT = "a first one that may be no number"
     COMPUTED = "one that is not written as a number"
     NO_START = "no third one, and a second one that may have no elements"
@@ -177,7 +178,7 @@ RULES = (
         python="math.sin math.cos math.tan",
         raises="builtins.ValueError",
         gives="number",
-        when=Raises.INFINITE,
+        when=Raises.BOUNDLESS,
     ),
     OutcomeRule(python="math.degrees math.radians math.copysign", gives="number"),
     OutcomeRule(python="math.tanh math.pi math.inf math.nan math.e math.tau math.isclose"),

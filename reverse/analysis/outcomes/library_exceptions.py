@@ -98,6 +98,7 @@ class LibraryExceptions:
         values = [a.value for a in node.arguments]
         if any(a.stars for a in node.arguments):
             return True
+        is_finite = Magnitudes(self.origins, self.function).is_finite
         match when:
             case Raises.ANY:
                 return True
@@ -120,8 +121,9 @@ class LibraryExceptions:
             case Raises.TEXT:
                 first = values[:1]
                 return not all(self._is_number_text(v, facts) for v in first)
+            case Raises.BOUNDLESS:
+                return not all(map(is_finite, values[:1]))
             case Raises.INFINITE:
-                is_finite = Magnitudes(self.origins, self.function).is_finite
                 is_whole = self.expressions.types.kinds.is_whole
                 if all(is_whole(v) or self._is_of_number(v, int) for v in values[:1]):
                     return False
