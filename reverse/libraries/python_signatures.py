@@ -109,7 +109,7 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     ("iterable any?", "next"),
     ("iterable key=function|none reverse=number", "sorted"),
     ("iterable default=any key=function|none", "max min"),
-    ("any any *any key=function|none", "max min"),
+    ("value value *value key=function|none", "max min"),
     ("function iterable *iterable", "map itertools.starmap"),
     ("function|none iterable", "filter itertools.filterfalse"),
     ("function iterable any?", "functools.reduce"),
@@ -219,8 +219,12 @@ _METHODS: tuple[tuple[str, str], ...] = (
         dict.keys dict.values dict.items dict.popitem dict.iteritems dict.iterkeys dict.itervalues
         set.clear set.copy set.pop deque.clear deque.copy deque.pop deque.popleft deque.reverse
         number.is_integer number.bit_length number.conjugate bytes.hex list.pop str.strip
-        str.lstrip str.rstrip str.split str.rsplit str.splitlines deque.rotate""",
+        str.lstrip str.rstrip str.split str.rsplit str.splitlines deque.rotate
+        datetime.datetime.timestamp datetime.datetime.date datetime.datetime.time
+        datetime.datetime.isoformat datetime.datetime.weekday datetime.datetime.timetuple
+        datetime.date.isoformat datetime.date.weekday datetime.timedelta.total_seconds""",
     ),
+    ("text", "datetime.datetime.strftime datetime.date.strftime datetime.time.strftime"),
     ("text|none", "str.strip str.lstrip str.rstrip"),
     ("sep:separator|none maxsplit:whole?", "str.split str.rsplit"),
     ("maxsplit=whole", "str.split str.rsplit"),

@@ -98,7 +98,6 @@ class LibraryExceptions:
         values = [a.value for a in node.arguments]
         if any(a.stars for a in node.arguments):
             return True
-        is_finite = Magnitudes(self.origins, self.function).is_finite
         match when:
             case Raises.ANY:
                 return True
@@ -121,13 +120,8 @@ class LibraryExceptions:
             case Raises.TEXT:
                 first = values[:1]
                 return not all(self._is_number_text(v, facts) for v in first)
-            case Raises.BOUNDLESS:
-                return not all(map(is_finite, values[:1]))
-            case Raises.INFINITE:
-                is_whole = self.expressions.types.kinds.is_whole
-                if all(is_whole(v) or self._is_of_number(v, int) for v in values[:1]):
-                    return False
-                return not all(self._is_number(v) and is_finite(v) for v in values[:1])
+            case Raises.INFINITE | Raises.BOUNDLESS:
+                return self._may_be_infinite(values[:1], when)
             case Raises.COMPUTED:
                 return not all(map(self.expressions.is_written, values)) or _is_no_time(node)
             case Raises.NO_START:
@@ -144,6 +138,16 @@ class LibraryExceptions:
                 return not self._are_ordered(values, facts)
             case _:
                 return TimeArguments(self.origins, self.function).are_beyond(values, when)
+
+    def _may_be_infinite(self, values: Sequence[e.Expression], when: Raises) -> bool:
+        """Whether numbers may be greater than all, or (`INFINITE`) values may be no numbers."""
+        is_finite = Magnitudes(self.origins, self.function).is_finite
+        if when is Raises.BOUNDLESS:
+            return not all(map(is_finite, values))
+        is_whole = self.expressions.types.kinds.is_whole
+        if all(is_whole(v) or self._is_of_number(v, int) for v in values):
+            return False
+        return not all(self._is_number(v) and is_finite(v) for v in values)
 
     def _is_odd_parameter(self, node: s.Call, when: Raises, facts: Facts) -> bool:
         """Whether a parameter may not be declared that is asked for, or is declared again."""

@@ -15,6 +15,7 @@ from rebsync.reverse.analysis.python.operator_types import ITERABLE, SEQUENCES, 
 from rebsync.reverse.analysis.python.value_types import (
     ContainerType,
     InstanceType,
+    LibraryType,
     OwnType,
     ValueType,
     ValueTypes,
@@ -80,8 +81,12 @@ class LibraryArguments:
 
     def of_value(self, node: s.Call, name: str, facts: Facts) -> None:
         """The same of a function that is stored under a name, or in a partial one."""
-        if self._notes.table.is_of_language(name) and not self._notes.table.function(name).acts:
+        if self._notes.table.is_of_language(name) and self._has_end(name):
             self._asks(node, [name], facts)
+
+    def _has_end(self, name: str) -> bool:
+        """Whether nothing but arguments is to be asked of a function, or a signature says these."""
+        return not self._notes.table.function(name).acts or bool(signatures(name))
 
     def _asks(self, node: s.Call, names: Iterable[str], facts: Facts) -> None:
         if any(a.stars for a in node.arguments):
@@ -103,10 +108,10 @@ class LibraryArguments:
         match callee:
             case s.LibraryCallee(name, None):
                 is_own = self._notes.table.is_of_language(name)
-                return [name] if is_own and not self._notes.table.function(name).acts else []
+                return [name] if is_own and self._has_end(name) else []
             case s.MethodCallee(receiver, name, None, None):
-                owns = map(own_type, self._kinds.types(receiver, facts))
-                return sorted({f"{own.value}.{name}" for own in owns if own in _METHODS_OF})
+                classes = map(_class_of, self._kinds.types(receiver, facts))
+                return sorted(f"{each}.{name}" for each in set(classes) if each)
             case _:
                 return []
 
@@ -127,7 +132,7 @@ class LibraryArguments:
         """Whether a value is of the types of a kind."""
         types = self._kinds.known(self._kinds.types(value, facts))
         match kind:
-            case "any":
+            case "any" | "value":
                 return True
             case "none":
                 return isinstance(value, e.Literal) and value.value is None
@@ -213,16 +218,18 @@ class LibraryArguments:
 
     def _takes(self, name: str, types: Sequence[ValueTypes]) -> bool:
         """Whether a function takes values of some types, one for each of its places."""
+        known = [self._kinds.known(of) for of in types]
         return any(
             each.required <= len(types)
-            and all(
-                any(
-                    kind == "any" or all(self._is_type(t, kind) for t in self._kinds.known(of))
-                    for kind in each.kind(at).split("|")
-                )
-                for at, of in enumerate(types)
-            )
+            and all(self._has_kind(of, each.kind(at)) for at, of in enumerate(known))
             for each in signatures(name)
+        )
+
+    def _has_kind(self, types: ValueTypes, kinds: str) -> bool:
+        """Whether values of some types are of one of the kinds that an argument may be of."""
+        return any(
+            kind in ("any", "value") or all(self._is_type(t, kind) for t in types)
+            for kind in kinds.split("|")
         )
 
 
@@ -232,6 +239,14 @@ def _given(node: s.Call) -> _Given:
     given.update(enumerate(a.value for a in node.arguments if a.name is None))
     given.update({a.name: a.value for a in node.arguments if a.name is not None})
     return given
+
+
+def _class_of(type_: ValueType | None) -> str:
+    """The class of which signatures have the methods, for values of a type; empty if none."""
+    if isinstance(type_, LibraryType):
+        return type_.name if type_.name.startswith("datetime.") else ""
+    own = own_type(type_)
+    return own.value if own in _METHODS_OF else ""
 
 
 def _is_bound(signed: Signature, given: Collection[int | str]) -> bool:

@@ -33,6 +33,7 @@ from rebsync.reverse.python.bodies.body_scope import Message, Pending, Var, unkn
 from rebsync.reverse.python.expressions.conditions import comparison, connected, signs_of
 from rebsync.reverse.python.expressions.values import REAL, STRING, TRUTH, WHOLE, Value
 from rebsync.reverse.syntax.py_tree import (
+from rebsync.source import Span
     field,
     named,
     number_of,
@@ -53,6 +54,16 @@ class PyExpressions(BodyExpressionReader):
 
     def read(self, node: Node) -> Value:
         """An expression; `Unknown` is raised where nobody knows its value."""
+        try:
+            return self._read(node)
+        except Unread:
+            # The model has nothing of it: neither what was read before this was found.
+            path, span = self.frame.py.source.path, self.span(node)
+            within = {p for p in self.reading.exact if p[0] == path and _is_in(p[1], span)}
+            self.reading.exact -= within
+            raise
+
+    def _read(self, node: Node) -> Value:
         match node.type:
             case "integer" | "float":
                 return self._number(node)
@@ -350,3 +361,7 @@ def _is_float(value: Value) -> bool:
 def short(node: Node) -> str:
     text = " ".join(text_of(node).split())
     return text if len(text) <= 40 else f"{text[:37]}..."
+
+
+def _is_in(place: Span, span: Span) -> bool:
+    return span.start <= place.start and place.end <= span.end
