@@ -101,12 +101,12 @@ class OutcomeExpressions:
                 self._unset.check(value, facts)
             case e.Local():
                 self._unset.check(value, facts)
-            case e.Index(of):
+            case (
+                e.Index(of)
+                | e.Unary(Operator.NEGATE | Operator.PLUS | Operator.INVERT, of)
+                | e.Binary(Operator.IN | Operator.NOT_IN, _, of)
+            ):
                 self.none.check(of, value, facts)
-            case e.Unary(Operator.NEGATE | Operator.PLUS | Operator.INVERT, of):
-                self.none.check(of, value, facts)
-            case e.Binary(Operator.IN | Operator.NOT_IN, _, right):
-                self.none.check(right, value, facts)
             case e.Binary(operator, left, right) if operator not in _ASKING_NONE:
                 self.none.check(left, value, facts)
                 self.none.check(right, value, facts)
@@ -195,11 +195,10 @@ class OutcomeExpressions:
 
     def _formats(self, value: e.Format, pieces: tuple[e.FormatPiece, ...], facts: Facts) -> None:
         """A width or precision that is computed may be negative."""
-        for piece in pieces:
-            if piece.style is not None:
-                self.none.check(piece.value, value, facts)
-        styles = (piece.style for piece in pieces)
-        inner = (s for style in styles if isinstance(style, e.Format) for s in style.pieces)
+        styled = [piece for piece in pieces if piece.style is not None]
+        for piece in styled:
+            self.none.check(piece.value, value, facts)
+        inner = (s for p in styled if isinstance(p.style, e.Format) for s in p.style.pieces)
         for piece in inner:
             if not self.is_positive(piece.value, facts):
                 self.notes.fails(value, "has a style that is none")

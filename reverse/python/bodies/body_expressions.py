@@ -33,13 +33,13 @@ from rebsync.reverse.python.bodies.body_scope import Message, Pending, Var, unkn
 from rebsync.reverse.python.expressions.conditions import comparison, connected, signs_of
 from rebsync.reverse.python.expressions.values import REAL, STRING, TRUTH, WHOLE, Value
 from rebsync.reverse.syntax.py_tree import (
-from rebsync.source import Span
     field,
     named,
     number_of,
     text_in,
     text_of,
 )
+from rebsync.source import Span
 
 _POSITIVE = Interval(1, INT32.high)
 _DIVISOR = "a divisor that may be 0 or negative"
