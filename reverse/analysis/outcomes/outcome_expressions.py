@@ -43,8 +43,7 @@ _ASKING_NONE = frozenset(
     {Operator.SAME, Operator.NOT_SAME, Operator.EQUAL, Operator.UNEQUAL}
     | {Operator.IN, Operator.NOT_IN}
 )
-_INDEXING = ("__getitem__", "__class_getitem__")
-_SEQUENCES = ("list", "tuple", "deque", "str")
+_INDEXING, _SEQUENCES = ("__getitem__", "__class_getitem__"), ("list", "tuple", "deque", "str")
 _MODULO = (Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER)
 
 
@@ -101,11 +100,9 @@ class OutcomeExpressions:
                 self._unset.check(value, facts)
             case e.Local():
                 self._unset.check(value, facts)
-            case (
-                e.Index(of)
-                | e.Unary(Operator.NEGATE | Operator.PLUS | Operator.INVERT, of)
-                | e.Binary(Operator.IN | Operator.NOT_IN, _, of)
-            ):
+            case e.Index(of) | e.Binary(Operator.IN | Operator.NOT_IN, _, of):
+                self.none.check(of, value, facts)
+            case e.Unary(operator, of) if operator is not Operator.NOT:
                 self.none.check(of, value, facts)
             case e.Binary(operator, left, right) if operator not in _ASKING_NONE:
                 self.none.check(left, value, facts)

@@ -269,7 +269,9 @@ class PyExpressions(BodyExpressionReader):
 
     def _is_not_zero(self, value: Value, node: Node) -> None:
         match bare(value.expression):
-            case m.IntLiteral(number) if number:
+            case m.IntLiteral(number):
+                if not number:
+                    raise Unread(self.span(node), _DIVISOR)
                 return
             case m.FloatLiteral() | m.Unary("-", m.FloatLiteral() | m.IntLiteral()):
                 if not any(
