@@ -146,10 +146,9 @@ class OutcomeExpressions:
     def _divides(
         self, value: e.Binary, left: e.Expression, right: e.Expression, facts: Facts
     ) -> None:
-        if isinstance(value.type, t.Float) and not value.dynamic:
-            return
         is_cpp = self.notes.table.language is Language.CPP
-        if is_cpp and (is_floating(left) or is_floating(right)):
+        is_float = isinstance(value.type, t.Float) and not value.dynamic
+        if is_cpp and (is_float or is_floating(left) or is_floating(right)):
             return  # the other operand becomes one ([expr.arith.conv])
         if value.operator is Operator.FLOOR_MODULO and self.is_text(left):
             return
