@@ -282,6 +282,7 @@ RULES = (
     ),
     OutcomeRule(python="set.pop", empty="builtins.KeyError", size=Size.LOSES),
     OutcomeRule(python=".remove", raises="builtins.ValueError", size=Size.ANY, when=Raises.ABSENT),
+    OutcomeRule(python=".move_to_end", raises="builtins.KeyError", when=Raises.ABSENT),
     OutcomeRule(python=".index .rindex", raises="builtins.ValueError", when=Raises.ABSENT),
     OutcomeRule(python="set.remove", raises="builtins.KeyError", size=Size.ANY, when=Raises.ABSENT),
     OutcomeRule(python=".discard .clear", size=Size.ANY),

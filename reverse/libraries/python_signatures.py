@@ -95,6 +95,7 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     ("sized", "len"),
     ("sequence|mapping", "reversed"),
     ("iterable", "any all iter"),
+    ("function any", "iter"),
     ("iterable?", "list tuple"),
     ("hashables?", "set frozenset"),
     ("hashables any?", "dict.fromkeys"),
@@ -113,6 +114,7 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     ("function iterable *iterable", "map itertools.starmap"),
     ("function|none iterable", "filter itertools.filterfalse"),
     ("function iterable any?", "functools.reduce"),
+    ("function *any", "functools.partial"),
     ("function", "functools.cmp_to_key functools.wraps contextlib.contextmanager property"),
     ("*any sep=text|none end=text|none file=any flush=any", "print"),
     (
@@ -187,7 +189,7 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
         "any *any",
         """
         logging.debug logging.info logging.warning logging.error logging.critical logging.warn
-        logging.exception logging.log pprint.pformat functools.partial""",
+        logging.exception logging.log pprint.pformat""",
     ),
     ("default=any default_factory=any init=any repr=any compare=any", "dataclasses.field"),
     ("limit:number|none? chain:any?", "traceback.format_exc traceback.print_exc"),

@@ -18,7 +18,7 @@ _COMPUTING = frozenset(
 _OF_FLOATS = frozenset(
     {
         *("builtins.float", "time.time", "time.monotonic", "time.perf_counter", "random.random"),
-        *("random.uniform", "random.gauss", "rospy.get_time", "math.fsum", "statistics.mean"),
+        *("random.uniform", "random.gauss", "math.fsum", "statistics.mean"),
         *(f"math.{name}" for name in ("sqrt", "sin", "cos", "tan", "atan2", "hypot", "fabs")),
         *(f"math.{name}" for name in ("exp", "log", "pow", "degrees", "radians", "atan", "fmod")),
     }
