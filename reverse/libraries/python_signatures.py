@@ -14,7 +14,7 @@ from rebsync.reverse.libraries.registry import derived
 
 
 @dataclass(frozen=True, slots=True)
-class Signature:
+class LibrarySignature:
     """The kinds of what a function takes by place, of which some must be there, and by name."""
 
     places: tuple[str, ...]
@@ -269,8 +269,8 @@ _METHODS: tuple[tuple[str, str], ...] = (
 
 
 @derived
-def _signatures() -> Mapping[str, tuple[Signature, ...]]:
-    found: dict[str, tuple[Signature, ...]] = {}
+def _signatures() -> Mapping[str, tuple[LibrarySignature, ...]]:
+    found: dict[str, tuple[LibrarySignature, ...]] = {}
     for text, names in (*_FUNCTIONS, *_METHODS):
         read = _read(text)
         for name in names.split():
@@ -278,7 +278,7 @@ def _signatures() -> Mapping[str, tuple[Signature, ...]]:
     return found
 
 
-def _read(text: str) -> Signature:
+def _read(text: str) -> LibrarySignature:
     places: list[str] = []
     required, rest, names = 0, "", {}
     for argument in text.split():
@@ -294,9 +294,9 @@ def _read(text: str) -> Signature:
             required += plain == argument
             if is_either:
                 names[name] = either
-    return Signature(tuple(places), required, rest, names)
+    return LibrarySignature(tuple(places), required, rest, names)
 
 
-def signatures(name: str) -> tuple[Signature, ...]:
+def signatures(name: str) -> tuple[LibrarySignature, ...]:
     """The signatures of a function by its full name, or of a method by that of its class."""
     return _signatures().get(name.removeprefix("builtins."), ())

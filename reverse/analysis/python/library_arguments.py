@@ -27,7 +27,7 @@ from rebsync.reverse.analysis.python.value_types import (
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.calls import Callee
-from rebsync.reverse.libraries.python_signatures import Signature, signatures
+from rebsync.reverse.libraries.python_signatures import LibrarySignature, signatures
 from rebsync.reverse.libraries.routines import Language
 
 if TYPE_CHECKING:
@@ -115,12 +115,12 @@ class LibraryArguments:
             case _:
                 return []
 
-    def _asking(self, signed: Sequence[Signature], given: _Given) -> list[e.Expression]:
+    def _asking(self, signed: Sequence[LibrarySignature], given: _Given) -> list[e.Expression]:
         """The arguments that must not be None."""
         kinds = {name: {k for each in signed for k in each.kind(name).split("|")} for name in given}
         return [given[n] for n, found in kinds.items() if not found & {"any", "none", "hashable"}]
 
-    def _fit(self, signed: Signature, given: _Given, facts: Facts, test: _Test) -> bool:
+    def _fit(self, signed: LibrarySignature, given: _Given, facts: Facts, test: _Test) -> bool:
         return all(
             any(test(value, kind, facts) for kind in signed.kind(name).split("|"))
             for name, value in given.items()
@@ -249,7 +249,7 @@ def _class_of(type_: ValueType | None) -> str:
     return own.value if own in _METHODS_OF else ""
 
 
-def _is_bound(signed: Signature, given: Collection[int | str]) -> bool:
+def _is_bound(signed: LibrarySignature, given: Collection[int | str]) -> bool:
     places = sum(isinstance(name, int) for name in given)
     return signed.required <= places and all(map(signed.kind, given))
 
