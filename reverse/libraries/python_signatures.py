@@ -264,7 +264,6 @@ _METHODS: tuple[tuple[str, str], ...] = (
     ("hashables|mapping", "dict.subtract"),
     ("last:any?", "dict.popitem"),
     ("hashable last:any?", "dict.move_to_end"),
-    ("whole?", "dict.most_common"),
 )
 
 
