@@ -5,6 +5,10 @@ Those of all versions that are in use: what is not here is in none of them.
 
 from __future__ import annotations
 
+import datetime
+import importlib
+import queue
+import threading
 from collections.abc import Mapping
 
 from rebsync.reverse.libraries import python
@@ -90,6 +94,14 @@ _ATTRIBUTES: Mapping[str, str] = {
     "rospy.Timer": f"shutdown {_THREAD}",
     "rospy.Rate": "last_time remaining sleep sleep_dur",
     **dict.fromkeys(_TIMES, _TIME),
+    **{
+        f"{of.__module__}.{of.__name__}": " ".join(dir(of))
+        for of in (
+            *(datetime.datetime, datetime.date, datetime.time, datetime.timedelta),
+            *(datetime.timezone, threading.Event, threading.Thread, threading.Timer),
+            *(queue.Queue, queue.PriorityQueue, queue.LifoQueue),
+        )
+    },
 }
 # By the full name of a function or method the class of what it gives.
 _GIVES: Mapping[str, str] = {
@@ -114,11 +126,45 @@ _GIVES: Mapping[str, str] = {
     "rospy.get_time": "number",
     **dict.fromkeys(("rospy.get_name", "rospy.get_namespace", "rospy.get_caller_id"), "str"),
     **{f"{of}.{name}": "number" for of in _TIMES for name in ("to_sec", "to_nsec")},
+    "datetime.timedelta.total_seconds": "number",
+    "datetime.datetime.timestamp": "number",
+    **{f"datetime.datetime.{name}": "str" for name in ("isoformat", "strftime")},
+    "datetime.datetime.date": "datetime.date",
+    "datetime.datetime.time": "datetime.time",
+    **dict.fromkeys(("os.getcwd", "platform.node", "socket.gethostname"), "str"),
 }
 # By the full name of an attribute the class of its value.
 _HOLDS: Mapping[str, str] = {
     **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
     **{f"{of}.{name}": "number" for of in _TIMES for name in ("secs", "nsecs")},
+    **{f"datetime.timedelta.{name}": "number" for name in ("days", "seconds", "microseconds")},
+    **{
+        f"datetime.{of}.{name}": "number"
+        for of, names in (
+            ("datetime", "year month day hour minute second microsecond"),
+            ("date", "year month day"),
+            ("time", "hour minute second microsecond"),
+        )
+        for name in names.split()
+    },
+}
+# Of times that are no client library's: what an operator gives, by the classes of its operands.
+_SPAN, _MOMENT, _DAY = "datetime.timedelta", "datetime.datetime", "datetime.date"
+OF_TIMES: Mapping[tuple[str, str, str], str] = {
+    ("+", _SPAN, _SPAN): _SPAN,
+    ("-", _SPAN, _SPAN): _SPAN,
+    ("*", _SPAN, "number"): _SPAN,
+    ("*", "number", _SPAN): _SPAN,
+    ("/", _SPAN, "number"): _SPAN,
+    ("/", _SPAN, _SPAN): "number",
+    ("+", _MOMENT, _SPAN): _MOMENT,
+    ("+", _SPAN, _MOMENT): _MOMENT,
+    ("-", _MOMENT, _SPAN): _MOMENT,
+    ("-", _MOMENT, _MOMENT): _SPAN,
+    ("+", _DAY, _SPAN): _DAY,
+    ("-", _DAY, _SPAN): _DAY,
+    ("-", _DAY, _DAY): _SPAN,
+    **{("<", each, each): "number" for each in (_SPAN, _MOMENT, _DAY, "datetime.time")},
 }
 # Methods that take no arguments.
 _ALONE = frozenset(
@@ -150,6 +196,15 @@ _MODULES: Mapping[str, str] = {
         client core exceptions impl msg msproxy names numpy_msg rostime service services timer
         topics validators {_EXCEPTIONS}""",
 }
+# Modules of Python's own library of which nodes ask names; submodules are none.
+_OWN_MODULES = frozenset(
+    {
+        *("abc", "bisect", "collections", "contextlib", "copy", "dataclasses", "datetime"),
+        *("decimal", "enum", "functools", "heapq", "itertools", "json", "math", "operator"),
+        *("queue", "random", "re", "statistics", "string", "struct", "sys", "threading"),
+        *("time", "typing", "uuid"),
+    }
+)
 # Constants of messages are written in capitals; the rest are what generators add.
 _OF_MESSAGES = frozenset(
     {
@@ -209,8 +264,10 @@ def held_in(name: str) -> str:
 
 @derived
 def has_name(module: str, name: str) -> bool:
-    """Whether a module of a client library may have a name."""
+    """Whether a module may have a name; the modules of Python's own have what they have here."""
     known = _MODULES.get(module)
+    if known is None and module in _OWN_MODULES:
+        return hasattr(importlib.import_module(module), name)
     return known is None or name in known.split() or name.startswith("_")
 
 

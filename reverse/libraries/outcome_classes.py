@@ -25,6 +25,7 @@ FAILURES: Mapping[str, tuple[str, str]] = {
     "may have no such attribute yet": ("", "builtins.AttributeError"),
     "gets other arguments than it takes": ("", "builtins.TypeError"),
     "is of another type": ("", "builtins.TypeError"),
+    "may refuse what it gets": ("", "builtins.Exception"),
     "has no such attribute": ("", "builtins.AttributeError"),
     "names what nothing defines": ("", "builtins.NameError"),
     "does not hold": ("", "builtins.AssertionError"),

@@ -49,6 +49,7 @@ class Raises(Enum):
     ZERO_SECOND = "a second one that may be zero"
     ZERO_STEP = "a third one that may be zero"
     INFINITE = "a first one that may be no number, or greater than all"
+    BOUNDLESS = "a first one that may be greater than all"
     TEXT = "a first one that may be no number"
     COMPUTED = "one that is not written as a number"
     NO_START = "no third one, and a second one that may have no elements"
@@ -174,8 +175,12 @@ RULES = (
         python="math.isfinite math.isinf math.isnan math.hypot math.atan2 math.atan", gives="number"
     ),
     OutcomeRule(
-        python="math.sin math.cos math.tan math.degrees math.radians math.copysign", gives="number"
+        python="math.sin math.cos math.tan",
+        raises="builtins.ValueError",
+        gives="number",
+        when=Raises.BOUNDLESS,
     ),
+    OutcomeRule(python="math.degrees math.radians math.copysign", gives="number"),
     OutcomeRule(python="math.tanh math.pi math.inf math.nan math.e math.tau math.isclose"),
     OutcomeRule(python="math.fsum math.prod math.dist math.gcd math.erf", gives="number"),
     OutcomeRule(
@@ -277,7 +282,8 @@ RULES = (
     ),
     OutcomeRule(python="set.pop", empty="builtins.KeyError", size=Size.LOSES),
     OutcomeRule(python=".remove", raises="builtins.ValueError", size=Size.ANY, when=Raises.ABSENT),
-    OutcomeRule(python=".index", raises="builtins.ValueError", when=Raises.ABSENT),
+    OutcomeRule(python=".move_to_end", raises="builtins.KeyError", when=Raises.ABSENT),
+    OutcomeRule(python=".index .rindex", raises="builtins.ValueError", when=Raises.ABSENT),
     OutcomeRule(python="set.remove", raises="builtins.KeyError", size=Size.ANY, when=Raises.ABSENT),
     OutcomeRule(python=".discard .clear", size=Size.ANY),
     OutcomeRule(".pop_front .pop_back .pop", size=Size.LOSES),

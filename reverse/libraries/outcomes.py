@@ -188,6 +188,11 @@ class LibraryOutcomes:
             found = self._named.get(f".{name}", CallOutcome())
         return found
 
+    def is_of_language(self, name: str) -> bool:
+        """Whether a name is of Python's own library, and of no other."""
+        is_standard = self.language is Language.PYTHON and self.is_standard(name)
+        return is_standard and not python.is_of_client(name)
+
     def has_methods_of(self, name: str) -> bool:
         """Whether the table has methods of a class."""
         return any(known.startswith(f"{name}.") for known in self._named)

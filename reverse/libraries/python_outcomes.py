@@ -52,13 +52,14 @@ MODULES = (
         python="datetime.datetime.now datetime.datetime.today datetime.datetime.utcnow",
         gives="datetime.datetime",
     ),
-    OutcomeRule(python="datetime.date.today", gives="datetime.datetime"),
+    OutcomeRule(python="datetime.date.today", gives="datetime.date"),
     OutcomeRule(python="datetime.datetime.strftime datetime.datetime.isoformat"),
     OutcomeRule(python="datetime.datetime.timestamp datetime.datetime.date datetime.datetime.time"),
     OutcomeRule(python="datetime.timedelta.total_seconds datetime.timezone.utc"),
     OutcomeRule(
         python="datetime.timedelta",
         raises="builtins.OverflowError builtins.ValueError",
+        gives="datetime.timedelta",
         when=Raises.COMPUTED,
     ),
     OutcomeRule(

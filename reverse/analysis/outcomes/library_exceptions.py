@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import datetime
+import time
 from collections.abc import Sequence
 from typing import Literal, TypeAlias
 
@@ -19,6 +21,7 @@ from rebsync.reverse.analysis.python.value_types import OwnType
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.libraries.outcome_classes import NUMBERED
 from rebsync.reverse.libraries.outcome_rules import Raises
 from rebsync.reverse.libraries.outcomes import CallOutcome
@@ -32,6 +35,7 @@ def _is_positive(value: object) -> bool:
 
 _OfNumbers: TypeAlias = Literal[Raises.NEGATIVE, Raises.ZERO_SECOND, Raises.ZERO_STEP, Raises.POWER]
 _Plain: TypeAlias = Literal[Raises.NO_TEXT, Raises.OBJECTS, Raises.UNWRITTEN]
+_OF_MOMENTS = {"datetime": datetime, "time": time}
 _WHOLE = (["utf-8"], ["utf8"], ["UTF-8"])  # encodings that have all characters
 
 
@@ -116,14 +120,10 @@ class LibraryExceptions:
             case Raises.TEXT:
                 first = values[:1]
                 return not all(self._is_number_text(v, facts) for v in first)
-            case Raises.INFINITE:
-                is_finite = Magnitudes(self.origins, self.function).is_finite
-                is_whole = self.expressions.types.kinds.is_whole
-                if all(is_whole(v) or self._is_of_number(v, int) for v in values[:1]):
-                    return False
-                return not all(self._is_number(v) and is_finite(v) for v in values[:1])
+            case Raises.INFINITE | Raises.BOUNDLESS:
+                return self._may_be_infinite(values[:1], when)
             case Raises.COMPUTED:
-                return not all(map(self.expressions.is_written, values))
+                return not all(map(self.expressions.is_written, values)) or _is_no_time(node)
             case Raises.NO_START:
                 return len(values) < 3 and not any(
                     self.expressions.size(v, facts) for v in values[1:]
@@ -138,6 +138,16 @@ class LibraryExceptions:
                 return not self._are_ordered(values, facts)
             case _:
                 return TimeArguments(self.origins, self.function).are_beyond(values, when)
+
+    def _may_be_infinite(self, values: Sequence[e.Expression], when: Raises) -> bool:
+        """Whether numbers may be greater than all, or (`INFINITE`) values may be no numbers."""
+        is_finite = Magnitudes(self.origins, self.function).is_finite
+        if when is Raises.BOUNDLESS:
+            return not all(map(is_finite, values))
+        is_whole = self.expressions.types.kinds.is_whole
+        if all(is_whole(v) or self._is_of_number(v, int) for v in values):
+            return False
+        return not all(self._is_number(v) and is_finite(v) for v in values)
 
     def _is_odd_parameter(self, node: s.Call, when: Raises, facts: Facts) -> bool:
         """Whether a parameter may not be declared that is asked for, or is declared again."""
@@ -238,6 +248,34 @@ class LibraryExceptions:
                 return low <= 0 and self.expressions.is_positive(high, facts)
             case _:
                 return False
+
+
+def _is_no_time(node: s.Call) -> bool:
+    """Whether numbers in the source are no time: the library is asked, as it is the same here."""
+    if not isinstance(node.callee, s.LibraryCallee):
+        return False
+    module, _, name = node.callee.name.partition(".")
+    plain = [_written(a.value) for a in node.arguments if a.name is None]
+    named = {a.name: _written(a.value) for a in node.arguments if a.name is not None}
+    make = getattr(_OF_MOMENTS.get(module), name, None)
+    if make is None or None in (*plain, *named.values()):
+        return False
+    try:
+        make(*plain, **named)
+    except (ArithmeticError, OSError, TypeError, ValueError):
+        return True
+    return False
+
+
+def _written(value: e.Expression) -> object:
+    """A number that stands in the source; None for any other value."""
+    match value:
+        case e.Literal(number):
+            return number
+        case e.Unary(Operator.NEGATE, e.Literal(int() | float() as number)):
+            return -number
+        case _:
+            return None
 
 
 def _is_error_code(value: e.Expression) -> bool:

@@ -22,6 +22,7 @@ from rebsync.reverse.analysis.outcomes.outcome_expressions import OutcomeExpress
 from rebsync.reverse.analysis.outcomes.outcome_sizes import OutcomeSizes
 from rebsync.reverse.analysis.problems import Called, ProblemNotes
 from rebsync.reverse.analysis.python.call_binding import REFUSED
+from rebsync.reverse.analysis.python.library_arguments import LibraryArguments
 from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -32,10 +33,6 @@ from rebsync.reverse.libraries.routines import Language
 
 _PARAMETERS = re.compile(r"<[^<>]*>")
 _WAITING_ALONE = frozenset({"get", "join"})
-# What takes numbers, or elements, and so no None.
-_NUMERIC = ("len", "int", "float", "abs", "sum", "min", "max", "round")
-_ELEMENTS = ("sorted", "list", "tuple", "set", "enumerate", "zip")
-_OF_NUMBERS = frozenset(f"builtins.{name}" for name in (*_NUMERIC, *_ELEMENTS))
 _UNKNOWN = "what is called is not known"
 
 
@@ -52,6 +49,7 @@ class OutcomeCalls:
         self.expressions = expressions
         self._sizes = sizes
         self._exceptions = LibraryExceptions(notes, expressions)
+        self._given = LibraryArguments(expressions)
         self._binding = notes.counts.rules.binding
         self.origins = notes.origins
         self.function = notes.function.name
@@ -63,6 +61,7 @@ class OutcomeCalls:
         self._here = facts
         self._arguments(node, facts)
         self.expressions.types.call(node, facts)
+        self._given.check(node, facts)
         if self._binding.of_callback(node, self.notes.function):
             self.notes.fails(node, REFUSED)
         match node.callee:
@@ -72,9 +71,6 @@ class OutcomeCalls:
                 is_own = receiver is None and self._of_template(node, name)
                 if receiver is not None:
                     self.expressions.check(receiver, facts)
-                if name in _OF_NUMBERS:
-                    for argument in node.arguments:
-                        self.expressions.none.check(argument.value, node, facts)
                 outcome = CallOutcome() if is_own else self.notes.table.function(name)
                 self._library(node, name, outcome, receiver, facts)
             case s.ValueCallee(value):
@@ -238,6 +234,8 @@ class OutcomeCalls:
                     self._enters(node, method)
             case LibraryOrigin(name, False):
                 self._library(node, name, self.notes.table.function(name), None, facts)
+                if not self.notes.is_parameter(value):
+                    self._given.of_value(node, name, facts)
             case _ if is_standard(value):
                 pass  # a distribution, a comparison: it gives a value
             case _ if (of := self.expressions.operators.class_of(value)) is not None:

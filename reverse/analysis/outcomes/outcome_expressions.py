@@ -43,8 +43,7 @@ _ASKING_NONE = frozenset(
     {Operator.SAME, Operator.NOT_SAME, Operator.EQUAL, Operator.UNEQUAL}
     | {Operator.IN, Operator.NOT_IN}
 )
-_INDEXING = ("__getitem__", "__class_getitem__")
-_SEQUENCES = ("list", "tuple", "deque", "str")
+_INDEXING, _SEQUENCES = ("__getitem__", "__class_getitem__"), ("list", "tuple", "deque", "str")
 _MODULO = (Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER)
 
 
@@ -101,7 +100,9 @@ class OutcomeExpressions:
                 self._unset.check(value, facts)
             case e.Local():
                 self._unset.check(value, facts)
-            case e.Index(of):
+            case e.Index(of) | e.Binary(Operator.IN | Operator.NOT_IN, _, of):
+                self.none.check(of, value, facts)
+            case e.Unary(operator, of) if operator is not Operator.NOT:
                 self.none.check(of, value, facts)
             case e.Binary(operator, left, right) if operator not in _ASKING_NONE:
                 self.none.check(left, value, facts)
@@ -145,10 +146,9 @@ class OutcomeExpressions:
     def _divides(
         self, value: e.Binary, left: e.Expression, right: e.Expression, facts: Facts
     ) -> None:
-        if isinstance(value.type, t.Float) and not value.dynamic:
-            return
         is_cpp = self.notes.table.language is Language.CPP
-        if is_cpp and (is_floating(left) or is_floating(right)):
+        is_float = isinstance(value.type, t.Float) and not value.dynamic
+        if is_cpp and (is_float or is_floating(left) or is_floating(right)):
             return  # the other operand becomes one ([expr.arith.conv])
         if value.operator is Operator.FLOOR_MODULO and self.is_text(left):
             return
@@ -191,8 +191,10 @@ class OutcomeExpressions:
 
     def _formats(self, value: e.Format, pieces: tuple[e.FormatPiece, ...], facts: Facts) -> None:
         """A width or precision that is computed may be negative."""
-        styles = (piece.style for piece in pieces)
-        inner = (s for style in styles if isinstance(style, e.Format) for s in style.pieces)
+        styled = [piece for piece in pieces if piece.style is not None]
+        for piece in styled:
+            self.none.check(piece.value, value, facts)
+        inner = (s for p in styled if isinstance(p.style, e.Format) for s in p.style.pieces)
         for piece in inner:
             if not self.is_positive(piece.value, facts):
                 self.notes.fails(value, "has a style that is none")

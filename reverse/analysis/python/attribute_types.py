@@ -29,7 +29,7 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.libraries.attributes import attributes_of, held_in
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
-_OWN = {kind.value: kind for kind in OwnType}
+_OWN = {**{kind.value: kind for kind in OwnType}, "defaultdict": OwnType.MAPPING}
 
 
 class AttributeTypes:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
-from rebsync.reverse.analysis.python.operator_types import are_ordered, is_hashable
+from rebsync.reverse.analysis.python.operator_types import are_comparable, are_ordered, is_hashable
 from rebsync.reverse.analysis.python.value_types import (
     A_NUMBER,
     A_TEXT,
@@ -26,8 +26,14 @@ from rebsync.reverse.ir.operators import Operator
 _WRONG = "is of another type"
 # Functions that compare the elements of what they get, or what they get, if that is several.
 _SORTING = frozenset({"builtins.sorted", "builtins.max", "builtins.min"})
-_HEAPS = frozenset(f"heapq.{name}" for name in ("heappush", "heappushpop", "heapreplace"))
+_HEAPS = frozenset(
+    {
+        *(f"heapq.{name}" for name in ("heappush", "heappushpop", "heapreplace")),
+        *(f"bisect.{name}" for name in ("bisect", "bisect_left", "bisect_right", "insort")),
+    }
+)
 _OF_HEAPS = frozenset({"heapq.heapify", "heapq.heappop"})
+_CHOOSING = frozenset({"heapq.nlargest", "heapq.nsmallest"})
 _SETS = frozenset({"builtins.set", "builtins.frozenset"})
 
 
@@ -53,6 +59,10 @@ class ElementErrors:
                 self._orders(node, _inside(given[:1]) | given[1])
             case s.LibraryCallee(name) if name in _OF_HEAPS:
                 self._orders(node, _inside(given))
+            case s.LibraryCallee(name) if name in _CHOOSING and "key" not in names:
+                self._orders(node, _inside(given[1:]))
+            case s.LibraryCallee("heapq.merge"):
+                self._orders(node, union(_inside([types]) for types in given))
             case s.LibraryCallee("builtins.sum"):
                 # It begins with 0, or with what it gets.
                 first = given[1] if len(given) > 1 else A_NUMBER
@@ -85,6 +95,10 @@ class ElementErrors:
     def _orders(self, node: s.Statement, types: ValueTypes) -> None:
         if not are_ordered(self._kinds.known(types), self._has_order):
             self._notes.fails(node, _WRONG)
+
+    def are_comparable(self, left: ValueTypes, right: ValueTypes) -> bool:
+        """Whether values of some types can be compared with those of others."""
+        return are_comparable(self._kinds.known(left), self._kinds.known(right), self._has_order)
 
     def _has_order(self, name: str) -> bool:
         return not self._objects.class_lacks(name, Operator.LESS)

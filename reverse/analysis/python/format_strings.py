@@ -38,8 +38,8 @@ def _fields(text: str) -> Iterator[str]:
 OF_NUMBERS = frozenset("bcdeEfFgGnoxX%")  # letters of styles that only numbers have
 
 
-def numbers_in(text: str) -> Iterator[int | str]:
-    """What a text has to be filled in with as a number: by place, or by name."""
+def numbers_in(text: str) -> Iterator[tuple[int | str, str]]:
+    """What a text has to be filled in with as a number, with the letter: by place, or by name."""
     try:
         pieces = list(Formatter().parse(text))
     except ValueError:
@@ -47,11 +47,11 @@ def numbers_in(text: str) -> Iterator[int | str]:
     for at, (_, field, style, conversion) in enumerate(p for p in pieces if p[1] is not None):
         if style and style[-1] in OF_NUMBERS and "{" not in style and not conversion:
             if not field:
-                yield at
+                yield at, style[-1]
             elif field.isidentifier():
-                yield field
+                yield field, style[-1]
             elif field.isdecimal():
-                yield int(field)
+                yield int(field), style[-1]
 
 
 AS_TEXT = frozenset("sra")  # letters of conversions that take anything
@@ -74,10 +74,21 @@ def conversions(text: str) -> list[str] | None:
     return found
 
 
-def numbers_of(text: str, values: Sequence[T]) -> list[T]:
-    """Those of some values that `%` puts into a text as numbers."""
+def names_in(text: str) -> set[object]:
+    """The keys of what `%` puts into a text by names."""
+    return {match["key"] for match in _CONVERSION.finditer(text) if match["key"] is not None}
+
+
+def takes_texts(text: str) -> bool:
+    """Whether `%` puts all that it puts into a text there as texts."""
+    return all(match[0][-1] in AS_TEXT for match in _CONVERSION.finditer(text))
+
+
+def numbers_of(text: str, values: Sequence[T], letters: Collection[str] | None = None) -> list[T]:
+    """Those of some values that `%` puts into a text as numbers, or by one of some letters."""
     pairs = zip(conversions(text) or (), values, strict=False)
-    return [value for letter, value in pairs if letter not in AS_TEXT]
+    is_asked = (lambda c: c not in AS_TEXT) if letters is None else letters.__contains__
+    return [value for letter, value in pairs if is_asked(letter)]
 
 
 def refuses(text: str, values: Sequence[Collection[OwnType | None]]) -> bool:
@@ -96,5 +107,5 @@ def refuses(text: str, values: Sequence[Collection[OwnType | None]]) -> bool:
 def _is_refused(letter: str, kinds: Collection[OwnType | None]) -> bool:
     if letter in AS_TEXT:
         return False
-    taken = {OwnType.NUMBER, OwnType.TEXT} if letter == "c" else {OwnType.NUMBER}
-    return letter not in "diouxXeEfFgGc" or not taken.issuperset(kinds)
+    # A letter is put in by its number as well, but not by any number.
+    return letter not in "diouxXeEfFgG" or not {OwnType.NUMBER}.issuperset(kinds)

@@ -44,6 +44,7 @@ _OF_TEXTS = {
         A_TEXT,
     ),
     **dict.fromkeys(("split", "rsplit", "splitlines"), sequence(_LIST, A_TEXT)),
+    "encode": frozenset((OwnType.BYTES,)),
     **dict.fromkeys(("partition", "rpartition"), pair(A_TEXT, A_TEXT, A_TEXT)),
     **dict.fromkeys(
         (
@@ -120,6 +121,10 @@ class GivenTypes:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, A_NUMBER),))
             case "builtins.sum" if len(given) > 1:
                 return ANY_TYPE
+            case "builtins.max" | "builtins.min" if given:
+                defaults = [a.value for a in call.arguments if a.name == "default"]
+                found = union(given) if len(given) > 1 else elements_of(given[0])
+                return found | union(self._types.of(each, function) for each in defaults)
         gives = self._origins.table.function(name).gives or result_of(name) or name
         return self._attributes.of_class(gives)
 
@@ -142,6 +147,8 @@ class GivenTypes:
         match type_:
             case OwnType.TEXT:
                 return _OF_TEXTS.get(name, ANY_TYPE)
+            case OwnType.BYTES if name == "decode":
+                return A_TEXT
             case ContainerType(OwnType.MAPPING):
                 return self._of_mapping(type_, name, call, function)
             case ContainerType() if name in ("pop", "popleft"):
@@ -189,4 +196,6 @@ class GivenTypes:
 
 def _has_methods(type_: ValueType | None) -> bool:
     """Whether a table, or the program, says what methods of a type give."""
-    return isinstance(type_, ContainerType | LibraryType | InstanceType) or type_ is OwnType.TEXT
+    return isinstance(type_, ContainerType | LibraryType | InstanceType) or (
+        type_ in (OwnType.TEXT, OwnType.BYTES)
+    )

@@ -16,6 +16,7 @@ from rebsync.reverse.analysis.python.argument_types import ArgumentTypes
 from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
 from rebsync.reverse.analysis.python.container_stores import ContainerStores, Put
 from rebsync.reverse.analysis.python.given_types import GivenTypes
+from rebsync.reverse.analysis.python.operator_types import given_by
 from rebsync.reverse.analysis.python.value_types import (
     A_NUMBER,
     A_TEXT,
@@ -23,6 +24,7 @@ from rebsync.reverse.analysis.python.value_types import (
     NO_TYPES,
     ContainerType,
     InstanceType,
+    LibraryType,
     OwnType,
     ValueType,
     ValueTypes,
@@ -302,6 +304,9 @@ def computed(operator: Operator, left: ValueTypes, right: ValueTypes) -> ValueTy
     """
     if NO_TYPES in (left, right):
         return NO_TYPES
+    times = {given_by(operator, one, other) for one in left for other in right}
+    if times and "" not in times:
+        return union(A_NUMBER if t == "number" else frozenset((LibraryType(t),)) for t in times)
     if left == right == A_NUMBER:
         return A_NUMBER
     kinds = frozenset(map(own_type, left))

@@ -6,7 +6,7 @@ Attributes are told apart by names, and by their class where a function asks its
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, OrderedDict, defaultdict, deque
 from collections.abc import Mapping
 from functools import cached_property
 from typing import TypeAlias
@@ -46,7 +46,9 @@ ATTRIBUTES: Mapping[OwnType | None, frozenset[str]] = {
     OwnType.LIST: frozenset(dir(list)),
     OwnType.TUPLE: frozenset(dir(tuple)),
     OwnType.SET: frozenset(dir(set)),
-    OwnType.MAPPING: frozenset(dir(dict)) | {"has_key", "iteritems", "iterkeys", "itervalues"},
+    OwnType.MAPPING: frozenset({"has_key", "iteritems", "iterkeys", "itervalues"}).union(
+        *map(dir, (dict, defaultdict, OrderedDict, Counter))
+    ),
     OwnType.QUEUE: frozenset(dir(deque)),
     OwnType.MODEL_ARRAY: frozenset(dir(object)) | {"at"},
 }

@@ -11,6 +11,7 @@ from itertools import combinations_with_replacement
 from rebsync.reverse.analysis.python.value_types import (
     ContainerType,
     InstanceType,
+    LibraryType,
     MessageType,
     OwnType,
     ValueType,
@@ -18,6 +19,7 @@ from rebsync.reverse.analysis.python.value_types import (
     own_type,
 )
 from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.libraries.attributes import OF_TIMES, TIMES
 
 _NUMBER = OwnType.NUMBER
 SEQUENCES = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.ARRAY})
@@ -28,7 +30,7 @@ UNHASHABLE = frozenset(
     {OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE, OwnType.MODEL_ARRAY}
 )
 _ADDED = SEQUENCES | {OwnType.QUEUE}
-_ORDERED = (Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL)
+ORDERED = (Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL)
 _WITHOUT_ORDER = frozenset({OwnType.MAPPING, OwnType.NONE, OwnType.MESSAGE, OwnType.MODEL_ARRAY})
 _OF_SETS = (Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR, Operator.SUBTRACT)
 
@@ -47,7 +49,7 @@ def takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bo
             return {left, right} in [{_NUMBER, each} for each in _ADDED]
         case Operator.FLOOR_MODULO:
             return left in (OwnType.TEXT, OwnType.BYTES)
-        case _ if operator in _ORDERED:
+        case _ if operator in ORDERED:
             return left is right and left not in _WITHOUT_ORDER
         case _ if operator in _OF_SETS:
             is_mapping = left is right is OwnType.MAPPING and operator is Operator.BIT_OR
@@ -56,10 +58,27 @@ def takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bo
             return False
 
 
+def given_by(operator: Operator, left: ValueType | None, right: ValueType | None) -> str:
+    """The class of what an operator gives for a time of Python's own library; empty if none."""
+    symbol = "<" if operator in ORDERED else operator.value
+    names = [each.name if isinstance(each, LibraryType) else _name(each) for each in (left, right)]
+    return OF_TIMES.get((symbol, names[0], names[1]), "")
+
+
+def _name(type_: ValueType | None) -> str:
+    own = own_type(type_)
+    return own.value if own is not None else ""
+
+
 def are_ordered(types: ValueTypes, has_order: Callable[[str], bool]) -> bool:
     """Whether each value of some types can be compared with each; `has_order` asks of a class."""
     pairs = combinations_with_replacement(sorted(types, key=str), 2)
     return all(_is_ordered(one, other, has_order) for one, other in pairs)
+
+
+def are_comparable(left: ValueTypes, right: ValueTypes, has_order: Callable[[str], bool]) -> bool:
+    """Whether each value of some types can be compared with each of others."""
+    return all(_is_ordered(one, other, has_order) for one in left for other in right)
 
 
 def _is_ordered(
@@ -68,6 +87,8 @@ def _is_ordered(
     match one, other:
         case (None, _) | (_, None):
             return False
+        case (LibraryType(), _) | (_, LibraryType()):
+            return _are_times(one, other) or bool(given_by(Operator.LESS, one, other))
         case InstanceType(name), _:
             return has_order(name)
         case _, InstanceType(name):
@@ -78,6 +99,11 @@ def _is_ordered(
             return are_ordered(first_ones | others, has_order)
         case _:
             return takes(Operator.LESS, own_type(one), own_type(other))
+
+
+def _are_times(one: ValueType | None, other: ValueType | None) -> bool:
+    """Whether both are times or durations of a client library."""
+    return all(isinstance(each, LibraryType) and each.name in TIMES for each in (one, other))
 
 
 def _are_parts(

@@ -13,11 +13,15 @@ from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.attribute_errors import AttributeErrors
 from rebsync.reverse.analysis.python.element_errors import ElementErrors
+from rebsync.reverse.analysis.python.float_numbers import FloatNumbers
 from rebsync.reverse.analysis.python.format_strings import (
     OF_NUMBERS,
+    conversions,
+    names_in,
     numbers_in,
     numbers_of,
     refuses,
+    takes_texts,
 )
 from rebsync.reverse.analysis.python.log_arguments import LogArguments
 from rebsync.reverse.analysis.python.message_errors import MessageErrors
@@ -25,8 +29,9 @@ from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.python.operator_types import (
     INDEXED,
     ITERABLE,
+    ORDERED,
     SEQUENCES,
-    SIZED,
+    given_by,
     takes,
 )
 from rebsync.reverse.analysis.python.value_types import (
@@ -53,12 +58,12 @@ _OF_TIMES = (
     *(Operator.GREATER, Operator.GREATER_EQUAL),
 )
 _EQUALITY = (Operator.EQUAL, Operator.UNEQUAL)
-_OF_NUMBERS = frozenset(
-    f"builtins.{n}" for n in ("abs", "round", "float", "int", "divmod", "pow", "range", "chr")
+_OF_BITS = frozenset(
+    {Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR}
+    | {Operator.SHIFT_LEFT, Operator.SHIFT_RIGHT}
 )
-_OF_TEXTS = frozenset({"builtins.float", "builtins.int"})  # which take texts and bytes as well
+_WHOLE = frozenset("xXoc")  # conversions that take no floats
 _OF_WHOLE = "bcdoxX"  # how styles of whole numbers end
-_GOING_THROUGH = frozenset({"extend", "extendleft"})
 _OF_ELEMENTS = frozenset(
     f"builtins.{n}"
     for n in (
@@ -78,6 +83,7 @@ class TypeErrors:
         self._elements = ElementErrors(notes, self.kinds)
         self._messages = MessageErrors(notes, self.kinds)
         self._logs = LogArguments(notes, self.kinds)
+        self._floats = FloatNumbers(notes)
         self._objects = notes.counts.rules.objects
         self._is_python = notes.table.language is Language.PYTHON
 
@@ -101,6 +107,8 @@ class TypeErrors:
             case e.Unary(Operator.NEGATE | Operator.PLUS | Operator.INVERT as operator, of):
                 self._answers(value, of, operator)
                 self._needs(value, of, {NUMBER}, facts)
+                if operator is Operator.INVERT and self._floats.has(of):
+                    self._notes.fails(value, _WRONG)
             case e.Index(of, index):
                 self._at(value, of, index, facts)
             case e.Build() | e.BuildMapping():
@@ -134,9 +142,6 @@ class TypeErrors:
             case s.MethodCallee(receiver, name, _, None):
                 self._attributes.asks(node, receiver, name, facts)
                 self._attributes.takes_nothing(node, receiver, name, facts)
-                if name in _GOING_THROUGH and None not in self.kinds.of(receiver, facts):
-                    for value in plain[:1]:
-                        self.iterates(node, value, facts)
                 if not self._notes.origins.methods_of_any(name):
                     self._is_called(node, e.Attribute(receiver, name), facts)
             case s.LibraryCallee(name):
@@ -148,29 +153,17 @@ class TypeErrors:
         self, node: s.Call, name: str, plain: list[e.Expression], facts: Facts
     ) -> None:
         match name:
-            case "builtins.range" if any(map(_is_fraction, plain)):
-                self._notes.fails(node, _WRONG)
-            case _ if name in _OF_NUMBERS:
-                taken = {NUMBER, TEXT, OwnType.BYTES} if name in _OF_TEXTS else {NUMBER}
-                for value in plain:
-                    self._needs(node, value, taken, facts)
             case "builtins.format" if len(plain) > 1:
                 self._styled(node, plain[0], plain[1], facts)
             case "builtins.len":
                 for value in plain[:1]:
-                    self._needs(node, value, SIZED, facts)
                     self._answers(node, value, ImplicitCall.LENGTH)
-            case "builtins.reversed":
-                for value in plain:
-                    self._needs(node, value, SIZED, facts)
             case "builtins.isinstance" if len(plain) > 1:
                 if self.kinds.of(plain[1], facts) - {None, OwnType.TUPLE}:
                     self._notes.fails(node, _WRONG)
-            case "builtins.zip" if any(a.name for a in node.arguments):
-                self._notes.fails(node, _WRONG)  # `strict`: where one is longer
             case _ if name in _OF_ELEMENTS:
                 for value in plain if name == "builtins.zip" else plain[:1]:
-                    self.iterates(node, value, facts)
+                    self._answers(node, value, ImplicitCall.ITERATE)
             case _:
                 pass
 
@@ -178,9 +171,11 @@ class TypeErrors:
         """Values that `format` puts into a text as numbers."""
         given: dict[int | str | None, e.Expression] = dict(enumerate(plain))
         given |= {a.name: a.value for a in node.arguments if a.name is not None}
-        for piece in numbers_in(text):
+        for piece, letter in numbers_in(text):
             if piece in given:
                 self._needs(node, given[piece], {NUMBER}, facts)
+                if letter in _OF_WHOLE and self._floats.has(given[piece]):
+                    self._notes.fails(node, _WRONG)
 
     def iterates(self, node: s.Statement, value: e.Expression, facts: Facts) -> None:
         """Notes that something is gone through that has no elements."""
@@ -270,11 +265,17 @@ class TypeErrors:
             wrong = bool(kinds[1] & {NUMBER, OwnType.MESSAGE}) or (
                 kinds[1] == {TEXT} and bool(kinds[0] - {TEXT, None})
             )
+            wrong |= _is_none(right)
+            if kinds[1] & {OwnType.SET, OwnType.MAPPING}:
+                self._elements.is_key(value, left, facts)
         elif operator in (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SAME):
             wrong = False
         else:
             wrong = any(not takes(operator, a, b) for a in kinds[0] for b in kinds[1])
-            is_times = operator is Operator.MULTIPLY and _is_fraction(right)
+            wrong |= any(_is_refused(operator, a, b) for a in types[0] for b in types[1])
+            wrong |= operator in ORDERED and not self._elements.are_comparable(*types)
+            wrong |= operator in _OF_BITS and any(map(self._floats.has, (left, right)))
+            is_times = operator is Operator.MULTIPLY and self._floats.has(right)
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
         if operator in _OF_TIMES and (
             _is_time_and_number(*types) or _is_time_and_number(*types[::-1])
@@ -282,16 +283,6 @@ class TypeErrors:
             wrong = True
         if operator is Operator.FLOOR_MODULO and isinstance(left, e.Literal):
             wrong |= isinstance(left.value, str) and self._puts(left.value, right, facts)
-            import os
-
-            if os.environ.get("DBGT"):
-                print(
-                    "UNKNOWN",
-                    operator,
-                    left if None in kinds[0] else "",
-                    right if None in kinds[1] else "",
-                    file=__import__("sys").stderr,
-                )
         if wrong:
             self._notes.fails(value, _WRONG)
         if operator in (Operator.IN, Operator.NOT_IN):
@@ -311,7 +302,19 @@ class TypeErrors:
         else:
             values = [value]
             found = kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
-        return found or any(self.kinds.is_object(v, facts) for v in numbers_of(text, values))
+        if conversions(text) is None and not self._has_names(text, value):
+            return True
+        is_float = any(map(self._floats.has, numbers_of(text, values, _WHOLE)))
+        is_object = any(self.kinds.is_object(v, facts) for v in numbers_of(text, values))
+        return found or is_float or is_object
+
+    def _has_names(self, text: str, value: e.Expression) -> bool:
+        """Whether a mapping is written here with all that a text takes from it, which is texts."""
+        if not isinstance(value, e.BuildMapping):
+            return False
+        pairs = [entry for entry in value.entries if not isinstance(entry, e.Spread)]
+        keys = {key.value for key, _ in pairs if isinstance(key, e.Literal)}
+        return takes_texts(text) and names_in(text) <= keys
 
     # --- elements and texts ----------------------------------------------------------------------
 
@@ -319,11 +322,14 @@ class TypeErrors:
         self._needs(value, of, INDEXED, facts)
         kinds = self.kinds.of(of, facts)
         if isinstance(index, e.Slice):
-            self._needs(value, of, INDEXED - {OwnType.MODEL_ARRAY}, facts)
+            self._needs(value, of, SEQUENCES, facts)
+            for bound in (index.low, index.high, index.step):
+                if bound is not None and not _is_none(bound):
+                    self._needs(value, bound, {NUMBER}, facts)
             return
         if kinds and kinds <= SEQUENCES | {OwnType.QUEUE, OwnType.MODEL_ARRAY}:
             self._needs(value, index, {NUMBER}, facts)
-            if _is_fraction(index):
+            if self._floats.has(index):
                 self._notes.fails(value, _WRONG)
         elif kinds == {OwnType.MAPPING}:
             self._elements.is_key(value, index, facts)
@@ -345,7 +351,7 @@ class TypeErrors:
             self._needs(node, value, {TEXT}, facts)
         elif letter in OF_NUMBERS:
             self._needs(node, value, {NUMBER}, facts)
-            if letter in _OF_WHOLE and _is_fraction(value):
+            if letter in _OF_WHOLE and self._floats.has(value):
                 self._notes.fails(node, _WRONG)
         else:
             self._needs(node, value, {NUMBER, TEXT}, facts)
@@ -357,12 +363,14 @@ def _is_time_and_number(one: ValueTypes, other: ValueTypes) -> bool:
     return is_time and OwnType.NUMBER in other
 
 
-def _is_fraction(value: e.Expression) -> bool:
-    """Whether a number is a float by how it is computed, other than of whole numbers only."""
-    match value:
-        case e.Literal(float()):
-            return True
-        case e.Binary(operator):
-            return operator is Operator.TRUE_DIVIDE
-        case _:
-            return False
+def _is_refused(operator: Operator, left: ValueType | None, right: ValueType | None) -> bool:
+    """Whether an object of a library, other than times of clients, is no operand of an operator."""
+    is_object = any(isinstance(t, LibraryType) and t.name not in TIMES for t in (left, right))
+    is_other = left is None or right is None or isinstance(left, InstanceType)
+    is_text = operator is Operator.FLOOR_MODULO and left is OwnType.TEXT
+    is_other |= is_text or isinstance(right, InstanceType)
+    return is_object and not is_other and not given_by(operator, left, right)
+
+
+def _is_none(value: e.Expression) -> bool:
+    return isinstance(value, e.Literal) and value.value is None

@@ -39,6 +39,7 @@ from rebsync.reverse.syntax.py_tree import (
     text_in,
     text_of,
 )
+from rebsync.source import Span
 
 _POSITIVE = Interval(1, INT32.high)
 _DIVISOR = "a divisor that may be 0 or negative"
@@ -53,6 +54,16 @@ class PyExpressions(BodyExpressionReader):
 
     def read(self, node: Node) -> Value:
         """An expression; `Unknown` is raised where nobody knows its value."""
+        try:
+            return self._read(node)
+        except Unread:
+            # The model has nothing of it: neither what was read before this was found.
+            path, span = self.frame.py.source.path, self.span(node)
+            within = {p for p in self.reading.exact if p[0] == path and _is_in(p[1], span)}
+            self.reading.exact -= within
+            raise
+
+    def _read(self, node: Node) -> Value:
         match node.type:
             case "integer" | "float":
                 return self._number(node)
@@ -258,7 +269,9 @@ class PyExpressions(BodyExpressionReader):
 
     def _is_not_zero(self, value: Value, node: Node) -> None:
         match bare(value.expression):
-            case m.IntLiteral(number) if number:
+            case m.IntLiteral(number):
+                if not number:
+                    raise Unread(self.span(node), _DIVISOR)
                 return
             case m.FloatLiteral() | m.Unary("-", m.FloatLiteral() | m.IntLiteral()):
                 if not any(
@@ -350,3 +363,7 @@ def _is_float(value: Value) -> bool:
 def short(node: Node) -> str:
     text = " ".join(text_of(node).split())
     return text if len(text) <= 40 else f"{text[:37]}..."
+
+
+def _is_in(place: Span, span: Span) -> bool:
+    return span.start <= place.start and place.end <= span.end

@@ -177,11 +177,15 @@ class PyForm:
         """The functions of the files, by their names in the form."""
         scopes = (*self._code.scopes.values(), *self._code.modules.values())
         by_place = {(id(s.py), s.py.span(s.node)): s for s in scopes}
-        found = (
-            (n, by_place.get((id(py), self.program.function(n).place)))
-            for n, py in self._file_of.items()
-        )
-        return {name: scope for name, scope in found if scope is not None}
+        found = {}
+        for name, py in self._file_of.items():
+            place = self.program.function(name).place
+            of_file = {at: s for (of, at), s in by_place.items() if of == id(py)}
+            # A generator expression, which is no scope there, is of what it stands in.
+            around = [at for at in of_file if at == place or _is_in(place, at)]
+            if around:
+                found[name] = of_file[min(around, key=lambda at: at.end - at.start)]
+        return found
 
     @cached_property
     def _loops(self) -> ProgramLoops:

@@ -1,0 +1,62 @@
+"""Which numbers of Python may be floats, where a whole number is asked for: by what is stored."""
+
+from __future__ import annotations
+
+from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.stores import AnyValue, CallResult, Source, key_of
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.operators import Operator
+
+_DEEPEST = 4  # names that follow each other
+_COMPUTING = frozenset(
+    {
+        *(Operator.ADD, Operator.SUBTRACT, Operator.MULTIPLY, Operator.FLOOR_DIVIDE),
+        *(Operator.FLOOR_MODULO, Operator.POWER),
+    }
+)
+_OF_FLOATS = frozenset(
+    {
+        *("builtins.float", "time.time", "time.monotonic", "time.perf_counter", "random.random"),
+        *("random.uniform", "random.gauss", "math.fsum", "statistics.mean"),
+        *(f"math.{name}" for name in ("sqrt", "sin", "cos", "tan", "atan2", "hypot", "fabs")),
+        *(f"math.{name}" for name in ("exp", "log", "pow", "degrees", "radians", "atan", "fmod")),
+    }
+)
+
+
+class FloatNumbers:
+    """The values of one function."""
+
+    def __init__(self, notes: ProblemNotes) -> None:
+        self._stores = notes.origins.graph.stores
+        self._name = notes.function.name
+
+    def has(self, value: e.Expression) -> bool:
+        """Whether a number is a float, or one is stored under its name."""
+        return self._is_float((self._name, value), 0)
+
+    def _is_float(self, source: Source, depth: int) -> bool:
+        function, value = source
+        match value:
+            case e.Literal(constant):
+                return isinstance(constant, float)
+            case e.Binary(Operator.TRUE_DIVIDE):
+                return True
+            case e.Binary(operator, left, right) if operator in _COMPUTING:
+                return any(self._is_float((function, each), depth) for each in (left, right))
+            case e.Unary(Operator.NEGATE | Operator.PLUS, of):
+                return self._is_float((function, of), depth)
+            case e.Conditional(_, one, other):
+                return any(self._is_float((function, each), depth) for each in (one, other))
+            case CallResult(call):
+                return isinstance(call.callee, s.LibraryCallee) and call.callee.name in _OF_FLOATS
+            case AnyValue():
+                return False
+            case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():
+                key = key_of(value, function)
+                if key is None or depth == _DEEPEST:
+                    return False
+                return any(self._is_float(each, depth + 1) for each in self._stores.sources(key))
+            case _:
+                return False
