@@ -164,13 +164,13 @@ def _cast(name: str, value: Value) -> Value:
     match value:
         case bool() | int() | float() if name == "str":
             return str(value)
-        case bool() | int() | float() if name in ("int", "float", "bool"):
-            return int(value) if name == "int" else float(value) if name == "float" else bool(value)
-        case str() if name in ("int", "float"):
+        case bool() | int() | float() if name == "bool":
+            return bool(value)
+        case bool() | int() | float() | str() if name in ("int", "float"):
             try:
                 return int(value) if name == "int" else float(value)
-            except ValueError:
-                return value
+            except (ValueError, OverflowError):
+                return value  # nobody gets it: this raises
         case _:
             return value
 
