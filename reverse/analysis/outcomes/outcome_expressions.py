@@ -271,7 +271,7 @@ class OutcomeExpressions:
     def size(self, container: e.Expression, facts: Facts) -> int:
         """How many elements a container has at least."""
         type_ = getattr(container, "type", None)
-        length = type_.length if isinstance(type_, t.Array) else 0
+        length = type_.length if isinstance(type_, t.Array) else self.types.kinds.length(container)
         counted = self.notes.counts.size(container, self.function)
         return max(size_of(facts, container), counted, length)
 
@@ -347,11 +347,12 @@ class OutcomeExpressions:
         size = self.size(value.object, facts)
         if isinstance(value.object, e.Local) and self.notes.is_parameter(value.object):
             size = max(size, self.notes.elements.get(self.function, 0))
+        from_end = value.from_end and not self.types.kinds.length(value.object)
         match bare(value.index):
             case e.Literal(int() as index):
-                return -size <= index < size if value.from_end else 0 <= index < size
+                return -size <= index < size if from_end else 0 <= index < size
             case e.Unary(Operator.NEGATE, e.Literal(int() as index)):
-                return value.from_end and index <= size
+                return from_end and index <= size
             case e.Binary(operator, _, e.Literal(int() as bound)) if operator in _MODULO:
                 return operator is Operator.FLOOR_MODULO and 0 < bound <= size
             case e.Binary(Operator.FLOOR_MODULO, _, right):
