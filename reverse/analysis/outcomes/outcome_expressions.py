@@ -38,11 +38,6 @@ _DIVIDING = frozenset(
         *(Operator.TRUNCATING_DIVIDE, Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER),
     }
 )
-# Operators that None has too.
-_ASKING_NONE = frozenset(
-    {Operator.SAME, Operator.NOT_SAME, Operator.EQUAL, Operator.UNEQUAL}
-    | {Operator.IN, Operator.NOT_IN}
-)
 _INDEXING = ("__getitem__", "__class_getitem__")
 _SEQUENCES = ("list", "tuple", "deque", "str")
 _MODULO = (Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER)
@@ -95,19 +90,9 @@ class OutcomeExpressions:
 
     def _itself(self, value: e.Expression, facts: Facts) -> None:
         self.types.check(value, facts)
-        match value:
-            case e.Attribute(of):
-                self.none.check(of, value, facts, "asks None for an attribute")
-                self._unset.check(value, facts)
-            case e.Local():
-                self._unset.check(value, facts)
-            case e.Index(of):
-                self.none.check(of, value, facts)
-            case e.Binary(operator, left, right) if operator not in _ASKING_NONE:
-                self.none.check(left, value, facts)
-                self.none.check(right, value, facts)
-            case _:
-                pass
+        self.none.computed(value, facts)
+        if isinstance(value, e.Attribute | e.Local):
+            self._unset.check(value, facts)
         self.operators.check(value)
         match value:
             case e.Binary(operator, left, right) if operator in _DIVIDING:

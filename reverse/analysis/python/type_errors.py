@@ -282,16 +282,6 @@ class TypeErrors:
             wrong = True
         if operator is Operator.FLOOR_MODULO and isinstance(left, e.Literal):
             wrong |= isinstance(left.value, str) and self._puts(left.value, right, facts)
-            import os
-
-            if os.environ.get("DBGT"):
-                print(
-                    "UNKNOWN",
-                    operator,
-                    left if None in kinds[0] else "",
-                    right if None in kinds[1] else "",
-                    file=__import__("sys").stderr,
-                )
         if wrong:
             self._notes.fails(value, _WRONG)
         if operator in (Operator.IN, Operator.NOT_IN):

@@ -257,6 +257,8 @@ class ToldValues(ABC):
                 return whole and not self.is_object(of)
             case e.Local() | e.Global():
                 return whole and not self.is_object(value)
+            case e.And(left, right) | e.Or(left, right):
+                return self.is_seen(left, whole=whole) and self.is_seen(right, whole=whole)
             case _:
                 return False
 
