@@ -44,10 +44,11 @@ from rebsync.reverse.python.generated.py_types import (
     without_parentheses,
 )
 from rebsync.reverse.python.generated.queues import PASSED, queue_in
-from rebsync.reverse.python.generated.slicing.logs import only_describes
+from rebsync.reverse.python.generated.slicing.logs import only_describes, own_method
 from rebsync.reverse.python.generated.slicing.services import asked_back
 from rebsync.reverse.python.generated.slicing.timers import called_back, only_logs_by_words
 from rebsync.reverse.python.values.py_callbacks import body_of
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -174,6 +175,8 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     handed = [n for n, function in roles.functions.items() if only_logs_by_words(function)]
     for set_up in (roles.functions[n] for n in ("__init__", "_wire") if n in roles.functions):
         handed += [*called_back(set_up), *asked_back(set_up)]
+    if "_publish_state" in roles.functions:
+        handed += filter(None, map(own_method, nodes_in(roles.functions["_publish_state"].node)))
     roles.ticking.update(n for n in handed if is_people_own(roles, n))
     added = (f for n, f in roles.functions.items() if is_people_own(roles, n))
     roles.pairs = {f.name: given for f in added if (given := values_given(code, f))}
