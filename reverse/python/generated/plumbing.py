@@ -37,9 +37,11 @@ from rebsync.reverse.python.generated.py_types import (
 from rebsync.reverse.python.generated.roles import OFFERING, PyRoles, PySends
 from rebsync.reverse.python.generated.send_functions import odd_in_send
 from rebsync.reverse.python.generated.shims import odd_in_shim
+from rebsync.reverse.python.generated.slicing.log_words import TEXTS
 from rebsync.reverse.python.generated.slicing.logs import is_logger
 from rebsync.reverse.python.generated.slicing.silent import Silent
 from rebsync.reverse.python.generated.validation import is_passed
+from rebsync.reverse.python.generated.value_types import name_in_form
 from rebsync.reverse.python.values.class_creation import DECORATORS
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -158,6 +160,9 @@ class Plumbing:
             yield from odd_in_send(function, body, sends, self.messages, self.posts)
         elif name == "_publish_state":
             yield from (s for s in body if not _is_of_state(s))
+        elif name in TEXTS:
+            effects, owner = self.silent.effects, name_in_form(self.roles.owner)
+            yield from () if effects is not None and effects.describes(owner) else body
         elif name == "mailbox":
             yield from (s for s in body if text_of(s) != "return self._mailbox")
 

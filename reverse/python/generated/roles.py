@@ -1,7 +1,7 @@
 """What the members and functions of a class of generated Python are for.
 
-They are known by what they do: a handler is what a subscription puts into the mailbox, a function
-that publishes or posts is a send. Markers only tell names that the code had to change.
+By what they do: a handler is what a subscription puts into the mailbox, a function that publishes
+or posts is a send. Markers only tell names that the code had to change.
 """
 
 from __future__ import annotations
@@ -44,6 +44,7 @@ from rebsync.reverse.python.generated.py_types import (
     without_parentheses,
 )
 from rebsync.reverse.python.generated.queues import PASSED, queue_in
+from rebsync.reverse.python.generated.slicing.log_words import TEXTS
 from rebsync.reverse.python.generated.slicing.logs import only_describes, own_method
 from rebsync.reverse.python.generated.slicing.services import asked_back
 from rebsync.reverse.python.generated.slicing.timers import called_back, only_logs_by_words
@@ -58,7 +59,7 @@ OFFERING = {
     **dict.fromkeys(("offer", "offer_on_bridge"), (6,)),
     **dict.fromkeys(("offer_action", "offer_action_on_bridge"), (6, 8)),
 }
-_PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
+_PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox", *TEXTS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,7 +173,7 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     for function in roles.functions.values():
         if function.name not in _PLUMBING:
             _does(roles, function, servers)
-    handed = [n for n, function in roles.functions.items() if only_logs_by_words(function)]
+    handed = [n for n, f in roles.functions.items() if only_logs_by_words(f)]
     for set_up in (roles.functions[n] for n in ("__init__", "_wire") if n in roles.functions):
         handed += [*called_back(set_up), *asked_back(set_up)]
     if "_publish_state" in roles.functions:
@@ -186,8 +187,8 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
 def is_people_own(roles: PyRoles, name: str) -> bool:
     """Whether a function is one that people added beside what sends and serves."""
     function = roles.functions.get(name)
-    is_made = roles.is_plumbing(name) or name in roles.handlers or name.startswith("construct")
-    is_made = is_made or is_of_node(name)
+    is_made = roles.is_plumbing(name) or name in roles.handlers or is_of_node(name)
+    is_made = is_made or name.startswith("construct")
     return function is not None and not (is_made or markers_above(function.py, function.node))
 
 
