@@ -141,7 +141,9 @@ class Plumbing:
         self.findings.unreadable(py.source, Unread(py.span(node), why, _HINT), within)
 
     def _odd(self, function: Scope) -> Iterator[tuple[Node, str]]:
-        body = [s for s in body_of(function) if not self.silent.tells(s)]
+        body = [
+            s for s in self.silent.without_handlers(body_of(function)) if not self.silent.tells(s)
+        ]
         sends = self.roles.sends.get(function.name)
         if function.name in ("__init__", "_wire"):
             yield from self._odd_in_set_up(function, body)

@@ -44,6 +44,8 @@ from rebsync.reverse.python.generated.py_types import (
     without_parentheses,
 )
 from rebsync.reverse.python.generated.queues import PASSED, queue_in
+from rebsync.reverse.python.generated.slicing.candidates import is_of_node
+from rebsync.reverse.python.generated.slicing.exceptions import raising_again
 from rebsync.reverse.python.generated.slicing.log_words import TEXTS
 from rebsync.reverse.python.generated.slicing.logs import only_describes, own_method
 from rebsync.reverse.python.generated.slicing.services import asked_back
@@ -192,11 +194,6 @@ def is_people_own(roles: PyRoles, name: str) -> bool:
     return function is not None and not (is_made or markers_above(function.py, function.node))
 
 
-def is_of_node(name: str) -> bool:
-    """Whether a node of rclpy has a member of its own by this name."""
-    return name in PYTHON_FUNCTIONS or name.removeprefix("_") in PYTHON_MEMBERS
-
-
 # --- set up -------------------------------------------------------------------------------------
 
 
@@ -327,7 +324,8 @@ def variable_name(attribute: str, markers: Collection[str]) -> str:
 def _does(
     roles: PyRoles, function: Scope, servers: dict[str, tuple[str, tuple[m.Annotation, ...]]]
 ) -> None:
-    for statement in body_of(function):
+    body = (raising_again(s) or ([s], []) for s in body_of(function))
+    for statement in (s for inner, _ in body for s in inner):
         inner = named(statement)[0] if statement.type == "expression_statement" else None
         called, arguments = call_parts(inner) or ("", [])
         passed = [p.name for p in function.parameters[1:]]

@@ -348,7 +348,13 @@ def _is_of_its_type(reader: ModelStatementReader, node: Node) -> bool:
 
 
 def tried(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
-    """`try` with a `finally` alone: one behind the other, as nothing leaves the first part."""
+    """`try` with a `finally` alone: one behind the other, as nothing leaves the first part.
+
+    Handlers that only tell people of what they raise again change nothing.
+    """
+    plain = [*reader.expressions.names.silent.without_handlers([node])]
+    if plain != [node]:
+        return [*reader.block(plain, node).statements]
     clauses = [c for c in named(node) if c.type.endswith("_clause")]
     body = field(node, "body")
     if [c.type for c in clauses] != ["finally_clause"]:

@@ -106,6 +106,17 @@ class ToldExceptions:
         )
 
 
+def raising_again(statement: Node) -> tuple[list[Node], list[Node]] | None:
+    """The body of a `try` whose handlers raise again what they caught, and what they do before."""
+    clauses = [c for c in named(statement) if c.type.endswith("_clause")]
+    if statement.type != "try_statement" or any(c.type != "except_clause" for c in clauses):
+        return None
+    handlers = [[n for n in named(named(c)[-1]) if n.type != "comment"] for c in clauses]
+    if not all(text_of(h[-1]) == "raise" if h else False for h in handlers):
+        return None
+    return named(field(statement, "body")), [n for h in handlers for n in h[:-1]]
+
+
 def _is_tested_at(scope: Scope, place: Span) -> bool:
     """`names[i] if 0 <= i < len(names) else i`, where `i` is a local."""
     nodes = (n for n in nodes_in(scope.node) if n.type == "subscript")
