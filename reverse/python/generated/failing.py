@@ -46,8 +46,6 @@ def told_people(expressions: ModelExpressionReader, node: Node) -> list[m.Statem
 
 def _logs_methods(expressions: ModelExpressionReader, node: Node) -> bool:
     """Whether a statement logs, and calls methods of the model for what it logs."""
-    if not any(_is_method(expressions, each) for each in nodes_in(node)):
-        return False  # effects alone say what it does
     looks = replace(expressions.names.silent.looks, own=methods_of(expressions))
     return node.type == "expression_statement" and only_logs(node, looks)
 
