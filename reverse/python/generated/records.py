@@ -43,7 +43,7 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
     name = text_of(field(inner, "left"))
     if value.type == "tuple":
         fields: Sequence[str] = [*map(str, range(len(named(value))))]
-        given = [*zip(fields, named(value), strict=True)]
+        given: list[tuple[str, Node]] | None = [*zip(fields, named(value), strict=True)]
     else:
         is_call = value.type == "call"
         fields = _fields_of(reader, text_of(field(value, "function"))) or () if is_call else ()

@@ -28,7 +28,7 @@ def kept(reader: ModelExpressionReader, node: Node) -> list[m.Expression] | None
 
 def _elements(
     reader: ModelExpressionReader, node: Node
-) -> tuple[str, list[Node] | list[m.Expression]] | None:
+) -> tuple[str, Sequence[Node | m.Expression]] | None:
     """What is in a tuple or list that is written out, kept, or made of an array; else None."""
     node = without_parentheses(node)
     if node.type in ("tuple", "list"):
@@ -69,19 +69,23 @@ def compared(
     if left is None or right is None or left[0] != right[0]:
         return None
     pairs = list(zip(left[1], right[1], strict=False))
-    parts = [each for pair in pairs for each in pair]
+    parts = [each for both in pairs for each in both]
     is_even = len(left[1]) == len(right[1]) > 0
     if not is_even or any(isinstance(each, Node) and may_fail(reader, each) for each in parts):
         raise reader.unread(node, "the model has no such comparison")
-    read = [tuple(e if not isinstance(e, Node) else reader.expression(e) for e in p) for p in pairs]
-    for sides in read:
-        kinds = [reader.kind(side) for side in sides]
-        if not all(map(is_calm, sides)):  # a property runs a function
+    read = [(_read(reader, one), _read(reader, other)) for one, other in pairs]
+    for pair in read:
+        kinds = [reader.kind(side) for side in pair]
+        if not all(map(is_calm, pair)):  # a property runs a function
             raise reader.unread(node, "what this does may count for what it is compared with")
         if any(kind is None or is_floating(kind) or kind.dimensions for kind in kinds):
             raise reader.unread(node, "the model has no such comparison")
-        idioms.assert_alike(reader, node, operator, sides)
+        idioms.assert_alike(reader, node, operator, pair)
     return idioms.grouped(node, _lexicographical(operator, read))
+
+
+def _read(reader: ModelExpressionReader, element: Node | m.Expression) -> m.Expression:
+    return reader.expression(element) if isinstance(element, Node) else element
 
 
 def _lexicographical(operator: str, pairs: list[tuple[m.Expression, m.Expression]]) -> m.Expression:
