@@ -38,12 +38,8 @@ _DIVIDING = frozenset(
         *(Operator.TRUNCATING_DIVIDE, Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER),
     }
 )
-# Operators that None has too.
-_ASKING_NONE = frozenset(
-    {Operator.SAME, Operator.NOT_SAME, Operator.EQUAL, Operator.UNEQUAL}
-    | {Operator.IN, Operator.NOT_IN}
-)
-_INDEXING, _SEQUENCES = ("__getitem__", "__class_getitem__"), ("list", "tuple", "deque", "str")
+_INDEXING = ("__getitem__", "__class_getitem__")
+_SEQUENCES = ("list", "tuple", "deque", "str")
 _MODULO = (Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER)
 
 
@@ -94,21 +90,9 @@ class OutcomeExpressions:
 
     def _itself(self, value: e.Expression, facts: Facts) -> None:
         self.types.check(value, facts)
-        match value:
-            case e.Attribute(of):
-                self.none.check(of, value, facts, "asks None for an attribute")
-                self._unset.check(value, facts)
-            case e.Local():
-                self._unset.check(value, facts)
-            case e.Index(of) | e.Binary(Operator.IN | Operator.NOT_IN, _, of):
-                self.none.check(of, value, facts)
-            case e.Unary(operator, of) if operator is not Operator.NOT:
-                self.none.check(of, value, facts)
-            case e.Binary(operator, left, right) if operator not in _ASKING_NONE:
-                self.none.check(left, value, facts)
-                self.none.check(right, value, facts)
-            case _:
-                pass
+        self.none.computed(value, facts)
+        if isinstance(value, e.Attribute | e.Local):
+            self._unset.check(value, facts)
         self.operators.check(value)
         match value:
             case e.Binary(operator, left, right) if operator in _DIVIDING:
@@ -191,10 +175,8 @@ class OutcomeExpressions:
 
     def _formats(self, value: e.Format, pieces: tuple[e.FormatPiece, ...], facts: Facts) -> None:
         """A width or precision that is computed may be negative."""
-        styled = [piece for piece in pieces if piece.style is not None]
-        for piece in styled:
-            self.none.check(piece.value, value, facts)
-        inner = (s for p in styled if isinstance(p.style, e.Format) for s in p.style.pieces)
+        styles = (piece.style for piece in pieces)
+        inner = (s for style in styles if isinstance(style, e.Format) for s in style.pieces)
         for piece in inner:
             if not self.is_positive(piece.value, facts):
                 self.notes.fails(value, "has a style that is none")
@@ -273,7 +255,7 @@ class OutcomeExpressions:
     def size(self, container: e.Expression, facts: Facts) -> int:
         """How many elements a container has at least."""
         type_ = getattr(container, "type", None)
-        length = type_.length if isinstance(type_, t.Array) else 0
+        length = type_.length if isinstance(type_, t.Array) else self.types.kinds.length(container)
         counted = self.notes.counts.size(container, self.function)
         return max(size_of(facts, container), counted, length)
 
@@ -349,11 +331,12 @@ class OutcomeExpressions:
         size = self.size(value.object, facts)
         if isinstance(value.object, e.Local) and self.notes.is_parameter(value.object):
             size = max(size, self.notes.elements.get(self.function, 0))
+        from_end = value.from_end and not self.types.kinds.length(value.object)
         match bare(value.index):
             case e.Literal(int() as index):
-                return -size <= index < size if value.from_end else 0 <= index < size
+                return -size <= index < size if from_end else 0 <= index < size
             case e.Unary(Operator.NEGATE, e.Literal(int() as index)):
-                return value.from_end and index <= size
+                return from_end and index <= size
             case e.Binary(operator, _, e.Literal(int() as bound)) if operator in _MODULO:
                 return operator is Operator.FLOOR_MODULO and 0 < bound <= size
             case e.Binary(Operator.FLOOR_MODULO, _, right):

@@ -163,10 +163,15 @@ class OutcomeAnalysis:
             return self.origins.operators
         calls = (n for n in walk(function) if isinstance(n, s.Call))
         values = (a.value for call in calls for a in call.arguments)
-        classes = {c for v in values for c in self.origins.own_classes(v, function.name)}
+        classes = {c for v in values for c in self._classes_of(v, function.name)}
         families = {each for c in classes for each in self.graph.family(c)}
         owners = {n: self.program.function(n).owner for n in self.origins.operators}
         return frozenset(n for n, owner in owners.items() if owner in families)
+
+    def _classes_of(self, value: e.Expression, function: str) -> frozenset[str]:
+        """The classes that a value may be an object of, the function's own one among them."""
+        own = self.counts.rules.types.attributes.receiver(value, function)
+        return self.origins.own_classes(value, function) | ({own} if own is not None else set())
 
     def kinds(self, function: Function) -> OperandKinds:
         """Of which types the values of a function in Python are."""

@@ -15,10 +15,17 @@ from rebsync.reverse.analysis.python.unpacked_values import UnpackedValues
 from rebsync.reverse.analysis.stores import CallResult, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.program import Function, FunctionKind
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.routines import Language
 
+# Operators that None has too.
+_OF_ANYTHING = frozenset(
+    {Operator.SAME, Operator.NOT_SAME, Operator.EQUAL, Operator.UNEQUAL}
+    | {Operator.IN, Operator.NOT_IN}
+)
+_OF_NUMBERS = (Operator.NEGATE, Operator.PLUS, Operator.INVERT)
 _DEEPEST = 3
 _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
 
@@ -49,6 +56,25 @@ class NoneValues:
             self._notes.fails(node, failure)
         elif (given := self.given(value, facts)) is not None:
             self._notes.fails(node, failure, given)
+
+    def computed(self, value: e.Expression, facts: Facts) -> None:
+        """Notes what an expression asks of its parts that None has not."""
+        match value:
+            case e.Attribute(of):
+                self.check(of, value, facts, "asks None for an attribute")
+            case e.Index(of) | e.Binary(Operator.IN | Operator.NOT_IN, _, of):
+                self.check(of, value, facts)
+            case e.Binary(operator, left, right) if operator not in _OF_ANYTHING:
+                self.check(left, value, facts)
+                self.check(right, value, facts)
+            case e.Unary(operator, of) if operator in _OF_NUMBERS:
+                self.check(of, value, facts)
+            case e.Format(pieces):
+                for piece in pieces:
+                    if piece.style not in (None, e.Literal("")) and not piece.conversion:
+                        self.check(piece.value, value, facts)
+            case _:
+                pass
 
     def given(self, value: e.Expression, facts: Facts) -> ParameterNeed | None:
         """The parameter of the function that a value is, if nothing says that it is not None."""

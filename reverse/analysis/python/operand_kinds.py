@@ -141,6 +141,11 @@ class OperandKinds:
         types = self._types.attributes.declared(value, self._name)
         return bool(types) and all(isinstance(each, t.Integer | t.Truth) for each in types)
 
+    def length(self, value: e.Expression) -> int:
+        """How many elements an array of generated code has, none of them asked for from its end."""
+        types = self._types.attributes.declared(value, self._name)
+        return min((each.length if isinstance(each, t.Array) else 0 for each in types), default=0)
+
     def _declared(self, value: e.Expression) -> ValueTypes:
         """The types that parameters, attributes and their elements are declared with."""
         return union(map(of_declared, self._types.attributes.declared(value, self._name)))

@@ -42,6 +42,7 @@ from rebsync.reverse.analysis.python.value_types import (
     ValueType,
     ValueTypes,
     own_type,
+    union,
 )
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -158,6 +159,10 @@ class TypeErrors:
             case "builtins.len":
                 for value in plain[:1]:
                     self._answers(node, value, ImplicitCall.LENGTH)
+            case "builtins.dict":
+                types = [self.kinds.known(self.kinds.types(value, facts)) for value in plain[:1]]
+                if not all(map(self._gives_pairs, union(types))):
+                    self._notes.fails(node, _WRONG)
             case "builtins.isinstance" if len(plain) > 1:
                 if self.kinds.of(plain[1], facts) - {None, OwnType.TUPLE}:
                     self._notes.fails(node, _WRONG)
@@ -166,6 +171,19 @@ class TypeErrors:
                     self._answers(node, value, ImplicitCall.ITERATE)
             case _:
                 pass
+
+    def _gives_pairs(self, type_: ValueType | None) -> bool:
+        """Whether a mapping can be made of a value: of another one, or of pairs."""
+        match type_:
+            case ContainerType(OwnType.MAPPING) | InstanceType():
+                return True
+            case ContainerType(_, elements):
+                known = self.kinds.known(elements)
+                parts = [each.parts for each in known if isinstance(each, ContainerType)]
+                are_pairs = all(each is None or len(each) == 2 for each in parts)
+                return are_pairs and {*map(own_type, known)} <= {OwnType.TUPLE, OwnType.LIST}
+            case _:
+                return False
 
     def _fills(self, node: s.Call, text: str, plain: list[e.Expression], facts: Facts) -> None:
         """Values that `format` puts into a text as numbers."""

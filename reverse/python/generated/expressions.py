@@ -119,11 +119,13 @@ class Expressions(ModelExpressionReader):
         operands, signs = named(node), signs_of(node)
         if operands[-1].type in ("true", "false"):  # which there is one of each
             signs = [_SAME.get(sign, sign) for sign in signs]
+        if (among := tuples.is_among(self, node, signs)) is not None:
+            return among
         if len(operands) != 2 or signs[0] not in ("<", "<=", ">", ">=", "==", "!="):
             found = comparison(self, node)
             is_one = isinstance(found, m.Binary) and found.operator not in ("&&", "||")
             return found if is_one else idioms.grouped(node, found)
-        if (compared := tuples.compared(self, node, signs[0])) is not None:
+        if (compared := tuples.compared(self, node, signs[0], operands)) is not None:
             return compared
         level = _COMPARISON + 1
         left, right = (self._operand(o, level) for o in operands)
@@ -170,7 +172,7 @@ class Expressions(ModelExpressionReader):
         return self.value(chosen(asked, one.expression, other.expression))
 
     def container(self, node: Node, ordered: bool) -> list[Value] | None:
-        found = arrays.array_elements(self, node)
+        found = tuples.kept(self, node) or arrays.array_elements(self, node)
         return None if found is None else [*map(self.value, found)]
 
     def table(self, node: Node) -> Sequence[tuple[Value, Value]] | None:
@@ -185,7 +187,8 @@ class Expressions(ModelExpressionReader):
     def library(self, function: Node) -> str:
         holder, _, name = text_of(function).rpartition(".")
         if not holder:
-            is_own = self.names.constants.binds(name) or name in self.locals
+            known = self.locals, self.closures, self.kept_sends, self.kept, self.bound
+            is_own = self.names.constants.binds(name) or any(name in names for names in known)
             return "" if is_own else f"builtins.{name}"
         return text_of(function) if holder == "random" and self._is_of_library(holder) else ""
 
@@ -231,6 +234,9 @@ class Expressions(ModelExpressionReader):
     def _element(self, node: Node) -> m.Expression:
         if (constant := self.names.constants.get(text_of(node))) is not None:
             return located(constant, self.py.span(node))
+        at = text_of(field(node, "subscript"))
+        if (stands := self.bound.get(f"{text_of(field(node, 'value'))}.{at}")) is not None:
+            return stands
         target = self.expression(field(node, "value"))
         return m.Index(target, self.index(field(node, "subscript")), self.py.span(node))
 

@@ -167,4 +167,5 @@ def _is_element(expressions: ModelExpressionReader, node: Node) -> bool:
     except Unread:
         return False
     type_ = idioms.type_of(expressions, held)
-    return type_ is not None and bool(type_.dimensions)
+    is_array = type_ is not None and bool(type_.dimensions)
+    return is_array and not expressions.names.silent.exceptions.is_within(node)

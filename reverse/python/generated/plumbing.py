@@ -37,9 +37,11 @@ from rebsync.reverse.python.generated.py_types import (
 from rebsync.reverse.python.generated.roles import OFFERING, PyRoles, PySends
 from rebsync.reverse.python.generated.send_functions import odd_in_send
 from rebsync.reverse.python.generated.shims import odd_in_shim
+from rebsync.reverse.python.generated.slicing.log_words import TEXTS
 from rebsync.reverse.python.generated.slicing.logs import is_logger
 from rebsync.reverse.python.generated.slicing.silent import Silent
 from rebsync.reverse.python.generated.validation import is_passed
+from rebsync.reverse.python.generated.value_types import name_in_form
 from rebsync.reverse.python.values.class_creation import DECORATORS
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -140,7 +142,9 @@ class Plumbing:
         self.findings.unreadable(py.source, Unread(py.span(node), why, _HINT), within)
 
     def _odd(self, function: Scope) -> Iterator[tuple[Node, str]]:
-        body = [s for s in body_of(function) if not self.silent.tells(s)]
+        body = [
+            s for s in self.silent.without_handlers(body_of(function)) if not self.silent.tells(s)
+        ]
         sends = self.roles.sends.get(function.name)
         if function.name in ("__init__", "_wire"):
             yield from self._odd_in_set_up(function, body)
@@ -159,6 +163,9 @@ class Plumbing:
             yield from odd_in_send(function, body, sends, self.messages, self.posts)
         elif name == "_publish_state":
             yield from (s for s in body if not _is_of_state(s))
+        elif name in TEXTS:
+            effects, owner = self.silent.effects, name_in_form(self.roles.owner)
+            yield from () if effects is not None and effects.describes(owner) else body
         elif name == "mailbox":
             yield from (s for s in body if text_of(s) != "return self._mailbox")
 

@@ -1,6 +1,7 @@
 """Locals of generated Python that are records: `cell = Cell(x, y)` is a local for each field.
 
 A record may be changed, so that only its fields may be read, and it may be called nothing else.
+A tuple, whose fields are numbered, does not change: it is only bound once.
 """
 
 from __future__ import annotations
@@ -20,7 +21,12 @@ from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, has_splat
 from rebsync.reverse.syntax.py_tree import SCOPES, field, is_label, named, text_of
 
 _TARGETS = frozenset(
-    {"pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target", "delete_statement"}
+    {
+        *("pattern_list", "tuple_pattern", "list_pattern", "as_pattern_target", "dotted_name"),
+        *("delete_statement", "global_statement", "nonlocal_statement", "aliased_import"),
+        *("parameters", "typed_parameter", "default_parameter", "typed_default_parameter"),
+        *("expression_list", "list_splat", "list_splat_pattern", "dictionary_splat"),
+    }
 )
 _DATACLASS = re.compile(
     r"(?:dataclasses\.)?dataclass(?:\((?:\s*(?:frozen|order|eq)\s*=\s*(?:True|False)\s*,?)*\))?\Z"
@@ -32,14 +38,19 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
     """The statements of one that makes a local record, and behind it; None if it does not."""
     inner = named(node)[0] if node.type == "expression_statement" and named(node) else node
     value = inner.child_by_field_name("right") if inner.type == "assignment" else None
-    if value is None or value.type != "call" or field(inner, "left").type != "identifier":
+    if value is None or field(inner, "left").type != "identifier":
         return None
     name = text_of(field(inner, "left"))
-    fields = _fields_of(reader, text_of(field(value, "function")))
-    if fields is None or not _is_only_read(inner, name, fields):
+    if value.type == "tuple":
+        fields: Sequence[str] = [*map(str, range(len(named(value))))]
+        given: list[tuple[str, Node]] | None = [*zip(fields, named(value), strict=True)]
+    else:
+        is_call = value.type == "call"
+        fields = _fields_of(reader, text_of(field(value, "function"))) or () if is_call else ()
+        given = _given(value, fields) if fields else []
+    if not given or not _is_only_read(inner, name, fields):
         return None
-    given = _given(value, fields)
-    if given is None or any(f"{name}_{f}" in reader.expressions.locals for f in fields):
+    if any(f"{name}_{f}" in reader.expressions.locals for f in fields):
         return None
     found: list[m.Statement] = [reader.implied_local(f"{name}_{f}", v, node) for f, v in given]
     own = reader.expressions
@@ -69,32 +80,39 @@ def _given(call: Node, fields: Sequence[str]) -> list[tuple[str, Node]] | None:
 
 
 def _is_only_read(assignment: Node, name: str, fields: Sequence[str]) -> bool:
-    """Whether a local is bound once, and else only its fields are read, in the function itself."""
+    """Whether a local is bound once, and else only read: a record its fields, in the function."""
     function = climb(assignment, lambda n: n.type in SCOPES)
     if function is None:
         return False
     uses = [n for n in nodes_in(function) if n.type == "identifier" and text_of(n) == name]
     others = [n for n in uses if n != field(assignment, "left") and not is_label(n)]
+    taken = {f"{name}_{each}" for each in fields}
+    if any(n.type == "identifier" and text_of(n) in taken for n in nodes_in(function)):
+        return False
     return all(_is_read(n, function, fields) for n in others)
 
 
 def _is_read(use: Node, function: Node, fields: Sequence[str]) -> bool:
-    above = use.parent
-    if above is None or above.type != "attribute":
-        return False
-    if text_of(field(above, "attribute")) not in fields:
-        return False
-    outer = above.parent
-    is_target = outer is None or outer.type in _TARGETS
-    if outer is not None and outer.type in _STORING:
-        is_target = above in (
-            *outer.children_by_field_name("left"),
-            *outer.children_by_field_name("function"),
-        )
+    node, above = use, use.parent
+    if "0" not in fields:
+        if above is None or text_of(above.child_by_field_name("attribute") or use) not in fields:
+            return False
+        node, above = above, above.parent
+    elif above is not None and above.type == "subscript":
+        node, above = above, above.parent
+    is_target = above is None or above.type in _TARGETS
+    if above is not None and above.type in _STORING:
+        stored = (above.children_by_field_name(n) for n in ("left", "function", "name"))
+        is_target = any(node in each for each in stored)
     return not is_target and climb(use, lambda n: n.type in SCOPES) == function
 
 
-_STORING = frozenset({"assignment", "augmented_assignment", "for_statement", "call"})
+_STORING = frozenset(
+    {
+        *("assignment", "augmented_assignment", "for_statement", "for_in_clause", "call"),
+        "named_expression",
+    }
+)
 
 
 def _records_in(code: PyCode, module: Scope) -> Mapping[str, Sequence[str]]:

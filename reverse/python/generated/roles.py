@@ -1,7 +1,7 @@
 """What the members and functions of a class of generated Python are for.
 
-They are known by what they do: a handler is what a subscription puts into the mailbox, a function
-that publishes or posts is a send. Markers only tell names that the code had to change.
+By what they do: a handler is what a subscription puts into the mailbox, a function that publishes
+or posts is a send. Markers only tell names that the code had to change.
 """
 
 from __future__ import annotations
@@ -44,10 +44,14 @@ from rebsync.reverse.python.generated.py_types import (
     without_parentheses,
 )
 from rebsync.reverse.python.generated.queues import PASSED, queue_in
-from rebsync.reverse.python.generated.slicing.logs import only_describes
+from rebsync.reverse.python.generated.slicing.candidates import is_of_node
+from rebsync.reverse.python.generated.slicing.exceptions import raising_again
+from rebsync.reverse.python.generated.slicing.log_words import TEXTS
+from rebsync.reverse.python.generated.slicing.logs import only_describes, own_method
 from rebsync.reverse.python.generated.slicing.services import asked_back
 from rebsync.reverse.python.generated.slicing.timers import called_back, only_logs_by_words
 from rebsync.reverse.python.values.py_callbacks import body_of
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -57,7 +61,7 @@ OFFERING = {
     **dict.fromkeys(("offer", "offer_on_bridge"), (6,)),
     **dict.fromkeys(("offer_action", "offer_action_on_bridge"), (6, 8)),
 }
-_PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox"}
+_PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox", *TEXTS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,9 +175,11 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     for function in roles.functions.values():
         if function.name not in _PLUMBING:
             _does(roles, function, servers)
-    handed = [n for n, function in roles.functions.items() if only_logs_by_words(function)]
+    handed = [n for n, f in roles.functions.items() if only_logs_by_words(f)]
     for set_up in (roles.functions[n] for n in ("__init__", "_wire") if n in roles.functions):
         handed += [*called_back(set_up), *asked_back(set_up)]
+    if "_publish_state" in roles.functions:
+        handed += filter(None, map(own_method, nodes_in(roles.functions["_publish_state"].node)))
     roles.ticking.update(n for n in handed if is_people_own(roles, n))
     added = (f for n, f in roles.functions.items() if is_people_own(roles, n))
     roles.pairs = {f.name: given for f in added if (given := values_given(code, f))}
@@ -183,14 +189,9 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
 def is_people_own(roles: PyRoles, name: str) -> bool:
     """Whether a function is one that people added beside what sends and serves."""
     function = roles.functions.get(name)
-    is_made = roles.is_plumbing(name) or name in roles.handlers or name.startswith("construct")
-    is_made = is_made or is_of_node(name)
+    is_made = roles.is_plumbing(name) or name in roles.handlers or is_of_node(name)
+    is_made = is_made or name.startswith("construct")
     return function is not None and not (is_made or markers_above(function.py, function.node))
-
-
-def is_of_node(name: str) -> bool:
-    """Whether a node of rclpy has a member of its own by this name."""
-    return name in PYTHON_FUNCTIONS or name.removeprefix("_") in PYTHON_MEMBERS
 
 
 # --- set up -------------------------------------------------------------------------------------
@@ -323,7 +324,8 @@ def variable_name(attribute: str, markers: Collection[str]) -> str:
 def _does(
     roles: PyRoles, function: Scope, servers: dict[str, tuple[str, tuple[m.Annotation, ...]]]
 ) -> None:
-    for statement in body_of(function):
+    body = (raising_again(s) or ([s], []) for s in body_of(function))
+    for statement in (s for inner, _ in body for s in inner):
         inner = named(statement)[0] if statement.type == "expression_statement" else None
         called, arguments = call_parts(inner) or ("", [])
         passed = [p.name for p in function.parameters[1:]]

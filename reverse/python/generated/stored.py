@@ -10,7 +10,7 @@ from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.expressions.elements import certain
-from rebsync.reverse.python.generated import arrays, idioms
+from rebsync.reverse.python.generated import arrays, idioms, tuples
 from rebsync.reverse.python.generated.inner import leaves
 from rebsync.reverse.python.generated.pairs import values_in_place
 from rebsync.reverse.python.generated.places import is_kept
@@ -67,7 +67,7 @@ def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """
     lefts, right = named(field(node, "left")), field(node, "right")
     expressions = reader.expressions
-    elements = arrays.array_elements(expressions, right)
+    elements = tuples.kept(expressions, right) or arrays.array_elements(expressions, right)
     if elements is not None and len(elements) == len(lefts):
         if text_of(right) in {idioms.base_of(left) for left in lefts}:
             raise expressions.unread(node, _WHOLE)
@@ -348,7 +348,13 @@ def _is_of_its_type(reader: ModelStatementReader, node: Node) -> bool:
 
 
 def tried(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
-    """`try` with a `finally` alone: one behind the other, as nothing leaves the first part."""
+    """`try` with a `finally` alone: one behind the other, as nothing leaves the first part.
+
+    Handlers that only tell people of what they raise again change nothing.
+    """
+    plain = [*reader.expressions.names.silent.without_handlers([node])]
+    if plain != [node]:
+        return [*reader.block(plain, node).statements]
     clauses = [c for c in named(node) if c.type.endswith("_clause")]
     body = field(node, "body")
     if [c.type for c in clauses] != ["finally_clause"]:

@@ -25,9 +25,9 @@ _NUMBERS: Mapping[str, t.Type] = {
 
 def typed(program: Program, roles: Iterable[PyRoles]) -> Program:
     """A program with the types of attributes and parameters of the classes of a model."""
-    of_class = {_name(each.owner): dict(_attributes(each)) for each in roles}
+    of_class = {name_in_form(each.owner): dict(_attributes(each)) for each in roles}
     of_function = {
-        f"{_name(each.owner)}.{name}": dict(_parameters(function))
+        f"{name_in_form(each.owner)}.{name}": dict(_parameters(function))
         for each in roles
         for name, function in each.functions.items()
         if not each.is_plumbing(name)  # what people added may be called with anything
@@ -45,7 +45,7 @@ def typed(program: Program, roles: Iterable[PyRoles]) -> Program:
     return Program(program.functions, classes, lowered, program.modules.items(), program.globals)
 
 
-def _name(owner: Scope) -> str:
+def name_in_form(owner: Scope) -> str:
     """The name of a class in the form."""
     return f"{owner.py.source.path}:{owner.name}"
 

@@ -40,9 +40,7 @@ FILES = (
     *("gate10_cpp.toml", "gate10_python.toml", "gate11_cpp.toml", "gate11_python.toml"),
     *("gate12_cpp.toml", "gate12_python.toml", "gate13_cpp.toml", "gate13_python.toml"),
     *("looked_up.toml", "told_python.toml", "imports.toml", "captures.toml"),
-    "results.toml",
-    "surroundings.toml",
-    "undefined.toml",
+    *("results.toml", "surroundings.toml", "undefined.toml", "needless_python.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 

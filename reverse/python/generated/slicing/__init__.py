@@ -5,7 +5,8 @@ reads, and what cannot fail, wait or act, has no effect on it (program slicing, 
 
 `silent.py`      the members, locals and statements of a class outside of the slice: a fixpoint
 `candidates.py`  which of them the intermediate form is asked of, as lowering takes time
-`effects.py`     whether statements only compute and keep: effects by the intermediate form
+`effects.py`, `scopes.py`  whether statements only compute and keep: effects by the
+                 intermediate form
 `escapes.py`     whether a value leads to an array of the model, or to the node: escape analysis
 `library_calls.py`  what functions of Python take without an error, by the types of arguments
 `exceptions.py`, `messages.py`  what statements may raise; whether fields take what they get

@@ -9,6 +9,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from tree_sitter import Node
 
+from rebsync.reserved import PYTHON_FUNCTIONS, PYTHON_MEMBERS
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
@@ -136,6 +137,11 @@ def _is_of_package(code: PyCode, module: Scope, statement: Node) -> bool:
     source = module_named(code, module_of(statement), module)
     is_message = text_of(field(statement, "module_name")).rpartition(".")[2] in ("msg", "srv")
     return is_message or (source is not None and is_runtime_file(source.py.source))
+
+
+def is_of_node(name: str) -> bool:
+    """Whether a node of rclpy has a member of its own by this name."""
+    return name in PYTHON_FUNCTIONS or name.removeprefix("_") in PYTHON_MEMBERS
 
 
 def asked_of_node() -> Collection[str]:

@@ -13,7 +13,7 @@ from dataclasses import field as with_default
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origin, Origins
 from rebsync.reverse.analysis.python.value_types import A_NUMBER, A_TEXT, ValueTypes
-from rebsync.reverse.analysis.stores import ClassValue, Value, key_of
+from rebsync.reverse.analysis.stores import key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -25,6 +25,7 @@ from rebsync.reverse.python.generated.slicing.library_calls import is_known
 from rebsync.source import Span
 
 LOGGER = LibraryOrigin("logger", True)
+_CLASS = LibraryOrigin("builtins.type", True)
 _SCALARS = (t.Integer, t.Float, t.Truth, t.Text)
 _OF_WHOLE = frozenset(
     {
@@ -81,6 +82,10 @@ class Foreign(ABC):
     @abstractmethod
     def gives_free(self, getter: str) -> bool:
         """Whether a property of the object gives a free value, and does nothing else."""
+
+    @abstractmethod
+    def describes(self, owner: str) -> bool:
+        """Whether to make a text of an object of a class does nothing but that."""
 
     @abstractmethod
     def is_closed(self, name: str) -> bool:
@@ -143,6 +148,11 @@ class ToldValues(ABC):
     def _types(self, value: e.Expression) -> ValueTypes:
         """The types of what a value may be: it must not fail where it is used."""
         return self.effects.form.kinds(self.function).types(value, frozenset())
+
+    def _is_plain(self, piece: e.FormatPiece) -> bool:
+        """Whether a value has styles: numbers and texts."""
+        types = self._types(piece.value)
+        return bool(piece.conversion) or (bool(types) and types <= A_NUMBER | A_TEXT)
 
     def is_typed(self, *values: e.Expression) -> bool:
         return all(is_known(self._types(value)) for value in values)
@@ -232,8 +242,8 @@ class ToldValues(ABC):
                 )
             case e.Format(pieces):
                 styled = [p for p in pieces if p.style is not None]
-                fits = all(self.is_free_or_none(p.style) and self.is_typed(p.value) for p in styled)
-                return fits and all(self.is_seen(p.value) for p in pieces)
+                fits = all(self.is_free_or_none(p.style) and self._is_plain(p) for p in styled)
+                return fits and all(self.is_shown(p.value) for p in pieces)
             case _:
                 return False
 
@@ -257,8 +267,16 @@ class ToldValues(ABC):
                 return whole and not self.is_object(of)
             case e.Local() | e.Global():
                 return whole and not self.is_object(value)
+            case e.And(left, right) | e.Or(left, right):
+                return self.is_seen(left, whole=whole) and self.is_seen(right, whole=whole)
             case _:
                 return False
+
+    def is_shown(self, value: e.Expression) -> bool:
+        """Whether a value is seen, or the object itself, where a text is made of it."""
+        owner = self.function.owner
+        is_own = self.is_object(value) and owner is not None and self.effects.describes(owner)
+        return is_own or self.is_seen(value)
 
     def is_table(self, value: e.Expression) -> bool:
         """Whether a value is an array of the model, or a constant, with numbers and texts in it."""
@@ -324,18 +342,6 @@ class ToldValues(ABC):
         named = self.places.variables if self.places is not None else ()
         return isinstance(value, e.Global) and value.name in named
 
-    def is_defined(self, value: Value, function: str, deepest: int = 4) -> bool:
-        """Whether what a value stands for is as it was defined: nothing decorates it."""
-        match value:
-            case e.Closure() | e.FunctionReference() | e.ClassReference() | ClassValue():
-                return True
-            case e.Global() | e.Temporary() | e.Local():
-                key = key_of(value, function) if deepest else None
-                stored = self.effects.origins.graph.stores.of(key) if key is not None else []
-                return bool(stored) and all(self.is_defined(v, f, deepest - 1) for f, v in stored)
-            case _:
-                return False
-
     def is_publisher(self, value: e.Expression) -> bool:
         """Whether a value is a member that publishes what only people look at."""
         match value:
@@ -379,6 +385,8 @@ class ToldValues(ABC):
         properties run for it.
         """
         if of in self.clocks or self.is_message(of):
+            return True
+        if name == "__name__" and self.held(of) == {_CLASS}:
             return True
         return self.is_own(of) and all(
             g and self.effects.is_foreign(g) for g in self._getters(name)

@@ -19,7 +19,7 @@ from rebsync.reverse.python.generated.slicing.runtime_attributes import RuntimeA
 from rebsync.reverse.syntax.ancestors import ancestors, holds
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
-from rebsync.reverse.syntax.py_tree import Py, field, named, text_of, whole_number_of
+from rebsync.reverse.syntax.py_tree import Py, field, named, text_of
 from rebsync.source import Span
 
 # What the model has of an operation: it violates what the model forbids where Python raises these.
@@ -79,10 +79,19 @@ class ToldExceptions:
             if scope.name in methods and not is_here:
                 continue
             is_modelled = is_here and problem.place in modelled
-            is_modelled = is_modelled or self._is_there_at(scope, problem.place)
             is_tested = problem.raises == _NO_ELEMENT and _is_tested_at(scope, problem.place)
             if not (is_tested or (is_modelled and problem.raises in _MODELLED)):
                 yield problem.why
+
+    def is_within(self, element: Node) -> bool:
+        """Whether an element of an array of the state is there, whatever the state is."""
+        head, _, name = text_of(field(element, "value")).partition(".")
+        type_, py = self.variables.get(name), self.file_of(element)
+        if head != "self" or type_ is None or len(type_.dimensions) != 1 or py is None:
+            return False
+        place = py.span(element)
+        raised = self.form.raised(py, place) if self.form is not None else ()
+        return not any(problem.place == place for problem, _ in raised)
 
     def races(self, node: Node) -> bool:
         """Whether something beside the bodies may fail for a variable that these change meanwhile.
@@ -96,22 +105,16 @@ class ToldExceptions:
             for n in nodes_in(critical)
         )
 
-    def _is_there_at(self, scope: Scope, place: Span) -> bool:
-        nodes = (n for n in nodes_in(scope.node) if n.type == "subscript")
-        return any(self._is_there(n) for n in nodes if scope.py.span(n) == place)
 
-    def _is_there(self, node: Node) -> bool:
-        """Whether something is an element of an array of the state by a number within it."""
-        dimensions, holder = list[int](), node
-        while holder.type == "subscript":
-            index = whole_number_of(field(holder, "subscript"))
-            dimensions.insert(0, -1 if index is None else index)
-            holder = field(holder, "value")
-        head, _, name = text_of(holder).partition(".")
-        type_ = self.variables.get(name) if head == "self" else None
-        lengths = type_.dimensions if type_ is not None else ()
-        pairs = zip(dimensions, lengths, strict=False)
-        return len(dimensions) <= len(lengths) and all(0 <= at < n for at, n in pairs)
+def raising_again(statement: Node) -> tuple[list[Node], list[Node]] | None:
+    """The body of a `try` whose handlers raise again what they caught, and what they do before."""
+    clauses = [c for c in named(statement) if c.type.endswith("_clause")]
+    if statement.type != "try_statement" or any(c.type != "except_clause" for c in clauses):
+        return None
+    handlers = [[n for n in named(named(c)[-1]) if n.type != "comment"] for c in clauses]
+    if not all(text_of(h[-1]) == "raise" if h else False for h in handlers):
+        return None
+    return named(field(statement, "body")), [n for h in handlers for n in h[:-1]]
 
 
 def _is_tested_at(scope: Scope, place: Span) -> bool:

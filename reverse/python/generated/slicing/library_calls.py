@@ -16,6 +16,7 @@ from rebsync.reverse.analysis.python.value_types import (
     ValueType,
     ValueTypes,
     elements_of,
+    own_type,
     values_of,
 )
 from rebsync.reverse.libraries import python as libraries
@@ -80,6 +81,10 @@ def _is_ordered(types: ValueTypes) -> bool:
             return types in (A_NUMBER, A_TEXT)
 
 
+def _mapping(types: ValueTypes) -> bool:
+    return is_known(types) and all(own_type(type_) is OwnType.MAPPING for type_ in types)
+
+
 def _numbers(types: ValueTypes) -> bool:
     return _elements(types) and elements_of(types) == A_NUMBER
 
@@ -111,7 +116,7 @@ _FUNCTIONS: dict[str, tuple[int, Sequence[Takes]]] = {
     "zip": (1, (_elements, _elements, _elements)),
     **dict.fromkeys(("set", "frozenset", "sorted", "max", "min"), (1, (_comparable,))),
     "sum": (1, (_numbers,)),
-    "dict": (0, ()),
+    "dict": (0, (_mapping,)),
     "collections.Counter": (0, ()),
     "collections.OrderedDict": (0, ()),
     "collections.deque": (0, ()),
@@ -132,7 +137,8 @@ _METHODS: dict[str, tuple[int, Sequence[Takes]]] = {
     "pop": (0, (_number,)),  # that there is an element is asked of the form
     "popleft": (0, ()),
     "get": (1, (_key, _anything)),
-    **dict.fromkeys(("clear", "copy", "items", "keys", "values", "most_common"), (0, ())),
+    **dict.fromkeys(("clear", "copy", "items", "keys", "values"), (0, ())),
+    "most_common": (0, (_number,)),
     **dict.fromkeys(("upper", "lower", "strip", "title", "capitalize", "split"), (0, ())),
     **dict.fromkeys(("lstrip", "rstrip", "swapcase", "casefold", "isdigit"), (0, ())),
     "replace": (2, (_text, _text)),
@@ -144,7 +150,7 @@ _METHODS: dict[str, tuple[int, Sequence[Takes]]] = {
 
 # Of these a number with a point is none that they take.
 _OF_WHOLE = frozenset({"range", "bin", "hex", "enumerate", "collections.deque", "json.dumps"})
-_METHODS_OF_WHOLE = frozenset({"ljust", "rjust", "center", "zfill", "pop"})
+_METHODS_OF_WHOLE = frozenset({"ljust", "rjust", "center", "zfill", "pop", "most_common"})
 
 
 def takes(name: str, given: Sequence[tuple[str | None, ValueTypes]], *, whole: bool) -> bool:

@@ -46,3 +46,5 @@ MAKING_TEXTS = frozenset({"ascii", "bin", "format", "hex", "oct", "repr", "str"}
 ON_CLOCKS = frozenset({"isoformat", "now", "to_msg", "to_nsec", "to_sec"})
 # The methods of a logger of Python's library that only log.
 LEVELS = frozenset({"debug", "info", "warning", "error", "critical"})
+# What makes texts of an object.
+TEXTS = frozenset({"__str__", "__repr__", "__format__"})

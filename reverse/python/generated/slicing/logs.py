@@ -25,7 +25,6 @@ from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, has_splat
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
-_DESCRIBES = frozenset({"__repr__", "__str__"})
 _PLAIN_VALUES = frozenset({"string", "integer", "float", "true", "false", "none"})
 _STORING = frozenset({"named_expression", "await", "yield", "lambda"})
 
@@ -58,8 +57,10 @@ class Looks:
             return self.is_pure(field(node, "arguments"))
         if node.type in _STORING or (node.type == "call" and not self._is_look(node)):
             return False
-        if node.type == "attribute" and text_of(field(node, "attribute")) in self.functions:
-            return text_of(field(node, "object")) not in ("self", "super()")
+        if node.type == "attribute" and text_of(field(node, "object")) in ("self", "super()"):
+            return text_of(field(node, "attribute")) not in self.functions
+        if text_of(node) == "self":  # its class may say what text it is
+            return False
         return all(map(self.is_pure, node.named_children))
 
     def _is_look(self, call: Node) -> bool:
@@ -229,7 +230,7 @@ def only_logs(node: Node, looks: Looks = _PLAIN) -> bool:
 
 
 def only_describes(function: Scope, members: Container[str]) -> bool:
-    """Whether a function only puts a text together of what is there, as `__repr__` does.
+    """Whether a function only puts a text together of what is there.
 
     `members` are the functions of the class, of which one may be a property that does something.
     """
@@ -237,9 +238,8 @@ def only_describes(function: Scope, members: Container[str]) -> bool:
     values = named(body[0]) if len(body) == 1 and body[0].type == "return_statement" else []
     if len(values) != 1 or not set(function.decorators) <= {"staticmethod"}:
         return False
-    is_text = function.name in _DESCRIBES or _PLAIN.is_text(values[0])
     return (
-        is_text
+        _PLAIN.is_text(values[0])
         and _PLAIN.is_pure(values[0])
         and not any(
             n.type == "attribute" and text_of(field(n, "attribute")) in members

@@ -6,7 +6,7 @@ A store in such a member shows in no model, as long as nothing else looks at it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import field as with_default
 from dataclasses import replace
 
@@ -32,16 +32,17 @@ from rebsync.reverse.python.generated.module_variables import (
     hidden_names,
 )
 from rebsync.reverse.python.generated.py_types import expression_in
-from rebsync.reverse.python.generated.roles import PyRoles, is_of_node
+from rebsync.reverse.python.generated.roles import PyRoles
 from rebsync.reverse.python.generated.slicing.candidates import (
     candidate_locals,
     candidate_members,
+    is_of_node,
     made_once,
     may_tell,
 )
 from rebsync.reverse.python.generated.slicing.effects import ToldEffects
 from rebsync.reverse.python.generated.slicing.escapes import ToldPlaces
-from rebsync.reverse.python.generated.slicing.exceptions import ToldExceptions
+from rebsync.reverse.python.generated.slicing.exceptions import ToldExceptions, raising_again
 from rebsync.reverse.python.generated.slicing.logs import Looks
 from rebsync.reverse.python.generated.slicing.messages import ToldMessages, told_types
 from rebsync.reverse.python.generated.slicing.publishers import (
@@ -120,6 +121,15 @@ class Silent:
         if node.type == "global_statement":
             return self.counters.issuperset(map(text_of, named(node)))
         return self._only_computes(node)
+
+    def without_handlers(self, statements: Iterable[Node]) -> Iterator[Node]:
+        """Statements, with the body of a `try` in its place whose handlers tell and raise again."""
+        for statement in statements:
+            again = raising_again(statement)
+            if again is not None and all(map(self.holds, again[1])):
+                yield from self.without_handlers(again[0])
+            else:
+                yield statement
 
     def _asks_parameter(self, node: Node) -> bool:
         """Whether a member gets a parameter of people's own: it may be of any type."""
