@@ -5,20 +5,18 @@ These do the same with it as without.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.python.generated.helpers import plain_function
 from rebsync.reverse.python.generated.module_variables import (
     hidden_names,
     imported_as,
-    is_clock,
-    loggers_of,
+    looks_of,
 )
-from rebsync.reverse.python.generated.plain_functions import function_named
+from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.py_types import expression_in, stored_into
-from rebsync.reverse.python.generated.slicing.logs import Looks, looks_in, only_logs
+from rebsync.reverse.python.generated.slicing.logs import Looks, only_logs
 from rebsync.reverse.python.generated.slicing.silent import Silent
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
@@ -29,14 +27,14 @@ _PLAIN = frozenset({"string", "integer", "float", "true", "false", "none"})
 _WRAPS = ("wraps", "functools.wraps")
 
 
-def is_transparent(code: PyCode, module: Scope, decorator: str, silent: Silent) -> bool:
+def is_transparent(constants: CodeConstants, module: Scope, decorator: str, silent: Silent) -> bool:
     """Whether a decorator only logs, and calls the function with all that it is given.
 
     It may be made by a function of literals: `@timed("way")`.
     """
     name, _, given = decorator.partition("(")
-    made = function_named(code, module, name) if name.isidentifier() else None
-    if made is None or made.decorators:
+    code, made = constants.code, plain_function(constants.of(module, name))
+    if made is None:
         return False
     if not given:
         return _only_tells(code, module, made, silent)
@@ -98,7 +96,8 @@ def is_context(module: Scope, function: Scope) -> bool:
 
 def _tells_around(code: PyCode, module: Scope, made: Scope, silent: Silent) -> bool:
     """Whether a context manager does nothing but to tell people, before and behind its block."""
-    looks = _looks(code, module, made.module)
+    hidden = hidden_names(code, made.module)
+    looks = looks_of(code, (made.module, module), frozenset(), hidden)
     told = _own_locals(made)
     around = _Around(made, "yield", looks, told, silent)
     return around.yields(body_of(made))
@@ -117,7 +116,8 @@ def _only_tells(code: PyCode, module: Scope, made: Scope, silent: Silent) -> boo
     call = f"{name}({', '.join(passed)})"
     if not is_same or stars not in ([1, 2], [1], [0, 1, 2], [0, 1], [0]):
         return False
-    looks = _looks(code, module, made.module)
+    hidden = hidden_names(code, made.module)
+    looks = looks_of(code, (made.module, module), frozenset(), hidden)
     told = _own_locals(function)
     return _Around(function, call, looks, told, silent).gives(body_of(function))
 
@@ -143,16 +143,6 @@ def _given_back(code: PyCode, made: Scope) -> Scope | None:
     function = code.scope_of(of, made.py)
     is_plain = not any(c.type == "async" for c in of.children)
     return function if rest == [f"return {function.name}"] and is_plain else None
-
-
-def _looks(code: PyCode, user: Scope, module: Scope) -> Looks:
-    """What names stand for in the module of a decorator, which a class of another module uses."""
-    hidden = hidden_names(code, module)
-    return replace(
-        looks_in(code, [*{id(m): m for m in (module, user)}.values()], frozenset()),
-        loggers=loggers_of(module) - hidden,
-        clocks=frozenset(n for n in module.names if is_clock(module, n)) - hidden,
-    )
 
 
 @dataclass(frozen=True, slots=True)
