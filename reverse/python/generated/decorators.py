@@ -19,7 +19,8 @@ from rebsync.reverse.python.generated.py_types import expression_in, stored_into
 from rebsync.reverse.python.generated.slicing.logs import Looks, only_logs
 from rebsync.reverse.python.generated.slicing.silent import Silent
 from rebsync.reverse.python.values.py_callbacks import body_of
-from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
+from rebsync.reverse.python.values.py_worth import Function
+from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, parse, text_of
 from rebsync.source import Source
 
@@ -51,41 +52,27 @@ def is_transparent(constants: CodeConstants, module: Scope, decorator: str, sile
     )
 
 
-def context_of(code: PyCode, module: Scope, statement: Node, silent: Silent) -> Node | None:
+def context_of(
+    constants: CodeConstants, module: Scope, statement: Node, silent: Silent
+) -> Node | None:
     """What is done within `with timed("question"):`, if the context only tells people of it."""
     head = next((c for c in named(statement) if c.type == "with_clause"), statement)
     items = [i for i in named(head) if i.type == "with_item"]
     call = field(items[0], "value") if len(items) == 1 else statement
     name = text_of(field(call, "function")) if call.type == "call" else ""
-    made = contexts_in(code, module).get(name) if name.isidentifier() else None
-    given = named(field(call, "arguments")) if made is not None else []
-    if made is None or len(given) > len(made.parameters):
+    match constants.of(module, name):
+        case Function(made) if is_context(made.module, made):
+            given = named(field(call, "arguments"))
+        case _:
+            return None
+    if len(given) > len(made.parameters):
         return None
     needed = [p for p in made.parameters if p.default is None]
     values = [n.child_by_field_name("value") or n for n in given]
     is_given = len(needed) <= len(given) and all(p.star == 0 for p in made.parameters)
     is_known = is_given and all(v.type in _PLAIN for v in values)
-    is_telling = is_known and _tells_around(code, module, made, silent)
+    is_telling = is_known and _tells_around(constants.code, module, made, silent)
     return field(statement, "body") if is_telling else None
-
-
-def contexts_in(code: PyCode, module: Scope) -> dict[str, Scope]:
-    """The context managers that are functions of a module, or of one that it imports them from."""
-    found = {}
-    for name, bindings in module.names.items():
-        source, binding = module, bindings[0]
-        if (
-            len(bindings) == 1
-            and binding.how == "import"
-            and binding.node.type != "import_statement"
-        ):
-            source = module_named(code, module_of(binding.node), module) or module
-            binding = source.names.get(name, [binding])[0]
-        if len(bindings) == 1 and binding.how == "scope":
-            scope = code.scope_of(binding.node, source.py)
-            if is_context(source, scope):
-                found[name] = scope
-    return found
 
 
 def is_context(module: Scope, function: Scope) -> bool:
