@@ -353,7 +353,7 @@ class ModelBodies:
             fillings |= fillings_of(self.roles(above), names.sends)
         silent = silent_in(self.code, self.form, line, [*map(self.roles, line)])
         known = replace(names, imported=imported, posts=posts, fillings=fillings)
-        return replace(known, silent=silent, pairs=self.roles(owner).pairs, code=self.code)
+        return replace(known, silent=silent, pairs=self.roles(owner).pairs)
 
 
 def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.Type | None:

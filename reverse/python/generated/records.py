@@ -52,7 +52,7 @@ def _fields_of(reader: ModelStatementReader, name: str) -> Sequence[str] | None:
     None: a name is not that of one, or of something else too.
     """
     names = reader.expressions.names
-    if name in hidden_names(names.code, names.constants.module):
+    if name in hidden_names(names.constants.code.code, names.constants.module):
         return None
     match names.constants.code.of(names.constants.module, name):
         case Class(owner) if _is_record(owner):
