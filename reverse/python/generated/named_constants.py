@@ -48,6 +48,7 @@ _DATA = frozenset(
     *("true", "false", "none", "dictionary", "pair", "list", "tuple", "set", "unary_operator"),
     *("concatenated_string", "comment", "parenthesized_expression"),
 }
+_NAMING = frozenset({"import", "scope", "value"})
 _LISTS = frozenset({"list", "tuple"})
 _LARGEST = 2**31 - 1
 _NAMED = re.compile(r"([^\W\d]\w*)((?:\.\w+)*)(?:\[(\d+)\])?")
@@ -134,12 +135,11 @@ class CodeConstants(PyValues):
 
     def bound(self, binding: Binding, name: str, scope: Scope) -> Ways:
         """What a binding gives that is the only one of its name, and gives the same at any time."""
-        is_import = binding.how == "import" and name != "*"
-        is_value = binding.how == "value" and self._is_steady(binding, name, scope)
-        is_only = _is_new(scope, name) and not self._is_stored(scope, name)
-        if not is_only or not (is_import or is_value or binding.how == "scope"):
-            return (self.unknown("this may change", binding.node, scope),)
-        return PyValues.bound(self, binding, name, scope)
+        is_only = binding.how in _NAMING and name != "*" and _is_new(scope, name)
+        is_steady = binding.how != "value" or (is_only and self._is_steady(binding, name, scope))
+        if is_only and is_steady and not self._is_stored(scope, name):
+            return PyValues.bound(self, binding, name, scope)
+        return (self.unknown("this may change", binding.node, scope),)
 
     def _is_stored(self, scope: Scope, name: str) -> bool:
         """Whether an object has another value than its class, or others store one there."""
