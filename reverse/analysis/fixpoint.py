@@ -1,14 +1,15 @@
-"""The least fixpoint of distributive equations between sets; and the cycles of a graph."""
+"""Least fixpoints: of equations between sets, and by rounds; the cycles of a graph."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Hashable, Mapping
 from typing import Generic, TypeAlias, TypeVar
 from weakref import WeakMethod
 
 from rebsync.records import dataclass
 
 T = TypeVar("T")
+K = TypeVar("K", bound=Hashable)
 # What an element of a set adds to another set.
 Transfer: TypeAlias = Callable[[T], frozenset[T]]
 
@@ -89,6 +90,53 @@ def _grow(
             found[name] |= more
             for user, transfer in users.get(name, ()):
                 growing.append((user, frozenset().union(*map(transfer, more))))
+
+
+class Rounds(Generic[K, T]):
+    """The least fixpoint of values that are computed of each other, one by a name.
+
+    `value` gets a name and what was found under it in the round before, of which it never gives
+    less; it asks for others by `of`. In a round each name is visited once; the rounds end when
+    nothing changes. It is a method of who has this, and not kept alive. `least` is what is known of
+    a name that is under way.
+    """
+
+    def __init__(self, value: Callable[[K, T], T], least: T) -> None:
+        self._value = WeakMethod(value)
+        self._least = least
+        self._known: dict[K, T] = {}
+        self._found: dict[K, T] = {}
+        self._visited: set[K] | None = None
+
+    @property
+    def is_under_way(self) -> bool:
+        return self._visited is not None
+
+    def of(self, name: K) -> T:
+        """The value under a name: in a round, as far as it was found."""
+        if name in self._known:
+            return self._known[name]
+        if self._visited is not None:
+            return self._visit(name, self._visited)
+        before: dict[K, T] | None = None
+        try:
+            while before != self._found:
+                before = dict(self._found)
+                self._visited = set()
+                self._visit(name, self._visited)
+            self._known |= self._found
+        finally:  # this may lead deeper than it can be followed, and what was found is not all
+            self._visited = None
+            self._found.clear()
+        return self._known[name]
+
+    def _visit(self, name: K, visited: set[K]) -> T:
+        if name not in visited:
+            visited.add(name)
+            value = self._value()
+            assert value is not None
+            self._found[name] = value(name, self._found.get(name, self._least))
+        return self._found.get(name, self._least)
 
 
 def in_cycles(edges: Mapping[str, Collection[str]]) -> frozenset[str]:

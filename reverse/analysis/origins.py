@@ -13,6 +13,7 @@ from typing import TypeAlias
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.cpp_facts import CppFacts
+from rebsync.reverse.analysis.fixpoint import Rounds
 from rebsync.reverse.analysis.implicit_calls import implicit_calls
 from rebsync.reverse.analysis.program_names import ProgramNames
 from rebsync.reverse.analysis.python.enumeration_members import EnumerationMembers
@@ -90,11 +91,8 @@ class Origins:
         self.graph = graph
         self.table = table
         self.own = own
-        self._known: dict[Key, frozenset[Origin]] = {}
+        self._rounds = Rounds[Key, "frozenset[Origin]"](self._found, frozenset())
         self._run: dict[str, frozenset[str]] = {}
-        # While names are looked for: what was found of them, and which this round has visited.
-        self._found: dict[Key, frozenset[Origin]] = {}
-        self._visited: set[Key] | None = None
 
     @classmethod
     def of_program(cls, program: Program, table: LibraryOutcomes) -> Origins:
@@ -179,32 +177,14 @@ class Origins:
                 return bool(held) and all(isinstance(o, ClassOrigin) for o in held)
 
     def _stored(self, key: Key) -> frozenset[Origin]:
-        """What is stored under a name: the least fixpoint of all that one is stored from."""
-        if key in self._known:
-            return self._known[key]
-        if self._visited is not None:
-            return self._visit(key, self._visited)
-        before: dict[Key, frozenset[Origin]] | None = None
-        try:
-            while before != self._found:
-                before = dict(self._found)
-                self._visited = set()
-                self._visit(key, self._visited)
-            self._known |= {k: found or ANYTHING for k, found in self._found.items()}
-        finally:  # this may lead deeper than it can be followed, and what was found is not all
-            self._visited = None
-            self._found.clear()
-        return self._known[key]
+        """What is stored under a name: what depends on nothing but itself may be anything."""
+        found = self._rounds.of(key)
+        return found if found or self._rounds.is_under_way else ANYTHING
 
-    def _visit(self, key: Key, visited: set[Key]) -> frozenset[Origin]:
-        """What was found under a name up to this round, in which each name is visited once."""
-        if key not in visited:
-            visited.add(key)
-            stored = self.graph.stores.of(key)
-            found = frozenset[Origin]().union(*map(self.of_stored, stored))
-            # Never less than in the round before: the rounds end.
-            self._found[key] = (found if stored else ANYTHING) | self._found.get(key, frozenset())
-        return self._found.get(key, frozenset())
+    def _found(self, key: Key, before: frozenset[Origin]) -> frozenset[Origin]:
+        stored = self.graph.stores.of(key)
+        found = frozenset[Origin]().union(*map(self.of_stored, stored))
+        return (found if stored else ANYTHING) | before
 
     def of_stored(self, stored: Stored) -> frozenset[Origin]:
         """What a stored value may be."""

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import TypeAlias
 from weakref import proxy
 
+from rebsync.reverse.analysis.fixpoint import Rounds
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.python.argument_types import ArgumentTypes
 from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
@@ -83,10 +84,7 @@ class InferredTypes:
         own = proxy(self)  # they are parts of this: no circle keeps the trees of a program
         self.attributes = AttributeTypes(origins, own)
         self._calls = GivenTypes(origins, own, self.attributes)
-        self._known: dict[Node, ValueTypes] = {}
-        # While types are looked for: what was found of them, and which this round has visited.
-        self._found: dict[Node, ValueTypes] = {}
-        self._visited: set[Node] | None = None
+        self._rounds = Rounds[Node, ValueTypes](self._found, NO_TYPES)
 
     def of(self, value: e.Expression, function: str) -> ValueTypes:
         """The types of what an expression of a function may be; None has none."""
@@ -124,7 +122,7 @@ class InferredTypes:
                 if owner := self.attributes.receiver(value, function):
                     return frozenset((InstanceType(owner),))
                 key = key_of(value, function)
-                return ANY_TYPE if key is None else self._stored(key)
+                return ANY_TYPE if key is None else self._rounds.of(key)
             case _:
                 return ANY_TYPE
 
@@ -193,35 +191,12 @@ class InferredTypes:
 
     def of_name(self, key: Key) -> ValueTypes:
         """The types of what is stored under a name."""
-        return self._stored(key)
+        return self._rounds.of(key)
 
-    def _stored(self, node: Node) -> ValueTypes:
-        """The types of what is stored under a name, or a function gives: the least fixpoint."""
-        if node in self._known:
-            return self._known[node]
-        if self._visited is not None:
-            return self._visit(node, self._visited)
-        before: dict[Node, ValueTypes] | None = None
-        try:
-            while before != self._found:
-                before = dict(self._found)
-                self._visited = set()
-                self._visit(node, self._visited)
-            self._known |= self._found
-        finally:
-            self._visited = None
-            self._found.clear()
-        return self._known[node]
-
-    def _visit(self, node: Node, visited: set[Node]) -> ValueTypes:
-        """What was found up to this round, in which each name is visited once."""
-        if node not in visited:
-            visited.add(node)
-            found = self._result(node) if isinstance(node, str) else self._named(node)
-            # Never less than in the round before, and of a bounded depth: the rounds end.
-            found = limited(found, _DEEPEST) | self._found.get(node, NO_TYPES)
-            self._found[node] = merged(found)
-        return self._found.get(node, NO_TYPES)
+    def _found(self, node: Node, before: ValueTypes) -> ValueTypes:
+        """The types of what is stored under a name, or a function gives, of a bounded depth."""
+        found = self._result(node) if isinstance(node, str) else self._named(node)
+        return merged(limited(found, _DEEPEST) | before)
 
     def _named(self, key: Key) -> ValueTypes:
         sources = self.sources(key)
@@ -272,7 +247,7 @@ class InferredTypes:
 
     def result(self, function: str) -> ValueTypes:
         """The types of what a function of the program gives."""
-        return self._stored(function)
+        return self._rounds.of(function)
 
     def of_call(self, call: s.Call, function: str) -> ValueTypes:
         """The types of what a call in a function gives."""

@@ -7,6 +7,7 @@ one. What follows a local that is either of two is read twice: in both branches 
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from tree_sitter import Node
@@ -17,11 +18,10 @@ from rebsync.reverse.python.generated.slicing.candidates import SET_UP
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_index import PyCode
+from rebsync.reverse.syntax.py_index import MODULE, PyCode
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import SCOPES, field, named, text_of
 
-_STORES = frozenset({"assignment", "augmented_assignment", "named_expression"})
 _UNSAFE = SCOPES | {"augmented_assignment", "named_expression", "delete_statement"}
 _NO_ARRAY = frozenset(
     {"expression_list", "identifier", "integer", "true", "false", "unary_operator"}
@@ -73,35 +73,25 @@ def _is_kept(reader: ModelStatementReader, array: Node) -> bool:
     """Whether an attribute is an array of one dimension that no other takes the place of."""
     attribute, names = text_of(field(array, "attribute")), reader.expressions.names
     type_ = names.types.get(names.variables.get(attribute, ""))
-    return type_ is not None and len(type_.dimensions) == 1 and not _is_put(names.code, attribute)
+    return (
+        type_ is not None
+        and len(type_.dimensions) == 1
+        and not _is_put(names.constants.code.code, attribute)
+    )
 
 
 def _is_put(code: PyCode, attribute: str) -> bool:
     """Whether anything but the set-up of an object stores in an attribute as a whole."""
-    own = (s for s in code.modules.values() if not is_runtime_file(s.py.source))
-    for node in (n for module in own for n in nodes_in(module.node)):
-        if node.type == "string_content" and text_of(node) == attribute:
-            return True  # as setattr names it
-        is_it = node.type == "attribute" and text_of(field(node, "attribute")) == attribute
-        if is_it and _is_target(node) and name_around(node) not in SET_UP:
-            return True
-    return False
-
-
-def _is_target(node: Node) -> bool:
-    """Whether something is stored, or may be: all but to read it, or an element of it."""
-    above = node.parent
-    if above is None or above.type in (
-        "pattern_list",
-        "tuple_pattern",
-        "list_pattern",
-        "as_pattern",
-    ):
+    every = (*code.modules.values(), *code.scopes.values())
+    own = [scope for scope in every if not is_runtime_file(scope.py.source)]
+    # As setattr names it, and what is no binding.
+    other = re.compile(rf"([\"']){attribute}\1|\bdel\b[^\n]*\.{attribute}\b")
+    if any(other.search(scope.py.source.text) for scope in own if scope.kind == MODULE):
         return True
-    left = above.child_by_field_name("left") or above.child_by_field_name("name")
-    return above.type in (*_STORES, "for_statement", "for_in_clause", "delete_statement") and (
-        left is None or left == node
-    )
+    bound = [b for scope in own for b in scope.attributes.get(attribute, ())]
+    stores = (item for scope in own for item in scope.stores.items())
+    bound += [b for (_, name), found in stores if name == attribute for b in found]
+    return any(name_around(b.node) not in SET_UP for b in bound)
 
 
 def _is_alias(node: Node, name: str) -> bool:

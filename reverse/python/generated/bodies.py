@@ -28,6 +28,7 @@ from rebsync.reverse.python.generated.filled import fillings_of
 from rebsync.reverse.python.generated.helpers import (
     called_in,
     first_of,
+    giving_texts,
     own_name,
     without_object,
 )
@@ -35,7 +36,6 @@ from rebsync.reverse.python.generated.kinds import literal_kind
 from rebsync.reverse.python.generated.named_constants import CodeConstants, NamedConstants
 from rebsync.reverse.python.generated.names import Filling, Helper, ModelNames
 from rebsync.reverse.python.generated.overloads import resolved
-from rebsync.reverse.python.generated.plain_functions import giving_texts
 from rebsync.reverse.python.generated.posts import own_posts
 from rebsync.reverse.python.generated.py_types import passed_on, type_of
 from rebsync.reverse.python.generated.results import without_result
@@ -318,8 +318,8 @@ class ModelBodies:
                 self._add_result(results, functions[name], function, names)
             helpers |= without_object(above, roles.functions)
         taken = {*functions.values(), *names.variables.values(), *self.types}
-        taken |= giving_texts(self.code, owner.module)
-        for name, helper in called_in(self.code, scopes, taken).items():
+        taken |= giving_texts(self.named, owner.module)
+        for name, helper in called_in(self.named, scopes, taken).items():
             helpers[name] = helper
             self._add_result(results, helper.name, helper.function, names)
         return replace(
@@ -357,7 +357,7 @@ class ModelBodies:
             fillings |= fillings_of(self.roles(above), names.sends)
         silent = silent_in(self.code, self.form, line, [*map(self.roles, line)])
         known = replace(names, imported=imported, posts=posts, fillings=fillings)
-        return replace(known, silent=silent, pairs=self.roles(owner).pairs, code=self.code)
+        return replace(known, silent=silent, pairs=self.roles(owner).pairs)
 
 
 def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.Type | None:

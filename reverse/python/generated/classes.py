@@ -75,7 +75,9 @@ class ModelClasses:
 
     def __post_init__(self) -> None:
         self._values = PyValues(self.code)
-        self._named = CodeConstants(self._values, self.messages.constants)
+        self._named = CodeConstants(
+            self.code, values=self._values, messages=self.messages.constants
+        )
         self._form = PyForm(
             self.code,
             MessageTypes({}, ""),

@@ -5,23 +5,22 @@ These do the same with it as without.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.python.generated.helpers import plain_function
 from rebsync.reverse.python.generated.module_variables import (
     hidden_names,
     imported_as,
-    is_clock,
-    loggers_of,
+    looks_of,
 )
-from rebsync.reverse.python.generated.plain_functions import function_named
+from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.py_types import expression_in, stored_into
-from rebsync.reverse.python.generated.slicing.logs import Looks, looks_in, only_logs
+from rebsync.reverse.python.generated.slicing.logs import Looks, only_logs
 from rebsync.reverse.python.generated.slicing.silent import Silent
 from rebsync.reverse.python.values.py_callbacks import body_of
-from rebsync.reverse.syntax.py_index import PyCode, Scope, module_named, module_of
+from rebsync.reverse.python.values.py_worth import Function
+from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, parse, text_of
 from rebsync.source import Source
 
@@ -29,14 +28,14 @@ _PLAIN = frozenset({"string", "integer", "float", "true", "false", "none"})
 _WRAPS = ("wraps", "functools.wraps")
 
 
-def is_transparent(code: PyCode, module: Scope, decorator: str, silent: Silent) -> bool:
+def is_transparent(constants: CodeConstants, module: Scope, decorator: str, silent: Silent) -> bool:
     """Whether a decorator only logs, and calls the function with all that it is given.
 
     It may be made by a function of literals: `@timed("way")`.
     """
     name, _, given = decorator.partition("(")
-    made = function_named(code, module, name) if name.isidentifier() else None
-    if made is None or made.decorators:
+    code, made = constants.code, plain_function(constants.of(module, name))
+    if made is None:
         return False
     if not given:
         return _only_tells(code, module, made, silent)
@@ -53,41 +52,27 @@ def is_transparent(code: PyCode, module: Scope, decorator: str, silent: Silent) 
     )
 
 
-def context_of(code: PyCode, module: Scope, statement: Node, silent: Silent) -> Node | None:
+def context_of(
+    constants: CodeConstants, module: Scope, statement: Node, silent: Silent
+) -> Node | None:
     """What is done within `with timed("question"):`, if the context only tells people of it."""
     head = next((c for c in named(statement) if c.type == "with_clause"), statement)
     items = [i for i in named(head) if i.type == "with_item"]
     call = field(items[0], "value") if len(items) == 1 else statement
     name = text_of(field(call, "function")) if call.type == "call" else ""
-    made = contexts_in(code, module).get(name) if name.isidentifier() else None
-    given = named(field(call, "arguments")) if made is not None else []
-    if made is None or len(given) > len(made.parameters):
+    match constants.of(module, name):
+        case Function(made) if is_context(made.module, made):
+            given = named(field(call, "arguments"))
+        case _:
+            return None
+    if len(given) > len(made.parameters):
         return None
     needed = [p for p in made.parameters if p.default is None]
     values = [n.child_by_field_name("value") or n for n in given]
     is_given = len(needed) <= len(given) and all(p.star == 0 for p in made.parameters)
     is_known = is_given and all(v.type in _PLAIN for v in values)
-    is_telling = is_known and _tells_around(code, module, made, silent)
+    is_telling = is_known and _tells_around(constants.code, module, made, silent)
     return field(statement, "body") if is_telling else None
-
-
-def contexts_in(code: PyCode, module: Scope) -> dict[str, Scope]:
-    """The context managers that are functions of a module, or of one that it imports them from."""
-    found = {}
-    for name, bindings in module.names.items():
-        source, binding = module, bindings[0]
-        if (
-            len(bindings) == 1
-            and binding.how == "import"
-            and binding.node.type != "import_statement"
-        ):
-            source = module_named(code, module_of(binding.node), module) or module
-            binding = source.names.get(name, [binding])[0]
-        if len(bindings) == 1 and binding.how == "scope":
-            scope = code.scope_of(binding.node, source.py)
-            if is_context(source, scope):
-                found[name] = scope
-    return found
 
 
 def is_context(module: Scope, function: Scope) -> bool:
@@ -98,7 +83,8 @@ def is_context(module: Scope, function: Scope) -> bool:
 
 def _tells_around(code: PyCode, module: Scope, made: Scope, silent: Silent) -> bool:
     """Whether a context manager does nothing but to tell people, before and behind its block."""
-    looks = _looks(code, module, made.module)
+    hidden = hidden_names(code, made.module)
+    looks = looks_of(code, (made.module, module), frozenset(), hidden)
     told = _own_locals(made)
     around = _Around(made, "yield", looks, told, silent)
     return around.yields(body_of(made))
@@ -117,7 +103,8 @@ def _only_tells(code: PyCode, module: Scope, made: Scope, silent: Silent) -> boo
     call = f"{name}({', '.join(passed)})"
     if not is_same or stars not in ([1, 2], [1], [0, 1, 2], [0, 1], [0]):
         return False
-    looks = _looks(code, module, made.module)
+    hidden = hidden_names(code, made.module)
+    looks = looks_of(code, (made.module, module), frozenset(), hidden)
     told = _own_locals(function)
     return _Around(function, call, looks, told, silent).gives(body_of(function))
 
@@ -143,16 +130,6 @@ def _given_back(code: PyCode, made: Scope) -> Scope | None:
     function = code.scope_of(of, made.py)
     is_plain = not any(c.type == "async" for c in of.children)
     return function if rest == [f"return {function.name}"] and is_plain else None
-
-
-def _looks(code: PyCode, user: Scope, module: Scope) -> Looks:
-    """What names stand for in the module of a decorator, which a class of another module uses."""
-    hidden = hidden_names(code, module)
-    return replace(
-        looks_in(code, [*{id(m): m for m in (module, user)}.values()], frozenset()),
-        loggers=loggers_of(module) - hidden,
-        clocks=frozenset(n for n in module.names if is_clock(module, n)) - hidden,
-    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,21 +13,17 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.idioms import in_order
+from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.names import Helper
-from rebsync.reverse.python.generated.plain_functions import function_named, is_runtime
-from rebsync.reverse.syntax.py_index import (
-    PyCode,
-    PyParameter,
-    Scope,
-    module_named,
-    module_of,
-)
+from rebsync.reverse.python.values.py_worth import Function, Value
+from rebsync.reverse.syntax.py_index import FUNCTION, PyParameter, Scope
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 
 # What stores in an object by a name that is a value, or replaces a module.
 _BY_NAME = re.compile(r"\b(?:setattr|__dict__|vars|globals|reload|sys\.modules)\b")
 
+_TEXTS = frozenset({"string", "concatenated_string"})
 STATIC, OF_CLASS = "staticmethod", "classmethod"
 
 
@@ -73,68 +69,54 @@ def without_object(owner: Scope, functions: Mapping[str, Scope]) -> dict[str, He
     return found
 
 
-def called_in(code: PyCode, functions: list[Scope], taken: set[str]) -> dict[str, Helper]:
+def called_in(
+    constants: CodeConstants, functions: list[Scope], taken: set[str]
+) -> dict[str, Helper]:
     """The functions of modules that some functions call, and those that these call.
 
-    What has the name of something in `taken` is left out, and so is what is decorated.
+    What has the name of something in `taken` is left out, and so is what is decorated, and what
+    is another function elsewhere.
     """
     found: dict[str, Helper] = {}
+    others: set[str] = set()
     waiting = list(functions)
     while waiting:
         function = waiting.pop()
         for call in calls_in(function.node):
             called = field(call, "function")
             name = text_of(called)
-            if name in found or name in taken:
-                continue
-            helper = _called(code, function, called)
-            if helper is None or not _is_free(helper, found, taken):
+            helper = _called(constants, function, called)
+            if name in found and helper is not found[name].function:
+                others.add(name)
+            if helper is None or name in found or not _is_free(helper, found, taken):
                 continue
             found[name] = Helper(helper.name, helper, _object(call, helper))
             waiting.append(helper)
+    return {name: helper for name, helper in found.items() if name not in others}
+
+
+def _called(constants: CodeConstants, function: Scope, called: Node) -> Scope | None:
+    """The function of a module that a call names, alone or after its module."""
+    if called.type not in ("identifier", "attribute"):
+        return None
+    ways = constants.ways(called, function)
+    found = plain_function(ways[0]) if len(ways) == 1 else None
+    own = [m for m in constants.code.modules.values() if not is_runtime_file(m.py.source)]
+    if called.type == "attribute" and found is not None:
+        is_by_name = any(_BY_NAME.search(m.py.source.text) for m in own)
+        return None if is_by_name else found
     return found
 
 
-def _called(code: PyCode, function: Scope, called: Node) -> Scope | None:
-    """The function that a call names, alone or after its module."""
-    if called.type == "identifier":
-        name = text_of(called)
-        return function_named(code, function.module, name) if name not in function.names else None
-    holder = field(called, "object") if called.type == "attribute" else called
-    if holder.type != "identifier" or text_of(holder) in function.names:
-        return None
-    name, module = text_of(field(called, "attribute")), _module(code, function, text_of(holder))
-    if module is None or is_runtime(module):
-        return None
-    if _may_be_replaced(code, name):
-        return None
-    return function_named(code, module, name)
-
-
-def _may_be_replaced(code: PyCode, name: str) -> bool:
-    """Whether somebody may store another function under a name of a module."""
-    own = [m for m in code.modules.values() if not is_runtime_file(m.py.source)]
-    stores = (key for scope in (*own, *code.scopes.values()) for key in scope.stores)
-    by_name = any(_BY_NAME.search(module.py.source.text) for module in own)
-    return by_name or any(stored == name for _, stored in stores)
-
-
-def _module(code: PyCode, function: Scope, name: str) -> Scope | None:
-    """The module of the package that a name is bound to by the only import of it."""
-    bindings = function.module.names.get(name, [])
-    item = bindings[0].value if len(bindings) == 1 and bindings[0].how == "import" else None
-    if item is None:
-        return None
-    statement = bindings[0].node
-    is_alias = item.type == "aliased_import"
-    wanted = text_of(field(item, "name") if is_alias else item)
-    if statement.type == "import_statement":
-        return module_named(code, wanted, function.module) if is_alias else None
-    source = module_of(statement)
-    package = module_named(code, source, function.module)
-    if package is not None and wanted in package.names:
-        return None
-    return module_named(code, f"{source.rstrip('.')}.{wanted}", function.module)
+def plain_function(value: Value | None) -> Scope | None:
+    """A function of a module of the package, neither a coroutine nor of the run-time part."""
+    match value:
+        case Function(scope) if scope.kind == FUNCTION and scope.parent is scope.module:
+            is_coroutine = any(c.type == "async" for c in scope.node.children)
+            is_plain = not (scope.decorators or is_coroutine or value.bound)
+            return scope if is_plain and not is_runtime_file(scope.py.source) else None
+        case _:
+            return None
 
 
 def _is_free(helper: Scope, found: Mapping[str, Helper], taken: set[str]) -> bool:
@@ -148,3 +130,24 @@ def _object(call: Node, function: Scope) -> str:
     arguments = named(field(call, "arguments"))
     is_given = bool(arguments) and text_of(arguments[0]) in ("self", "node")
     return function.parameters[0].name if is_given and function.parameters else ""
+
+
+def giving_texts(constants: CodeConstants, module: Scope) -> set[str]:
+    """The functions that a module calls by a name and that give texts, so that no model has them.
+
+    What they do where they are called is asked of the form.
+    """
+    functions = ((name, plain_function(constants.of(module, name))) for name in module.names)
+    return {name for name, function in functions if function is not None and _gives_text(function)}
+
+
+def _gives_text(function: Scope) -> bool:
+    values = [v for r in function.returns for v in named(r)]
+    return bool(values) and all(map(_is_text, values))
+
+
+def _is_text(node: Node) -> bool:
+    if node.type == "conditional_expression":
+        then, _, otherwise = named(node)
+        return _is_text(then) and _is_text(otherwise)
+    return node.type in _TEXTS

@@ -9,7 +9,7 @@ from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own, wri
 from rebsync.reverse.python.generated.cuts import FUNCTIONS, other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
-from rebsync.reverse.python.generated.moments import is_moment, named_moment
+from rebsync.reverse.python.generated.named_constants import is_moment
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.static.types import INT
@@ -153,11 +153,12 @@ def times(reader: ModelExpressionReader, node: Node) -> dict[str, m.Expression]:
         return {}
     if node.type == "identifier" and text_of(node) in reader.moments:
         return {**reader.moments[text_of(node)]}
-    module, hidden = reader.names.constants.module, reader.locals
+    constants, hidden = reader.names.constants, reader.locals
+    code, module = constants.code, constants.module
     if node.type == "identifier" and text_of(node) not in hidden:
-        node = named_moment(module, text_of(node)) or node
+        node = code.moment(module, text_of(node)) or node
     called = text_of(field(node, "function")) if node.type == "call" else ""
-    is_moment_ = called not in hidden and is_moment(module, called)
+    is_moment_ = called not in hidden and (called == "When" or is_moment(code.of(module, called)))
     given = named(field(node, "arguments")) if is_moment_ else []
     is_spread = any(g.type in ("list_splat", "dictionary_splat") for g in given)
     if not is_moment_ or is_spread or len(given) > 2:

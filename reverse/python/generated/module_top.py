@@ -16,7 +16,6 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.generated_calls import LOGGER
 from rebsync.reverse.python.generated.decorators import is_context
 from rebsync.reverse.python.generated.import_effects import acting_lines
-from rebsync.reverse.python.generated.moments import names_moment
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.names import ModelNames
 from rebsync.reverse.python.generated.py_types import (
@@ -79,7 +78,7 @@ class ModuleTop:
             return True
         if constants.is_quiet(module, statement) or is_alias(module, statement):
             return True
-        if names_moment(module, statement) or sets_up_logs(module, statement):
+        if sets_up_logs(module, statement):
             return True
         definition = statement.child_by_field_name("definition") or statement
         if definition.type == "class_definition":  # of other names generated code means its own

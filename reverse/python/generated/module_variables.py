@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import replace
 
 from tree_sitter import Node
 
 from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.python.generated.slicing.logs import Looks, looks_in
 from rebsync.reverse.syntax.py_bindings import Binding
-from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_index import PyCode, Scope, module_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 
@@ -21,10 +23,13 @@ def imported_as(module: Scope, name: str) -> str:
     bindings = module.names.get(head, [])
     if len(bindings) != 1 or bindings[0].how != "import":
         return ""
-    node = bindings[0].node
-    if node.type == "import_from_statement":
-        return f"{text_of(field(node, 'module_name'))}.{head}{dot}{rest}"
-    return name
+    node, item = bindings[0].node, bindings[0].value
+    is_alias = item.type == "aliased_import"
+    if node.type == "import_statement" and not is_alias:
+        return name
+    wanted = text_of(field(item, "name") if is_alias else item)
+    source = f"{module_of(node)}." if node.type == "import_from_statement" else ""
+    return f"{source}{wanted}{dot}{rest}"
 
 
 def call_and_arguments(node: Node) -> tuple[str, list[Node]]:
@@ -87,3 +92,17 @@ def loggers_of(module: Scope) -> frozenset[str]:
         if whole == "logging.getLogger" and bindings[0].how == "value" and is_named:
             found.add(name)
     return frozenset(found)
+
+
+def looks_of(
+    code: PyCode, modules: Iterable[Scope], makers: frozenset[str], hidden: Collection[str]
+) -> Looks:
+    """What names stand for in some modules, `hidden` are bound anew; the first has the functions
+    that look."""
+    each = [*{id(m): m for m in modules}.values()]
+    clocks = frozenset(n for n in each[0].names if is_clock(each[0], n))
+    return replace(
+        looks_in(code, each, makers),
+        loggers=loggers_of(each[0]).difference(hidden),
+        clocks=clocks.difference(hidden),
+    )

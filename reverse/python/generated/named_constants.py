@@ -4,39 +4,43 @@ from __future__ import annotations
 
 import builtins
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import field as with_default
 from itertools import count, takewhile
 from math import isfinite
-from typing import TypeAlias
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.literals import literal_of
 from rebsync.records import dataclass
+from rebsync.reverse.graph import Unresolved
+from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.python.generated.kinds import float_literal
-from rebsync.reverse.python.generated.module_variables import imported_as
 from rebsync.reverse.python.values.py_evaluator import lineage
+from rebsync.reverse.python.values.py_lookup import attribute
 from rebsync.reverse.python.values.py_values import PyValues
-from rebsync.reverse.python.values.py_worth import Class, External, Items, Module, Value
+from rebsync.reverse.python.values.py_worth import (
+    Class,
+    EnumMember,
+    External,
+    Instance,
+    Items,
+    Made,
+    Module,
+    Value,
+    Ways,
+)
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_bindings import Binding
-from rebsync.reverse.syntax.py_index import (
-    CLASS,
-    PyCode,
-    Scope,
-    arguments_of,
-    has_splat,
-    module_named,
-    module_of,
-)
+from rebsync.reverse.syntax.py_index import CLASS, Scope, arguments_of, module_named
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
-_INTEGERS, _ENUM = "enum.IntEnum", "enum.Enum"
-_PLAIN_BASES = frozenset({"builtins.object", "abc.ABC", _INTEGERS})
+_INTEGERS = "enum.IntEnum"
+# Classes of which the attributes are what a class below them binds.
+_PLAIN = frozenset({"builtins.object", "abc.ABC", "typing.NamedTuple", _INTEGERS, "enum.Enum"})
 _FROZEN = frozenset({"dataclass(frozen=True)", "dataclasses.dataclass(frozen=True)"})
-_TUPLES = frozenset({"NamedTuple", "typing.NamedTuple"})
 _FUNCTIONS = frozenset({"function_definition", "decorated_definition"})
 _DATA = frozenset(
     {"string", "string_start", "string_content", "string_end", "integer", "float"}
@@ -44,78 +48,52 @@ _DATA = frozenset(
     *("true", "false", "none", "dictionary", "pair", "list", "tuple", "set", "unary_operator"),
     *("concatenated_string", "comment", "parenthesized_expression"),
 }
+_NAMING = frozenset({"import", "scope", "value"})
 _LISTS = frozenset({"list", "tuple"})
 _LARGEST = 2**31 - 1
 _NAMED = re.compile(r"([^\W\d]\w*)((?:\.\w+)*)(?:\[(\d+)\])?")
 
 
-@dataclass(frozen=True, slots=True)
-class Record:
-    """An object that does not change, by those of its fields that are constants."""
-
-    fields: dict[str, Constant]
-
-
-Constant: TypeAlias = "Value | Record"
-
-
 @dataclass(eq=False, slots=True)
-class CodeConstants:
-    """The constants of some files: what is bound once, by its text, and by nothing else.
+class CodeConstants(PyValues):
+    """What names and expressions of some files always stand for; all else is unknown.
 
-    `messages` are the numbers that the package's message types name.
+    A constant is bound once, by its text, and by nothing else. `values` are those that expressions
+    have at some time; `messages` the numbers that the package's message types name.
     """
 
-    values: PyValues
+    values: PyValues = with_default(kw_only=True)
     messages: Mapping[str, Mapping[str, int]] = with_default(default_factory=dict)
 
-    @property
-    def code(self) -> PyCode:
-        return self.values.code
-
-    def of(self, scope: Scope, name: str) -> Constant | None:
+    def of(self, scope: Scope, name: str) -> Value | None:
         """What a name of a module or a class always stands for; None if that is not known."""
         bindings = scope.names.get(name, [])
-        if len(bindings) != 1 or hasattr(builtins, name) or self._is_stored(scope, name):
-            return None
-        binding = bindings[0]
-        match binding.how:
-            case "import":
-                return self._imported(scope, name, binding)
-            case "scope":
-                return self._only(binding, name, scope)
-            case "value" if _is_auto(scope, binding.value):
-                return self._numbered(scope, name)
-            case "value" if binding.value.type == "call":
-                return self._made(scope, binding.value)
-            case "value" if binding.value.type != "list" or self._is_kept(scope, name):
-                return self._only(binding, name, scope) if self._is_steady(binding.value) else None
-            case _:
-                return None
+        return _only(self.bound(bindings[0], name, scope)) if bindings else None
 
-    def part(self, holder: Constant | None, name: str) -> Constant | None:
+    def part(self, holder: Value | None, name: str, scope: Scope) -> Value | None:
         """The same of an attribute of what is constant."""
-        match holder:
-            case Module(scope):
-                return self.of(scope, name)
-            case Class(scope) if self._is_plain(scope):
-                return self.of(scope, name)
-            case Class(scope) if self._is_plain(scope, _ENUM):
-                value = self.of(scope, name)
-                return Record({"value": value}) if value is not None else None
-            case Record(fields):
-                return fields.get(name)
+        if not isinstance(holder, Module | Class | Instance | EnumMember | External):
+            return None
+        return _only(tuple(attribute(self, holder, name, scope.node, scope)))
+
+    def numbers(self, holder: Value | None) -> bool:
+        """Whether what is constant is an enumeration of integers, whose members have a value."""
+        return isinstance(holder, Class) and _INTEGERS in self._above(holder.scope)
+
+    def literal(self, value: Value | None) -> m.Expression | None:
+        """A number or truth value as the model writes it; None for one that it does not hold."""
+        match value:
+            case External(name):
+                type_, _, constant = name.rpartition(".")
+                of = self.messages.get(type_.rpartition(".")[2], {})
+                return self.literal(of.get(constant)) if ".msg." in type_ else None
+            case float() if isfinite(value):
+                number = float_literal(repr(abs(value)))
+                return number if repr(value)[0] != "-" else m.Unary("-", number)
+            case int() if abs(value) <= _LARGEST:
+                return literal_of(value)
             case _:
                 return None
-
-    def numbers(self, holder: Constant | None) -> bool:
-        """Whether what is constant is an enumeration of integers, whose members have a value."""
-        if not isinstance(holder, Class):
-            return False
-        return any(
-            isinstance(c, External) and c.name == _INTEGERS
-            for c in lineage(self.values, holder.scope)
-        )
 
     def is_quiet(self, scope: Scope, statement: Node) -> bool:
         """Whether a statement of a module or class only names constants, or defines a function.
@@ -134,21 +112,66 @@ class CodeConstants:
         is_many = left.type in ("pattern_list", "tuple_pattern")
         names = [text_of(n) for n in (named(left) if is_many else [left])]
         is_data = scope.kind != CLASS and left.type == "identifier" and _is_data(value)
-        return all(_is_new(scope, n) and (is_data or _is_known(self.of(scope, n))) for n in names)
+        return all(
+            _is_new(scope, n) and (is_data or self._is_known(self.of(scope, n))) for n in names
+        )
+
+    def _is_known(self, value: Value | None) -> bool:
+        if isinstance(value, Items):
+            return all(self._is_known(_only(ways)) for ways in value.each)
+        is_object = isinstance(value, Instance | Made) or is_moment(value)
+        return is_object or self.literal(value) is not None
+
+    def moment(self, module: Scope, name: str) -> Node | None:
+        """`SOON = When(after=1)`: the time of sends that a variable of a module is."""
+        match self.of(module, name):
+            case Instance(_, (call, scope)) | Made(_, call, scope) if scope is module:
+                is_moment_ = is_moment(_only(self.ways(field(call, "function"), scope)))
+                return call if is_moment_ else None
+            case _:
+                return None
 
     # --- what is bound --------------------------------------------------------------------------
+
+    def bound(self, binding: Binding, name: str, scope: Scope) -> Ways:
+        """What a binding gives that is the only one of its name, and gives the same at any time."""
+        is_only = binding.how in _NAMING and name != "*" and _is_new(scope, name)
+        is_steady = binding.how != "value" or (is_only and self._is_steady(binding, name, scope))
+        if is_only and is_steady and not self._is_stored(scope, name):
+            return PyValues.bound(self, binding, name, scope)
+        return (self.unknown("this may change", binding.node, scope),)
 
     def _is_stored(self, scope: Scope, name: str) -> bool:
         """Whether an object has another value than its class, or others store one there."""
         others = (s for s in self.code.scopes.values() if scope.kind == CLASS)
         return self.values.is_stored(name) or any(name in other.attributes for other in others)
 
-    def _is_steady(self, value: Node) -> bool:
+    def _is_steady(self, binding: Binding, name: str, scope: Scope) -> bool:
         """Whether an expression gives the same at any time: it calls nothing, nor asks what may."""
-        parts = list(nodes_in(value))
-        names = {text_of(field(n, "attribute")) for n in parts if n.type == "attribute"}
-        is_stored = any(map(self.values.is_stored, names))
-        return not is_stored and all(n.type != "call" for n in parts)
+        value = binding.value
+        if scope.kind == CLASS and not self._is_plain(scope):
+            return False
+        if value.type == "list":
+            return self._is_kept(scope, name)
+        calls = (n for n in nodes_in(value) if n.type == "call")
+        return all(self._makes_constant(call, scope) for call in calls)
+
+    def _makes_constant(self, call: Node, scope: Scope) -> bool:
+        """Whether a call gives the next number of an enumeration, or an object with fields."""
+        match self.values.ways(field(call, "function"), scope):
+            case (External(name="enum.auto"),):
+                return True
+            case (made,) if is_moment(made):
+                plain, keywords = arguments_of(call)
+                given = [*plain, *keywords.values()]
+                is_whole = len(given) == len(named(field(call, "arguments")))
+                return is_whole and all(n.type == "integer" for n in given)
+            case (Class(owner),):
+                body = [named(s)[0] for s in named(field(owner.node, "body")) if named(s)]
+                is_record = _FROZEN.issuperset(owner.decorators) and self._is_plain(owner)
+                return is_record and all(s.type in ("assignment", "string") for s in body)
+            case _:
+                return False
 
     def _is_kept(self, scope: Scope, name: str) -> bool:
         """Whether a list only gives choices, in its own module."""
@@ -162,70 +185,23 @@ class CodeConstants:
         choices = re.findall(rf"\bself\._mailbox\.choose\((?:self\.)?{word}[,)]", text)
         return len(re.findall(rf"\b{word}\b", text)) == 1 + len(choices)
 
-    def _only(self, binding: Binding, name: str, scope: Scope) -> Constant | None:
-        """What the evaluator follows a binding to, if that is one value."""
-        ways = self.values.bound(binding, name, scope)
-        return ways[0] if len(ways) == 1 else None
+    def _is_plain(self, owner: Scope) -> bool:
+        """Whether the attributes of a class are what it binds: all above it is known.
 
-    def _imported(self, scope: Scope, name: str, binding: Binding) -> Constant | None:
-        found = self._only(binding, name, scope)
-        if isinstance(found, Module) or binding.node.type == "import_statement":
-            return found
-        if module_of(binding.node).endswith(".msg") and name in self.messages:
-            return Record({**self.messages[name]})
-        source, item = module_named(self.code, module_of(binding.node), scope), binding.value
-        wanted = field(item, "name") if item.type == "aliased_import" else item
-        is_other = source is not None and source is not scope.module
-        return self.of(source, text_of(wanted)) if source is not None and is_other else None
-
-    # --- classes --------------------------------------------------------------------------------
-
-    def _numbered(self, owner: Scope, name: str) -> Constant | None:
-        """What `auto()` gives in an enumeration: one more than the greatest before it."""
-        names = list(_names_before(owner, name))
-        before = [self.of(owner, each) for each in names]
-        numbers = [n for n in before if isinstance(n, int) and not isinstance(n, bool)]
-        is_known = len(numbers) == len(names) and (
-            self._is_plain(owner) or self._is_plain(owner, _ENUM)
-        )
-        is_last = not numbers or numbers[-1] == max(numbers)
-        return (numbers or [0])[-1] + 1 if is_known and is_last else None
-
-    def _is_plain(self, owner: Scope, base: str = _INTEGERS) -> bool:
-        """Whether what a class binds is what its attributes are, as it is not in an `Enum`.
-
-        Those of an enumeration of integers with functions may compare otherwise.
+        Those of an enumeration with functions may compare otherwise.
         """
         line = lineage(self.values, owner)
         classes = [each for each in line if isinstance(each, Scope)]
-        above = {each.name for each in line if isinstance(each, External)}
+        above = self._above(owner)
         is_known = len(line) == 1 + sum(len(_bases(each)) for each in classes)
         bodies = (s for each in classes for s in named(field(each.node, "body")))
-        has_functions = any(s.type in _FUNCTIONS for s in bodies)
-        if base == _ENUM and _ENUM not in above:
-            return False
-        return is_known and above <= _PLAIN_BASES | {base} and not (base in above and has_functions)
+        is_enumeration = any(name.startswith("enum.") for name in above)
+        is_plain = not (is_enumeration and any(s.type in _FUNCTIONS for s in bodies))
+        return is_known and is_plain and above <= _PLAIN | libraries.node_classes()
 
-    def _made(self, scope: Scope, call: Node) -> Record | None:
-        """`LIMITS = Limits(last=10)`, of a class whose objects do not change."""
-        made = self.values.ways(field(call, "function"), scope)
-        if len(made) != 1 or not isinstance(made[0], Class) or has_splat(call):
-            return None
-        owner = made[0].scope
-        bases = {text_of(b) for b in _bases(owner)}
-        is_frozen = bool(_FROZEN & set(owner.decorators)) and not bases
-        body = [named(s)[0] for s in named(field(owner.node, "body")) if named(s)]
-        if not (is_frozen or (bases and bases <= _TUPLES)) or any(
-            s.type not in ("assignment", "string") for s in body
-        ):
-            return None
-        fields = [s for s in body if s.child_by_field_name("type") is not None]
-        given = {text_of(field(s, "left")): s.child_by_field_name("right") for s in fields}
-        plain, keywords = arguments_of(call)
-        given |= {**dict(zip(given, plain, strict=False)), **keywords}
-        steady = {n: v for n, v in given.items() if v is not None and self._is_steady(v)}
-        ways = {n: self.values.ways(v, scope) for n, v in steady.items()}
-        return Record({n: found[0] for n, found in ways.items() if len(found) == 1})
+    def _above(self, owner: Scope) -> set[str]:
+        line = lineage(self.values, owner)
+        return {each.name for each in line if isinstance(each, External)}
 
 
 @dataclass(eq=False, slots=True)
@@ -261,7 +237,7 @@ class NamedConstants:
 
     def _read(self, match: re.Match[str]) -> m.Expression | None:
         head, *rest = f"{match[1]}{match[2]}".split(".")
-        found: Constant | None
+        found: Value | None
         if head == "self":
             owner = next((c for c in self.line if rest and rest[0] in c.names), None)
             found = self.code.of(owner, rest.pop(0)) if owner is not None else None
@@ -269,16 +245,16 @@ class NamedConstants:
             found, rest = inner
         else:
             found = self.code.of(self.module, head)
-        holder: Constant | None = None
+        holder: Value | None = None
         for name in rest:
             if not (name == "value" and self.code.numbers(holder)):
-                holder, found = found, self.code.part(found, name)
+                holder, found = found, self.code.part(found, name, self.module)
         if match[3] is None:
-            return _literal(found)
+            return self.code.literal(found)
         at, each = int(match[3]), found.each if isinstance(found, Items) else ()
-        return _literal(each[at][0]) if at < len(each) and len(each[at]) == 1 else None
+        return self.code.literal(_only(each[at])) if at < len(each) else None
 
-    def _whole_module(self, names: Sequence[str]) -> tuple[Constant, list[str]] | None:
+    def _whole_module(self, names: Sequence[str]) -> tuple[Value, list[str]] | None:
         """The module that `import package.limits` brings, and the names behind it."""
         match self.module.names.get(names[0]):
             case [Binding("import", item, Node(type="import_statement"))]:
@@ -289,22 +265,19 @@ class NamedConstants:
         return None
 
 
-def _literal(constant: Constant | None) -> m.Expression | None:
-    """A number or truth value as the model writes it; None for one that it does not hold."""
-    match constant:
-        case float() if isfinite(constant):
-            number = float_literal(repr(abs(constant)))
-            return number if repr(constant)[0] != "-" else m.Unary("-", number)
-        case int() if abs(constant) <= _LARGEST:
-            return literal_of(constant)
+def is_moment(value: Value | None) -> bool:
+    """Whether a value is the class of times of sends."""
+    match value:
+        case Class(Scope(name="When") as owner):
+            return is_runtime_file(owner.py.source)
+        case External(name):
+            return name.endswith("values.When")
         case _:
-            return None
+            return False
 
 
-def _is_known(constant: Constant | None) -> bool:
-    if isinstance(constant, Items):
-        return all(len(ways) == 1 and _is_known(ways[0]) for ways in constant.each)
-    return isinstance(constant, Record) or _literal(constant) is not None
+def _only(ways: Ways) -> Value | None:
+    return ways[0] if len(ways) == 1 and not isinstance(ways[0], Unresolved) else None
 
 
 def _is_data(value: Node) -> bool:
@@ -320,21 +293,3 @@ def _is_new(scope: Scope, name: str) -> bool:
 def _bases(owner: Scope) -> list[Node]:
     bases = owner.node.child_by_field_name("superclasses")
     return named(bases) if bases is not None else []
-
-
-def _is_auto(scope: Scope, value: Node) -> bool:
-    """Whether a class gives a member the next number: `MOVE = auto()`."""
-    if scope.kind != CLASS or value.type != "call" or named(field(value, "arguments")):
-        return False
-    return imported_as(scope.module, text_of(field(value, "function"))) == "enum.auto"
-
-
-def _names_before(owner: Scope, name: str) -> Iterator[str]:
-    """The members of an enumeration that stand before one."""
-    for statement in named(field(owner.node, "body")):
-        inner = named(statement)[0] if statement.type == "expression_statement" else statement
-        if inner.type != "assignment" or inner.child_by_field_name("right") is None:
-            continue
-        if text_of(field(inner, "left")) == name:
-            return
-        yield text_of(field(inner, "left"))

@@ -13,7 +13,7 @@ from rebsync.reverse.python.generated.named_constants import NamedConstants
 from rebsync.reverse.python.generated.posts import Post
 from rebsync.reverse.python.generated.roles import PySends
 from rebsync.reverse.python.generated.slicing.silent import NOTHING, Silent
-from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_index import Scope
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +26,7 @@ class ModelNames:
     `parameters` are what functions are given besides the object, by their names in the code.
     `imported` are what names of the module are of, `helpers` functions without an object,
     `fillings` what publishers send, `posts` what is posted, by the ids of the calls. `silent` is
-    what only people are told, `pairs` what methods give that give several values at once, `code`
-    all that the package has of Python.
+    what only people are told, `pairs` what methods give that give several values at once.
     """
 
     variables: Mapping[str, str]
@@ -45,7 +44,6 @@ class ModelNames:
     posts: Mapping[int, Post] = with_default(default_factory=dict)
     silent: Silent = NOTHING
     pairs: Mapping[str, Sequence[Node]] = with_default(default_factory=dict)
-    code: PyCode = with_default(default_factory=PyCode)
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,6 +18,7 @@ from rebsync.reverse.python.generated.py_types import (
     string_value,
     without_parentheses,
 )
+from rebsync.reverse.syntax.ancestors import functions_around
 from rebsync.reverse.syntax.py_tree import field, named, number_of, text_of
 
 # Their names say whose a parameter is: `~` in front in ROS 1, `env.` in ROS 2.
@@ -26,7 +27,18 @@ _OF_ROS_2 = frozenset({"declared", "declare_array"})
 _DECLARES = frozenset({"self.declare_parameter", "node.declare_parameter"})
 _MOST_DECLARED = 3  # the next one is `ignore_override`: nobody else gives it a value then
 _ASKS = frozenset({"self.get_parameter", "node.get_parameter"})
-_GIVES = {"integer_value": "int", "double_value": "double", "bool_value": "boolean"}
+_GIVES = {
+    "integer_value": m.Type("int"),
+    "double_value": m.Type("double"),
+    "bool_value": m.Type("boolean"),
+}
+_MADE_OF_ANY = frozenset({"bool", "str"})
+LITERALS = frozenset(
+    {
+        *("string", "concatenated_string", "none", "list", "tuple"),
+        *("true", "false", "integer", "float"),
+    }
+)
 _CONVERTS = frozenset(
     {
         *("Rebec", "bool", "boolean", "float", "float32", "float64"),
@@ -52,10 +64,14 @@ class ParameterRead:
     def own(self) -> OwnParameter | None:
         """The same as a parameter that the model's constructor may have."""
         default = constant(self.default)
-        if not self.is_own or default is None or isinstance(default, tuple):
+        if not self.is_plain or default is None or isinstance(default, tuple):
             return None
-        found = OwnParameter(self.key, default, not self.for_all, self.for_all)
-        return found if found.is_plain else None
+        return OwnParameter(self.key, default, not self.for_all, self.for_all)
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it is none of the parameters that generated code reads for itself."""
+        return self.is_own and OwnParameter(self.key, 0).is_plain
 
 
 def parameter_read(
@@ -65,12 +81,34 @@ def parameter_read(
 
     `declared` are those that a node of ROS 2 has, by their names.
     """
-    value = without_parentheses(value)
-    if value.type == "attribute":
-        return _given(value, declared or {})
-    called, arguments = call_parts(value) or ("", [])
+    called, arguments = call_parts(without_parentheses(value)) or ("", [])
     if called.partition("[")[0] in _CONVERTS and len(arguments) == 1:
         return parameter_read(arguments[0], declared)
+    return _asked(without_parentheses(value), declared or {})
+
+
+def is_of_people(value: Node) -> bool:
+    """Whether a value is a parameter of the node's own, or its truth or text, with a default.
+
+    `self.get_parameter("label").value` is one behind the declaration. It may be of any type.
+    """
+    called, arguments = call_parts(value) or ("", [])
+    if called in _MADE_OF_ANY and len(arguments) == 1:
+        return is_of_people(arguments[0])
+    function = next(functions_around(value), None)
+    statements = named(field(function, "body")) if function is not None else []
+    before = (s for s in statements if s.start_byte < value.start_byte)
+    declared = (declared_by(named(s)[0]) for s in before if s.type == "expression_statement")
+    read = _asked(value, dict(filter(None, declared)))
+    default = read.default if read is not None and read.is_plain else None
+    return default is not None and default.type in LITERALS
+
+
+def _asked(value: Node, declared: Mapping[str, ParameterRead]) -> ParameterRead | None:
+    """The parameter that is asked for, not converted."""
+    if value.type == "attribute":
+        return _given(value, declared)
+    called, arguments = call_parts(value) or ("", [])
     strings = [(i, s) for i, a in enumerate(arguments) if (s := string_value(a)) is not None]
     if not strings or called not in _READS:
         return None
@@ -93,16 +131,23 @@ def declared_by(call: Node) -> tuple[str, ParameterRead] | None:
 
 
 def _is_descriptor(argument: Node) -> bool:
-    """Whether it is none of the arguments by a name that change what a parameter is given."""
-    is_named = argument.type == "keyword_argument"
-    return not is_named or text_of(field(argument, "name")) == "descriptor"
+    """Whether it only describes: by a name it may change what a parameter is given."""
+    if argument.type == "keyword_argument":
+        is_named = text_of(field(argument, "name")) == "descriptor"
+        return is_named and _is_descriptor(field(argument, "value"))
+    called, arguments = call_parts(argument) or ("", [])
+    values = [n.child_by_field_name("value") or n for n in arguments]
+    is_made = called.rpartition(".")[2] == "ParameterDescriptor"
+    is_made = is_made and all(v.type in LITERALS for v in values)
+    return is_made or argument.type in ("identifier", "attribute")
 
 
 def only_declares(call: Node, function: Node) -> bool:
     """Whether a call declares a parameter that the model may have, and nothing else there does."""
     said = declared_by(call)
     if said is None or said[1].is_own:
-        return said is not None and said[1].own() is not None
+        is_text = said is not None and string_value(said[1].default) is not None
+        return said is not None and (said[1].is_plain if is_text else said[1].own() is not None)
     again = re.compile(rf"declare\w*\([^()]*[\"']{re.escape(said[0])}[\"']")
     return len(again.findall(text_of(function))) == 1
 
@@ -115,8 +160,7 @@ def _of_ros2(name: str, default: Node | None) -> ParameterRead:
 def _given(value: Node, declared: Mapping[str, ParameterRead]) -> ParameterRead | None:
     """What `.value` of a parameter is, or `.get_parameter_value().integer_value`."""
     asked, name = without_parentheses(field(value, "object")), text_of(field(value, "attribute"))
-    kind = _GIVES.get(name)
-    if kind is not None:
+    if name.endswith("_value"):
         function = asked.child_by_field_name("function")
         called, arguments = call_parts(asked) or ("", [])
         if function is None or not called.endswith(".get_parameter_value") or arguments:
@@ -131,7 +175,8 @@ def _given(value: Node, declared: Mapping[str, ParameterRead]) -> ParameterRead 
         read = declared.get(said or "")
     else:
         _, read = found
-    return read if read is None or kind is None or read.type == m.Type(kind) else None
+    is_given = read is not None and (name == "value" or read.type == _GIVES.get(name))
+    return read if is_given else None
 
 
 def constant(node: Node | None) -> Value | None:

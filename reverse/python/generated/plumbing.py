@@ -17,7 +17,6 @@ from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.messages import OwnMessages
 from rebsync.reverse.libraries.generated_calls import PUBLISHERS
 from rebsync.reverse.python.generated.decorators import is_transparent
-from rebsync.reverse.python.generated.members import declares_plain
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.parameters import only_declares, parameter_read
 from rebsync.reverse.python.generated.posts import Post
@@ -29,7 +28,6 @@ from rebsync.reverse.python.generated.py_types import (
     is_unset,
     literal_type,
     passed_on,
-    string_value,
     type_made,
     type_of,
     without_parentheses,
@@ -116,8 +114,8 @@ class Plumbing:
 
     def _is_transparent(self, decorator: str) -> bool:
         """Whether a decorator only tells people of the function."""
-        code, module = self.constants.code, self.roles.owner.module
-        return is_transparent(code, module, decorator, self.silent)
+        module = self.roles.owner.module
+        return is_transparent(self.constants, module, decorator, self.silent)
 
     def _is_plain(self, function: Scope, decorator: str) -> bool:
         """Whether the model knows what a function is with it: what is called is no property."""
@@ -234,8 +232,6 @@ class Plumbing:
             names = [*(p.name for p in function.parameters[1:]), *self.roles.arguments]
             return [text_of(v) for v in values] == names[-len(values) :] if values else True
         if self.silent.timers.is_idle(call) or self.silent.asked.is_idle(call):
-            return True
-        if declares_plain(call) and string_value(arguments[1]) is not None:
             return True
         if called == "super().__init__" and arguments and not self._takes_arguments():
             return False

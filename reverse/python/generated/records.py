@@ -7,17 +7,18 @@ A tuple, whose fields are numbered, does not change: it is only bound once.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.python.generated.module_variables import hidden_names
+from rebsync.reverse.python.generated.module_variables import hidden_names, imported_as
 from rebsync.reverse.python.generated.py_types import type_of
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.python.values.py_worth import Class
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, has_splat
+from rebsync.reverse.syntax.py_index import Scope, has_splat
 from rebsync.reverse.syntax.py_tree import SCOPES, field, is_label, named, text_of
 
 _TARGETS = frozenset(
@@ -28,10 +29,7 @@ _TARGETS = frozenset(
         *("expression_list", "list_splat", "list_splat_pattern", "dictionary_splat"),
     }
 )
-_DATACLASS = re.compile(
-    r"(?:dataclasses\.)?dataclass(?:\((?:\s*(?:frozen|order|eq)\s*=\s*(?:True|False)\s*,?)*\))?\Z"
-)
-_MODULE = re.compile(r"from\s+dataclasses\s+import\b|import\s+dataclasses\s*\Z")
+_DATACLASS = re.compile(r"([\w.]+)(?:\((?:\s*(?:frozen|order|eq)\s*=\s*(?:True|False)\s*,?)*\))?\Z")
 
 
 def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m.Statement] | None:
@@ -60,11 +58,24 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
 
 
 def _fields_of(reader: ModelStatementReader, name: str) -> Sequence[str] | None:
-    """The fields of a data class of the module, if a name is that of one and of nothing else."""
+    """The fields of a data class whose objects only hold what they are made of; none has a default.
+
+    None: a name is not that of one, or of something else too.
+    """
     names = reader.expressions.names
-    if name in hidden_names(names.code, names.constants.module):
+    if name in hidden_names(names.constants.code.code, names.constants.module):
         return None
-    return _records_in(names.code, names.constants.module).get(name)
+    match names.constants.code.of(names.constants.module, name):
+        case Class(owner) if _is_record(owner):
+            return _fields(owner) or None
+        case _:
+            return None
+
+
+def _is_record(owner: Scope) -> bool:
+    heads = [_DATACLASS.match(d) for d in owner.decorators]
+    whole = [imported_as(owner.module, head[1]) if head else "" for head in heads]
+    return whole == ["dataclasses.dataclass"]
 
 
 def _given(call: Node, fields: Sequence[str]) -> list[tuple[str, Node]] | None:
@@ -115,30 +126,9 @@ _STORING = frozenset(
 )
 
 
-def _records_in(code: PyCode, module: Scope) -> Mapping[str, Sequence[str]]:
-    """The fields of data classes whose objects only hold what they are made of, by their names.
-
-    None has a default.
-    """
-    imported = {
-        name
-        for name, bindings in module.names.items()
-        if len(bindings) == 1 and _MODULE.match(text_of(bindings[0].node))
-    }
-    scopes = (s for s in code.scopes.values() if s.kind == CLASS and s.parent is module)
-    return {
-        scope.name: fields
-        for scope in scopes
-        if len(module.names[scope.name]) == 1
-        and imported.issuperset(d.partition(".")[0].partition("(")[0] for d in scope.decorators)
-        and (fields := _fields(scope))
-    }
-
-
 def _fields(scope: Scope) -> tuple[str, ...]:
     """The fields of a data class; none where its objects may do more than to hold them."""
-    is_plain = len(scope.decorators) == 1 and _DATACLASS.match(scope.decorators[0])
-    if not is_plain or scope.node.child_by_field_name("superclasses") is not None:
+    if scope.node.child_by_field_name("superclasses") is not None:
         return ()
     found = []
     for statement in named(field(scope.node, "body")):

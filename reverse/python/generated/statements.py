@@ -143,7 +143,7 @@ class Statements(ModelStatementReader):
     def _told(self, node: Node) -> Node | None:
         """What is done in a context that only tells people of it."""
         names = self.expressions.names
-        return context_of(names.code, names.constants.module, node, names.silent)
+        return context_of(names.constants.code, names.constants.module, node, names.silent)
 
     def _return(self, node: Node) -> list[m.Statement]:
         values = [v for v in named(node) if v.type != "none"]

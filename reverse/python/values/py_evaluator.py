@@ -81,6 +81,8 @@ class PyEvaluator(ABC):
                     self.stores.setdefault(stored, []).extend((b, scope) for b in bindings)
         if name not in self.holders:
             stores = self.stores.get(name, ())
+            # Until it is known what they store in, it may be anything.
+            self.holders[name] = tuple(self.unknown("this", b.node, s) for b, s in stores[:1])
             self.holders[name] = tuple(w for b, scope in stores for w in self._holder(b, scope))
         return any(isinstance(way, kinds) for way in self.holders[name])
 

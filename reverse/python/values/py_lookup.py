@@ -10,6 +10,7 @@ from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.python.values.py_evaluator import PyEvaluator, each_of, lineage
 from rebsync.reverse.python.values.py_guards import together
 from rebsync.reverse.python.values.py_imports import imported, star_imported
+from rebsync.reverse.python.values.py_records import of_field
 from rebsync.reverse.python.values.py_worth import (
     Bound,
     Class,
@@ -74,7 +75,7 @@ def name_ways(values: PyEvaluator, name: str, node: Node, scope: Scope) -> Ways:
         if bindings:
             here = at is scope or _shares_flow(at, scope)
             seen = reaching(bindings, node) if here else bindings
-            given = [(b, bound(values, b, name, at)) for b in seen or bindings]
+            given = [(b, values.bound(b, name, at)) for b in seen or bindings]
             found = together(values, given, scope)
             if at.kind != MODULE or "*" not in at.names:
                 return found
@@ -187,7 +188,9 @@ def attribute(
             if found is None:
                 yield values.unknown(f"the module has no `{name}`", node, scope)
             else:
-                yield from (w for b in found for w in bound(values, b, name, inner))
+                yield from (w for b in found for w in values.bound(b, name, inner))
+        case Instance(owner) if (given := of_field(values, holder, name)) is not None:
+            yield from given
         case Class(owner) | Instance(owner):
             yield from _member(values, owner, isinstance(holder, Instance), name, node, scope)
         case Declared(value):
@@ -198,7 +201,7 @@ def attribute(
             stored = scope.stores.get((text_of(field(node, "object")), name), [])
             seen = reaching(stored, node)
             if seen:
-                yield from (w for b in seen for w in bound(values, b, name, scope))
+                yield from (w for b in seen for w in values.bound(b, name, scope))
             elif isinstance(holder, Made):
                 yield Bound(holder, name)
         case Unresolved():
@@ -225,7 +228,7 @@ def _member(
         if not set_ and not declared:
             continue
         seen = _seen(values, [*declared, *set_], node, above, scope)
-        given = [(binding, bound(values, binding, name, above)) for binding in seen]
+        given = [(binding, values.bound(binding, name, above)) for binding in seen]
         if not is_object and len(given) == 1 and is_enumeration(values, owner):
             yield _enum_member(values, above, name, given[0])
             return
@@ -252,7 +255,7 @@ def _enum_member(
     if binding.how != "value":
         return ways[0] if len(ways) == 1 else values.unknown("it is several", binding.node, owner)
     same = (n for n, b in owner.names.items() if len(b) == 1 and _is_plain_value(b[0]))
-    first = next((n for n in same if bound(values, owner.names[n][0], n, owner) == ways), name)
+    first = next((n for n in same if values.bound(owner.names[n][0], n, owner) == ways), name)
     return EnumMember(owner, first, ways)
 
 

@@ -10,6 +10,7 @@ from rebsync.reverse.graph import FromParameter, Unresolved
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.libraries.routines import Access, Kind
 from rebsync.reverse.python.values.py_evaluator import PyEvaluator, each_of, lineage
+from rebsync.reverse.python.values.py_records import next_number
 from rebsync.reverse.python.values.py_texts import filled
 from rebsync.reverse.python.values.py_worth import (
     Bound,
@@ -28,7 +29,7 @@ from rebsync.reverse.python.values.py_worth import (
     distinct,
     resolved,
 )
-from rebsync.reverse.syntax.py_index import LAMBDA, Scope, arguments_of
+from rebsync.reverse.syntax.py_index import CLASS, LAMBDA, Scope, arguments_of
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _SAME = frozenset({"str", "int", "float", "bool", "list", "tuple", "unicode", "sorted", "set"})
@@ -50,7 +51,7 @@ def _shown(call: Node) -> str:
 def _of(values: PyEvaluator, called: Value, call: Node, scope: Scope) -> Iterable[Value]:
     match called:
         case Class(owner):
-            return [Instance(owner)]
+            return [Instance(owner, (call, scope))]
         case Function(inner):
             return returned(values, inner)
         case External(name):
@@ -84,6 +85,8 @@ def _external(values: PyEvaluator, name: str, call: Node, scope: Scope) -> Itera
         return _builtin(values, last, plain, call, scope)
     if name in libraries.own_names():
         return [libraries.own_names()[name]]
+    if name == "enum.auto" and scope.kind == CLASS:
+        return [next_number(values, call, scope)]
     if name in _PARTIAL:
         return _partial(values, plain, scope)
     kind = libraries.kind_of(name)

@@ -77,9 +77,10 @@ class Class:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Instance:
-    """An object of a class of the files."""
+    """An object of a class of the files; `made` is the call that makes it, with its scope."""
 
     scope: Scope
+    made: tuple[Node, Scope] | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)

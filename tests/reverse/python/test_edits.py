@@ -204,3 +204,17 @@ def test_first_values_that_descendants_share_are_told() -> None:
             changed = {**files, path: text.replace(old, old.replace("0", value))}
             found = extract({p: Source(p, t) for p, t in changed.items()}).findings
             assert [f.text for f in found] == listed
+
+
+def test_a_function_is_that_of_its_own_module() -> None:
+    """A method of the model would hide the one by its name that a class above calls."""
+    files = case_files(CASES / "inheritance.rebeca", "ros1-py")
+    for name, old, count in (("vehicle", "int32(far * 2)", 2), ("car", "+ 1)", 1)):
+        path, text = f"src/inheritance/{name}.py", files[f"src/inheritance/{name}.py"]
+        assert old in text
+        at = text.rindex("\n\n\n", 0, text.index(f"class {name.capitalize()}("))
+        function = f"\n\n\ndef more(x: int) -> int:\n    return int32(x * {count})"
+        new = "more(far)" if name == "vehicle" else "+ more(1))"
+        files[path] = text[:at] + function + text[at:].replace(old, new, 1)
+        found = extract({p: Source(p, t) for p, t in files.items()}).findings
+        assert [f.text for f in found] == ["more(1)"] * (name == "car")

@@ -20,18 +20,14 @@ from rebsync.reverse.python.generated.member_places import (
     makes_member,
     name_around,
 )
-from rebsync.reverse.python.generated.members import (
-    NUMBERS,
-    VALUES,
-    is_lock,
-    is_own_parameter,
-    looks_of,
-)
 from rebsync.reverse.python.generated.module_variables import (
     counters_of,
     hidden_names,
+    imported_as,
+    looks_of,
 )
-from rebsync.reverse.python.generated.py_types import expression_in
+from rebsync.reverse.python.generated.parameters import LITERALS, is_of_people
+from rebsync.reverse.python.generated.py_types import call_parts, expression_in
 from rebsync.reverse.python.generated.roles import PyRoles
 from rebsync.reverse.python.generated.slicing.candidates import (
     candidate_locals,
@@ -56,6 +52,7 @@ from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import Py, field, is_label, named, text_of
 
+_LOCKS = frozenset({"threading.Lock", "threading.RLock"})
 _STATEMENTS = frozenset({"function_definition", "class_definition", "module"})
 
 
@@ -138,7 +135,7 @@ class Silent:
             return False
         name = text_of(field(inner, "left")).removeprefix("self.")
         value = inner.child_by_field_name("right")
-        return name in self.texts and value is not None and is_own_parameter(value)
+        return name in self.texts and value is not None and is_of_people(value)
 
     @property
     def _publishers(self) -> frozenset[str]:
@@ -191,7 +188,7 @@ def silent_in(
     types = told_types(owner.module)
     makers, modules = frozenset(types), [*{id(c.module): c.module for c in line}.values()]
     hidden = hidden_names(code, owner.module)
-    looks = looks_of(code, line, makers, hidden)
+    looks = looks_of(code, (c.module for c in line), makers, hidden)
     taken |= looks.functions
     made = {name: value for name, value in made_once(functions) if name not in taken}
     members = {name: value for name, value in made.items() if not is_of_node(name)}
@@ -214,7 +211,7 @@ def silent_in(
         plain | candidate_members(code, owner.module, members, makers),
         frozenset(n for n, v in publishers.items() if tells_by(code, owner.module, v, types)),
         frozenset(n for n, v in members.items() if timers.is_idle(v) or asked.is_idle(v)),
-        frozenset(n for n, v in members.items() if is_lock(owner.module, v)),
+        frozenset(n for n, v in members.items() if _is_lock(owner.module, v)),
         {},
         timers,
         frozenset(shown),
@@ -244,9 +241,15 @@ def _handed(roles: Sequence[PyRoles]) -> dict[str, Scope]:
     return {n: functions[n] for r in here for n in r.ticking if functions[n] is r.functions[n]}
 
 
+def _is_lock(module: Scope, node: Node) -> bool:
+    """Whether a value is a lock of Python's library."""
+    called, arguments = call_parts(node) or ("", [])
+    return imported_as(module, called) in _LOCKS and not arguments
+
+
 def _is_plain(value: Node, looks: Looks) -> bool:
     """Whether a member is made of a literal, a time, or a parameter of people's own."""
-    is_kept = value.type in VALUES | NUMBERS or is_own_parameter(value)
+    is_kept = value.type in LITERALS or is_of_people(value)
     return is_kept or looks.tells_time(value)
 
 
