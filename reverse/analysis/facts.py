@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
+from rebsync.intervals import ANY, Interval, compared, exactly
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.python.value_types import ANY_TYPE, ValueTypes
 from rebsync.reverse.ir import expressions as e
@@ -79,6 +80,29 @@ class IsBelow:
 
 
 @dataclass(frozen=True, slots=True)
+class IsWithin:
+    """A value was compared with numbers; where it is a whole one, it is of an interval."""
+
+    value: e.Expression
+    interval: Interval
+
+
+@dataclass(frozen=True, slots=True)
+class IsUnder:
+    """A value is less than the number of elements of a container."""
+
+    value: e.Expression
+    container: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
+class IsEnd:
+    """A value is the iterator behind the last element of a container."""
+
+    value: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
 class IsPositive:
     """A value is a number that is not negative."""
 
@@ -111,6 +135,9 @@ Fact: TypeAlias = (
     | IsSize
     | IsSame
     | IsBelow
+    | IsWithin
+    | IsUnder
+    | IsEnd
     | IsPositive
     | IsOf
     | Implies
@@ -169,7 +196,7 @@ def without_shared(facts: Facts) -> Facts:
 
 def without_sizes(facts: Facts) -> Facts:
     """The facts that are left when some container may have lost elements."""
-    lost = (HasSize, HasKey, IsSize, Implies)
+    lost = (HasSize, HasKey, IsSize, IsUnder, Implies)
     return frozenset(f for f in facts if not isinstance(f, lost))
 
 
@@ -181,7 +208,9 @@ def _expressions(fact: Fact) -> tuple[e.Expression, ...]:
             return container, key
         case Holds(value) | IsThere(value) | IsBound(value) | IsBelow(value) | IsPositive(value):
             return (value,)
-        case IsSize(value, container):
+        case IsWithin(value) | IsEnd(value):
+            return (value,)
+        case IsSize(value, container) | IsUnder(value, container):
             return value, container
         case IsSame(value, other):
             return value, other
@@ -277,13 +306,14 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
     if isinstance(left, e.Literal) and not isinstance(right, e.Literal):
         return _compared(facts, MIRRORED.get(operator, operator), right, left)
     if not isinstance(right, e.Literal):
-        return facts
+        return facts | _of_containers(facts, operator, left, right)
     number = right.value
     if number is None and operator in (Operator.NOT_SAME, Operator.UNEQUAL):
         return facts | {Holds(left), IsThere(left)}
     if not isinstance(number, int | float):
         return facts
     is_zero = number == 0
+    facts |= _within(operator, left, number)
     if operator is Operator.EQUAL and is_zero:
         return _held(facts, left, False)
     excludes = {
@@ -304,6 +334,30 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
             if isinstance(fact, IsSize) and fact.value == bare(left):
                 facts |= sized(fact.container, int(least[operator]))
     return facts
+
+
+def _of_containers(
+    facts: Facts, operator: Operator, left: e.Expression, right: e.Expression
+) -> Facts:
+    """What it says of a value to be less than a size, or other than the end of what is looked in.
+
+    The one is said of a number as well before it became one without a sign.
+    """
+    if operator is Operator.GREATER:
+        operator, left, right = Operator.LESS, right, left
+    if operator is Operator.UNEQUAL and any(IsEnd(v) in facts for v in (left, right)):
+        return frozenset({Holds(left), Holds(right)})
+    sizes = {f.container for f in facts if isinstance(f, IsSize) and f.value == bare(right)}
+    below = sizes if operator is Operator.LESS else ()
+    return frozenset(IsUnder(v, c) for c in below for v in (left, bare(left)))
+
+
+def _within(operator: Operator, value: e.Expression, number: float) -> Facts:
+    """The interval of the whole numbers that a comparison with a number lets through."""
+    if not isinstance(number, int):
+        return NO_FACTS
+    interval = compared(ANY, operator.value, exactly(number))
+    return NO_FACTS if interval in (None, ANY) else frozenset({IsWithin(value, interval)})
 
 
 def bare(value: e.Expression) -> e.Expression:

@@ -11,9 +11,9 @@ from collections.abc import Callable, Collection, Container, Iterable, Iterator,
 
 from tree_sitter import Node
 
+from rebsync.reverse.analysis.problems import NOTHING_THERE
 from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.effects.cpp_form import CppForm
-from rebsync.reverse.bodies.effects.cpp_lookups import looked_up_in, unsure_lookups
 from rebsync.reverse.bodies.scope import Scope
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.annotations import best_priority
@@ -38,11 +38,12 @@ from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_enclosing import locals_referred_to
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
+from rebsync.source import Span
 
 _SETS_UP = SETS_UP | {"advertise", "advertiseAll", "unused"}
 _LOST = "no subscription takes this in: the class only sends it to itself"
 _LATE = "messages may be served by now: set this up before mailbox_.construct(...)"
-_NOTHING = "what this looks at may not be there, and the node may end"
+_ROOT = re.compile(r"[*&(]*(?:this\s*->\s*)?(\w+)")
 _STARTING = frozenset({"construct", "start"})
 _ONCE = frozenset({"construct", "onServed", "start"})
 _CHANGES = ("assignment_expression", "update_expression", "delete_expression", "throw_statement")
@@ -78,33 +79,36 @@ def check_plumbing(
         if function.body is None:
             continue
         odd = _odd_in(code, owner, function, lineage, fields, by_hand)
-        for node, why in (*odd, *_failing(code, form, owner, function)):
-            unread = Unread(function.cpp.span(node), why)
+        places = [(function.cpp.span(node), why) for node, why in odd]
+        for place, why in (*places, *_failing(code, form, owner, function)):
+            unread = Unread(place, why)
             findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
 
 
 def _failing(
     code: Code, form: CppForm, owner: CppClass, function: CppFunction
-) -> Iterator[tuple[Node, str]]:
+) -> Iterator[tuple[Span, str]]:
     """What may end the program, and the model has nothing of: what is logged, what is looked up.
 
     Whether an array of the model has an element is a matter of the model, but for logs and what
     has none of its types.
     """
+    span = function.cpp.span
     logs = [n for n in inside(function.body, "expression_statement") if is_logging(n)]
     for log in logs:
         if (why := form.raises(function.cpp, log)) is not None:
-            yield log, why
+            yield span(log), why
     ways = inside(function.body, "if_statement")
     texts = inside(function.body, "declaration")
     told = [*logs, *(n for n in ways if is_logging(n))]
     told += [n for n in texts if declared_type(code, part(n, "type")) is None]
     fields = (f for c in code.lineage(owner.name) for f in c.fields)
     variables = {f.name for f in fields if declared_type(code, f.type) is not None}
-    for lookup in unsure_lookups(code, owner, function.body) if function.body is not None else ():
-        is_told = any(n.start_byte <= lookup.start_byte < n.end_byte for n in told)
-        if is_told or looked_up_in(lookup) not in variables:
-            yield lookup, _NOTHING
+    for lookup in form.looked_up(function.cpp, function.node):
+        root = _ROOT.match(function.cpp.source.text, lookup.start)
+        is_told = any(s.start <= lookup.start < s.end for s in map(span, told))
+        if is_told or root is None or root[1] not in variables:
+            yield lookup, NOTHING_THERE
 
 
 def _odd_servers(code: Code, roles: Roles) -> Iterator[tuple[Cpp, Node, str]]:

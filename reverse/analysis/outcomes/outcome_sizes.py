@@ -9,6 +9,7 @@ from rebsync.reverse.analysis.facts import (
     Holds,
     Implies,
     IsBelow,
+    IsEnd,
     IsOf,
     IsSize,
     IsThere,
@@ -89,6 +90,8 @@ class OutcomeSizes:
         if outcome is None or of is None or node.target is None:
             return self._of_result(node)
         first = node.arguments[0].value if node.arguments else None
+        if getattr(node.callee, "name", "").rpartition("::")[2] in _ENDS:
+            return frozenset({IsEnd(node.target)})
         match outcome.tells:
             case Tells.SIZE:
                 return frozenset({IsSize(node.target, of)})

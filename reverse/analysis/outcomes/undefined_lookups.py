@@ -1,0 +1,153 @@
+"""What C++ looks up that may not be there: elements, objects behind pointers and iterators, texts.
+
+The language leaves undefined what such code does; the program may end. A local pointer or iterator
+must lead to something by all that is stored in it, or by what was tested; a member or a variable of
+a file that gets an object anywhere is trusted to have got it before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rebsync.reverse.analysis.facts import Facts, Holds, names_of, tested
+from rebsync.reverse.analysis.held_values import all_held
+from rebsync.reverse.analysis.outcomes.element_bounds import ElementBounds
+from rebsync.reverse.analysis.problems import NOTHING_THERE, ProblemNotes
+from rebsync.reverse.analysis.python.format_strings import conversions
+from rebsync.reverse.analysis.stores import AnyValue, CallResult, Value
+from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.libraries.cpp import logging
+from rebsync.reverse.libraries.outcome_rules import Size
+from rebsync.reverse.libraries.outcomes import CallOutcome
+from rebsync.reverse.libraries.size_effects import LEADING_ON, LEADING_TO_FIRST, SEARCHING
+
+_LASTING = (e.Attribute, e.Global, e.Captured)
+_NUMBERS = (t.Integer, t.Float, t.Truth)
+_AT_ENDS = frozenset({"front", "back", "top"})
+_PRINTING = ("printf", "fprintf")
+
+
+class UndefinedLookups:
+    """Lookups in one function."""
+
+    def __init__(self, notes: ProblemNotes, bounds: ElementBounds) -> None:
+        self._notes = notes
+        self._bounds = bounds
+
+    def element(self, value: e.Index, facts: Facts) -> None:
+        """Notes an element that a container may not have."""
+        type_ = getattr(value.object, "type", t.UNKNOWN)
+        is_mapping = isinstance(type_, t.Container) and type_.kind is t.ContainerKind.MAPPING
+        # Arrays in messages have the elements that code names by numbers.
+        is_trusted = type_ == t.UNKNOWN and isinstance(value.index, e.Literal)
+        if is_mapping or is_trusted or isinstance(type_, t.Record):
+            return
+        if not self._bounds.is_within(value, facts):
+            self._notes.problem(value, NOTHING_THERE)
+
+    def pointee(self, value: e.Dereference, facts: Facts) -> None:
+        """Notes an object that a pointer, an optional or an iterator may not lead to."""
+        if self.may_be_nothing(value.reference, facts):
+            self._notes.problem(value, NOTHING_THERE)
+
+    def text(self, value: e.Convert, facts: Facts) -> None:
+        """Notes a text that is made of a pointer which may lead to none."""
+        if self.may_be_nothing(value.operand, facts):
+            self._notes.problem(value, NOTHING_THERE)
+
+    def call(
+        self, node: s.Call, outcome: CallOutcome, of: e.Expression | None, facts: Facts
+    ) -> None:
+        """Notes what a call of a library takes out of what is empty, or for a text."""
+        name = getattr(node.callee, "name", "")
+        values = [a.value for a in node.arguments]
+        last = name.rpartition("::")[2]
+        taken = of if not values and (outcome.size is Size.LOSES or last in _AT_ENDS) else None
+        is_short = taken is not None and not self._bounds.size(taken, facts)
+        is_erased = last == "erase" and len(values) == 1
+        if (
+            is_short
+            or (is_erased and self.may_be_nothing(values[0], facts))
+            or any(self._is_no_text(v, facts) for v in _texts(name, values))
+        ):
+            self._notes.problem(node, NOTHING_THERE)
+
+    def _is_no_text(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether what a text is filled with is a number, or a pointer that may lead to none."""
+        value = value.target if isinstance(value, e.AddressOf) else value
+        type_ = getattr(value, "type", t.UNKNOWN)
+        return isinstance(type_, _NUMBERS) or self.may_be_nothing(value, facts)
+
+    # --- pointers ---------------------------------------------------------------------------------
+
+    def may_be_nothing(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a pointer may be null, an optional empty, an iterator the end."""
+        type_ = getattr(value, "type", t.UNKNOWN)
+        if isinstance(type_, t.Reference) and not (type_.may_be_null or type_.ownership.value):
+            return False
+        if any(Holds(name) in facts for name in names_of(facts, value)):
+            return False
+        match value:
+            case e.Literal(None):
+                return True
+            case e.Convert(_, operand) | e.Copy(operand) | e.Move(operand) | e.AddressOf(operand):
+                return self.may_be_nothing(operand, facts)
+            case e.Conditional(test, then, otherwise):
+                first = self.may_be_nothing(then, tested(facts, test, True))
+                return first or self.may_be_nothing(otherwise, tested(facts, test, False))
+            case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():
+                return self._may_hold_nothing(value, type_, facts)
+            case e.Index() | e.Dereference():
+                return _is_plain(type_)
+            case _:
+                return False
+
+    def _may_hold_nothing(self, value: e.Expression, type_: t.Type, facts: Facts) -> bool:
+        stored = all_held(self._notes.origins, value, self._notes.function.name)
+        if self._notes.is_parameter(value) or not stored:
+            return _is_plain(type_)
+        found = (self._is_nothing(v, type_, facts) for _, v in stored)
+        return all(found) if isinstance(value, _LASTING) else any(found)
+
+    def _is_nothing(self, stored: Value, type_: t.Type, facts: Facts) -> bool:
+        match stored:
+            case AnyValue():
+                return _is_plain(type_)
+            case CallResult(call):
+                return self._gives_nothing(call, facts)
+            case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():
+                return False  # what it holds is asked of it where that is stored
+            case _:
+                return isinstance(stored, e.Expression) and self.may_be_nothing(stored, facts)
+
+    def _gives_nothing(self, call: s.Call, facts: Facts) -> bool:
+        """Whether a function of a library may find nothing, or lead to the first of no elements."""
+        name = getattr(call.callee, "name", "").partition("<")[0].rpartition("::")[2]
+        of = getattr(call.callee, "receiver", None)
+        first = next((a.value for a in call.arguments), of) if of is None else of
+        if name in SEARCHING or first is None or isinstance(call.callee, s.FunctionCallee):
+            return name in SEARCHING
+        if name in LEADING_ON:
+            first = call.arguments[0].value if call.arguments else first
+            return self.may_be_nothing(first, facts)
+        return name in LEADING_TO_FIRST and not self._bounds.size(first, facts)
+
+
+def _texts(name: str, values: Sequence[e.Expression]) -> list[e.Expression]:
+    """The values that a log, or a function of C that prints, puts in as texts: `%s`."""
+    texts = [i for i, v in enumerate(values) if isinstance(v, e.Literal) and type(v.value) is str]
+    at = 1 if "_NAMED" in name else 0
+    is_log = name.startswith(logging()) and "_STREAM" not in name
+    if not (is_log or name.rpartition("::")[2] in _PRINTING) or len(texts) <= at:
+        return []
+    letters = conversions(str(getattr(values[texts[at]], "value", "")))
+    given = values[texts[at] + 1 :]
+    return [v for letter, v in zip(letters or (), given, strict=False) if letter == "s"]
+
+
+def _is_plain(type_: t.Type) -> bool:
+    """Whether what is of a type may lead to nothing, whoever gives it: no object that is shared."""
+    is_owned = isinstance(type_, t.Reference) and bool(type_.ownership.value)
+    return isinstance(type_, t.Optional | t.Reference) and not is_owned
