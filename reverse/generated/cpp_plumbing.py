@@ -11,14 +11,13 @@ from collections.abc import Callable, Collection, Container, Iterable, Iterator,
 
 from tree_sitter import Node
 
-from rebsync.reverse.analysis.problems import NOTHING_THERE
-from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.effects.cpp_form import CppForm
 from rebsync.reverse.bodies.scope import Scope
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.annotations import best_priority
 from rebsync.reverse.generated.cpp_beside import Beside
 from rebsync.reverse.generated.cpp_descriptors import number_of
+from rebsync.reverse.generated.cpp_failures import failures
 from rebsync.reverse.generated.cpp_idle import working
 from rebsync.reverse.generated.cpp_initialisers import odd_handles
 from rebsync.reverse.generated.cpp_names import declared_type
@@ -38,12 +37,10 @@ from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_enclosing import locals_referred_to
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
-from rebsync.source import Span
 
 _SETS_UP = SETS_UP | {"advertise", "advertiseAll", "unused"}
 _LOST = "no subscription takes this in: the class only sends it to itself"
 _LATE = "messages may be served by now: set this up before mailbox_.construct(...)"
-_ROOT = re.compile(r"[*&(]*(?:this\s*->\s*)?(\w+)")
 _STARTING = frozenset({"construct", "start"})
 _ONCE = frozenset({"construct", "onServed", "start"})
 _CHANGES = ("assignment_expression", "update_expression", "delete_expression", "throw_statement")
@@ -80,35 +77,9 @@ def check_plumbing(
             continue
         odd = _odd_in(code, owner, function, lineage, fields, by_hand)
         places = [(function.cpp.span(node), why) for node, why in odd]
-        for place, why in (*places, *_failing(code, form, owner, function)):
+        for place, why in (*places, *failures(code, form, owner, function)):
             unread = Unread(place, why)
             findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
-
-
-def _failing(
-    code: Code, form: CppForm, owner: CppClass, function: CppFunction
-) -> Iterator[tuple[Span, str]]:
-    """What may end the program, and the model has nothing of: what is logged, what is looked up.
-
-    Whether an array of the model has an element is a matter of the model, but for logs and what
-    has none of its types.
-    """
-    span = function.cpp.span
-    logs = [n for n in inside(function.body, "expression_statement") if is_logging(n)]
-    for log in logs:
-        if (why := form.raises(function.cpp, log)) is not None:
-            yield span(log), why
-    ways = inside(function.body, "if_statement")
-    texts = inside(function.body, "declaration")
-    told = [*logs, *(n for n in ways if is_logging(n))]
-    told += [n for n in texts if declared_type(code, part(n, "type")) is None]
-    fields = (f for c in code.lineage(owner.name) for f in c.fields)
-    variables = {f.name for f in fields if declared_type(code, f.type) is not None}
-    for lookup in form.looked_up(function.cpp, function.node):
-        root = _ROOT.match(function.cpp.source.text, lookup.start)
-        is_told = any(s.start <= lookup.start < s.end for s in map(span, told))
-        if is_told or root is None or root[1] not in variables:
-            yield lookup, NOTHING_THERE
 
 
 def _odd_servers(code: Code, roles: Roles) -> Iterator[tuple[Cpp, Node, str]]:
