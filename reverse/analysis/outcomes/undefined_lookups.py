@@ -12,19 +12,19 @@ from collections.abc import Sequence
 from rebsync.reverse.analysis.facts import Facts, Holds, names_of, tested
 from rebsync.reverse.analysis.held_values import all_held
 from rebsync.reverse.analysis.outcomes.element_bounds import ElementBounds
-from rebsync.reverse.analysis.problems import NOTHING_THERE, ProblemNotes
+from rebsync.reverse.analysis.problems import NOTHING_THERE, ODD_FORMAT, ProblemNotes
 from rebsync.reverse.analysis.python.format_strings import conversions
 from rebsync.reverse.analysis.stores import AnyValue, CallResult, Value
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.libraries.cpp import logging
+from rebsync.reverse.libraries.outcome_classes import TERMINATES
 from rebsync.reverse.libraries.outcome_rules import Size
 from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.reverse.libraries.size_effects import LEADING_ON, LEADING_TO_FIRST, SEARCHING
 
 _LASTING = (e.Attribute, e.Global, e.Captured)
-_NUMBERS = (t.Integer, t.Float, t.Truth)
 _AT_ENDS = frozenset({"front", "back", "top"})
 _PRINTING = ("printf", "fprintf")
 
@@ -41,7 +41,8 @@ class UndefinedLookups:
         type_ = getattr(value.object, "type", t.UNKNOWN)
         is_mapping = isinstance(type_, t.Container) and type_.kind is t.ContainerKind.MAPPING
         # Arrays in messages have the elements that code names by numbers.
-        is_trusted = type_ == t.UNKNOWN and isinstance(value.index, e.Literal)
+        is_part = type_ == t.UNKNOWN and isinstance(value.object, e.Attribute)
+        is_trusted = is_part and isinstance(value.index, e.Literal)
         if is_mapping or is_trusted or isinstance(type_, t.Record):
             return
         if not self._bounds.is_within(value, facts):
@@ -67,18 +68,13 @@ class UndefinedLookups:
         taken = of if not values and (outcome.size is Size.LOSES or last in _AT_ENDS) else None
         is_short = taken is not None and not self._bounds.size(taken, facts)
         is_erased = last == "erase" and len(values) == 1
-        if (
-            is_short
-            or (is_erased and self.may_be_nothing(values[0], facts))
-            or any(self._is_no_text(v, facts) for v in _texts(name, values))
-        ):
+        letters, told = _formatted(name, values)
+        texts = [v for letter, v in zip(letters, told, strict=False) if letter == "s"]
+        if len(letters) > len(told) or any(map(_is_number, texts)):
+            self._notes.problem(node, ODD_FORMAT, TERMINATES)
+        asked = [*texts, *(values if is_erased else ())]
+        if is_short or any(self.may_be_nothing(v, facts) for v in asked):
             self._notes.problem(node, NOTHING_THERE)
-
-    def _is_no_text(self, value: e.Expression, facts: Facts) -> bool:
-        """Whether what a text is filled with is a number, or a pointer that may lead to none."""
-        value = value.target if isinstance(value, e.AddressOf) else value
-        type_ = getattr(value, "type", t.UNKNOWN)
-        return isinstance(type_, _NUMBERS) or self.may_be_nothing(value, facts)
 
     # --- pointers ---------------------------------------------------------------------------------
 
@@ -135,16 +131,23 @@ class UndefinedLookups:
         return name in LEADING_TO_FIRST and not self._bounds.size(first, facts)
 
 
-def _texts(name: str, values: Sequence[e.Expression]) -> list[e.Expression]:
-    """The values that a log, or a function of C that prints, puts in as texts: `%s`."""
+def _formatted(
+    name: str, values: Sequence[e.Expression]
+) -> tuple[Sequence[str], Sequence[e.Expression]]:
+    """The letters of what a log, or a function of C that prints, puts into a text; the values."""
     texts = [i for i, v in enumerate(values) if isinstance(v, e.Literal) and type(v.value) is str]
     at = 1 if "_NAMED" in name else 0
     is_log = name.startswith(logging()) and "_STREAM" not in name
     if not (is_log or name.rpartition("::")[2] in _PRINTING) or len(texts) <= at:
-        return []
+        return (), ()
     letters = conversions(str(getattr(values[texts[at]], "value", "")))
-    given = values[texts[at] + 1 :]
-    return [v for letter, v in zip(letters or (), given, strict=False) if letter == "s"]
+    return letters or (), values[texts[at] + 1 :]
+
+
+def _is_number(value: e.Expression) -> bool:
+    """Whether a value is a number, which `%s` takes for the address of a text ([c.format])."""
+    value = value.target if isinstance(value, e.AddressOf) else value
+    return isinstance(getattr(value, "type", t.UNKNOWN), t.Integer | t.Float | t.Truth)
 
 
 def _is_plain(type_: t.Type) -> bool:
