@@ -88,11 +88,11 @@ class IsWithin:
 
 
 @dataclass(frozen=True, slots=True)
-class IsUnder:
-    """A value is less than the number of elements of a container."""
+class IsLess:
+    """A value is less than another."""
 
     value: e.Expression
-    container: e.Expression
+    other: e.Expression
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +136,7 @@ Fact: TypeAlias = (
     | IsSame
     | IsBelow
     | IsWithin
-    | IsUnder
+    | IsLess
     | IsEnd
     | IsPositive
     | IsOf
@@ -196,7 +196,7 @@ def without_shared(facts: Facts) -> Facts:
 
 def without_sizes(facts: Facts) -> Facts:
     """The facts that are left when some container may have lost elements."""
-    lost = (HasSize, HasKey, IsSize, IsUnder, Implies)
+    lost = (HasSize, HasKey, IsSize, Implies)
     return frozenset(f for f in facts if not isinstance(f, lost))
 
 
@@ -210,7 +210,9 @@ def _expressions(fact: Fact) -> tuple[e.Expression, ...]:
             return (value,)
         case IsWithin(value) | IsEnd(value):
             return (value,)
-        case IsSize(value, container) | IsUnder(value, container):
+        case IsLess(value, other):
+            return value, other
+        case IsSize(value, container):
             return value, container
         case IsSame(value, other):
             return value, other
@@ -306,7 +308,7 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
     if isinstance(left, e.Literal) and not isinstance(right, e.Literal):
         return _compared(facts, MIRRORED.get(operator, operator), right, left)
     if not isinstance(right, e.Literal):
-        return facts | _of_containers(facts, operator, left, right)
+        return facts | _between(facts, operator, left, right)
     number = right.value
     if number is None and operator in (Operator.NOT_SAME, Operator.UNEQUAL):
         return facts | {Holds(left), IsThere(left)}
@@ -336,20 +338,17 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
     return facts
 
 
-def _of_containers(
-    facts: Facts, operator: Operator, left: e.Expression, right: e.Expression
-) -> Facts:
-    """What it says of a value to be less than a size, or other than the end of what is looked in.
+def _between(facts: Facts, operator: Operator, left: e.Expression, right: e.Expression) -> Facts:
+    """What it says of values to be less than another, or other than the end of a container.
 
     The one is said of a number as well before it became one without a sign.
     """
-    if operator is Operator.GREATER:
-        operator, left, right = Operator.LESS, right, left
     if operator is Operator.UNEQUAL and any(IsEnd(v) in facts for v in (left, right)):
         return frozenset({Holds(left), Holds(right)})
-    sizes = {f.container for f in facts if isinstance(f, IsSize) and f.value == bare(right)}
-    below = sizes if operator is Operator.LESS else ()
-    return frozenset(IsUnder(v, c) for c in below for v in (left, bare(left)))
+    if operator is Operator.GREATER:
+        operator, left, right = Operator.LESS, right, left
+    less = {left, bare(left)} if operator is Operator.LESS else ()
+    return frozenset(IsLess(value, right) for value in less)
 
 
 def _within(operator: Operator, value: e.Expression, number: float) -> Facts:

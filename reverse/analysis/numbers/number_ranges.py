@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import reduce
 
 from rebsync.intervals import ANY, TRUTH, Interval, exactly, of_binary, signed, unsigned
-from rebsync.reverse.analysis.facts import NO_FACTS, Facts, IsWithin, bare, tested
+from rebsync.reverse.analysis.facts import NO_FACTS, Facts, IsLess, IsWithin, bare, tested
 from rebsync.reverse.analysis.held_values import all_held
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.stores import key_of
@@ -37,8 +37,14 @@ class NumberRanges:
         """All whole numbers that a value may be where some facts are known."""
         found = self._computed(value, facts, depth)
         for fact in facts:
-            if isinstance(fact, IsWithin) and fact.value == value:
-                found = found.meet(fact.interval) or found
+            match fact:
+                case IsWithin(of, interval) if of == value:
+                    found = found.meet(interval) or found
+                case IsLess(of, other) if of == value and depth < _DEEPEST:
+                    most = self.of(other, NO_FACTS, depth + 1).high - 1
+                    found = found.meet(Interval(ANY.low, most)) or found
+                case _:
+                    pass
         return found
 
     def _computed(self, value: e.Expression, facts: Facts, depth: int) -> Interval:

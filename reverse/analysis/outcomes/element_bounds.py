@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rebsync.reverse.analysis.facts import Facts, IsBelow, IsSize, IsUnder, bare, names_of, size_of
+from rebsync.reverse.analysis.facts import Facts, IsBelow, IsLess, IsSize, bare, names_of, size_of
 from rebsync.reverse.analysis.numbers.number_ranges import NumberRanges
 from rebsync.reverse.analysis.numbers.signs import Signs
 from rebsync.reverse.analysis.problems import ProblemNotes
@@ -50,10 +50,8 @@ class ElementBounds:
     def _is_less(self, value: e.Index, facts: Facts) -> bool:
         """Whether an index was found to be less than the size, and is not negative."""
         indices = {value.index, bare(value.index)}
-        holders = names_of(facts, value.object)
-        if not any(IsUnder(i, h) in facts for i in indices for h in holders):
+        others = {bare(f.other) for f in facts if isinstance(f, IsLess) and f.value in indices}
+        if not any(IsSize(o, h) in facts for o in others for h in names_of(facts, value.object)):
             return False
-        return (
-            self._signs.is_positive(value.index, facts)
-            or self.range_of(value.index, facts).low >= 0
-        )
+        is_positive = self._signs.is_positive(value.index, facts)
+        return is_positive or self.range_of(value.index, facts).low >= 0
