@@ -112,7 +112,8 @@ def of_type(type_: t.Type) -> Interval:
 def _counts(node: s.Statement, variable: e.Local) -> bool:
     match node:
         case s.CompoundAssign(target, Operator.ADD, value):
-            return target == variable and bare(value) == e.Literal(1)
+            by = bare(value)
+            return target == variable and isinstance(by, e.Literal) and by.value == 1
         case _:
             return False
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rebsync.reverse.analysis.facts import Facts, Holds, names_of, tested
+from rebsync.reverse.analysis.facts import NO_FACTS, Facts, Holds, names_of, tested
 from rebsync.reverse.analysis.held_values import all_held
 from rebsync.reverse.analysis.outcomes.element_bounds import ElementBounds
 from rebsync.reverse.analysis.problems import NOTHING_THERE, ODD_FORMAT, ProblemNotes
@@ -18,12 +18,14 @@ from rebsync.reverse.analysis.stores import AnyValue, CallResult, Value
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.cpp import logging
 from rebsync.reverse.libraries.outcome_classes import TERMINATES
 from rebsync.reverse.libraries.outcome_rules import Size
 from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.reverse.libraries.size_effects import LEADING_ON, LEADING_TO_FIRST, SEARCHING
 
+_DEEPEST = 4  # of variables that are stored in others
 _LASTING = (e.Attribute, e.Global, e.Captured)
 _AT_ENDS = frozenset({"front", "back", "top"})
 _PRINTING = ("printf", "fprintf")
@@ -78,7 +80,7 @@ class UndefinedLookups:
 
     # --- pointers ---------------------------------------------------------------------------------
 
-    def may_be_nothing(self, value: e.Expression, facts: Facts) -> bool:
+    def may_be_nothing(self, value: e.Expression, facts: Facts, depth: int = 0) -> bool:
         """Whether a pointer may be null, an optional empty, an iterator the end."""
         type_ = getattr(value, "type", t.UNKNOWN)
         if isinstance(type_, t.Reference) and not (type_.may_be_null or type_.ownership.value):
@@ -89,46 +91,63 @@ class UndefinedLookups:
             case e.Literal(None):
                 return True
             case e.Convert(_, operand) | e.Copy(operand) | e.Move(operand) | e.AddressOf(operand):
-                return self.may_be_nothing(operand, facts)
+                return self.may_be_nothing(operand, facts, depth)
             case e.Conditional(test, then, otherwise):
-                first = self.may_be_nothing(then, tested(facts, test, True))
-                return first or self.may_be_nothing(otherwise, tested(facts, test, False))
+                first = self.may_be_nothing(then, tested(facts, test, True), depth)
+                return first or self.may_be_nothing(otherwise, tested(facts, test, False), depth)
             case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():
-                return self._may_hold_nothing(value, type_, facts)
+                known = facts if isinstance(value, e.Temporary) else NO_FACTS
+                return self._may_hold_nothing(value, type_, known, depth)
             case e.Index() | e.Dereference():
                 return _is_plain(type_)
             case _:
                 return False
 
-    def _may_hold_nothing(self, value: e.Expression, type_: t.Type, facts: Facts) -> bool:
+    def _may_hold_nothing(
+        self, value: e.Expression, type_: t.Type, facts: Facts, depth: int
+    ) -> bool:
+        """Whether a variable may hold nothing by what is stored in it, at other places."""
         stored = all_held(self._notes.origins, value, self._notes.function.name)
-        if self._notes.is_parameter(value) or not stored:
+        if self._notes.is_parameter(value) or not stored or depth > _DEEPEST:
             return _is_plain(type_)
-        found = (self._is_nothing(v, type_, facts) for _, v in stored)
+        found = (self._is_nothing(v, type_, facts, depth + 1) for _, v in stored)
         return all(found) if isinstance(value, _LASTING) else any(found)
 
-    def _is_nothing(self, stored: Value, type_: t.Type, facts: Facts) -> bool:
+    def _is_nothing(self, stored: Value, type_: t.Type, facts: Facts, depth: int) -> bool:
         match stored:
             case AnyValue():
                 return _is_plain(type_)
+            case CallResult(s.Call(_, s.FunctionCallee(name))):
+                return any(
+                    map(_returns_nothing, walk(self._notes.origins.graph.program.function(name)))
+                )
             case CallResult(call):
                 return self._gives_nothing(call, facts)
-            case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():
-                return False  # what it holds is asked of it where that is stored
             case _:
-                return isinstance(stored, e.Expression) and self.may_be_nothing(stored, facts)
+                if not isinstance(stored, e.Expression):
+                    return False
+                return self.may_be_nothing(stored, facts, depth)
 
     def _gives_nothing(self, call: s.Call, facts: Facts) -> bool:
         """Whether a function of a library may find nothing, or lead to the first of no elements."""
         name = getattr(call.callee, "name", "").partition("<")[0].rpartition("::")[2]
         of = getattr(call.callee, "receiver", None)
         first = next((a.value for a in call.arguments), of) if of is None else of
-        if name in SEARCHING or first is None or isinstance(call.callee, s.FunctionCallee):
+        if name in SEARCHING or first is None:
             return name in SEARCHING
         if name in LEADING_ON:
             first = call.arguments[0].value if call.arguments else first
             return self.may_be_nothing(first, facts)
         return name in LEADING_TO_FIRST and not self._bounds.size(first, facts)
+
+
+def _returns_nothing(node: object) -> bool:
+    """Whether a statement gives null, or an optional without a value, as it is written."""
+    return (
+        isinstance(node, s.Return)
+        and node.value is not None
+        and any(isinstance(n, e.Literal) and n.value is None for n in walk(node.value))
+    )
 
 
 def _formatted(
