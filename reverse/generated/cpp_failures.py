@@ -57,9 +57,13 @@ def _looks_up(function: CppFunction, body: Node, variables: Collection[str]) -> 
     Only then the form is asked, which takes long.
     """
     comes = (p.node for p in function.parameters if not _POINTER.search(text_of(p.node)))
-    sure = {"this", *variables, *(text_of(n) for p in comes for n in inside(p, "identifier"))}
-    roots = (_ROOT.match(text_of(n)) for n in inside(body, *_LOOKS) if _is_lookup(n))
-    return any(root is None or root[1] not in sure for root in roots)
+    there = {"this", *variables, *(text_of(n) for p in comes for n in inside(p, "identifier"))}
+    for node in filter(_is_lookup, inside(body, *_LOOKS)):
+        root, field = _ROOT.match(text_of(node)), node.child_by_field_name("field")
+        is_arrow = field is not None and text_of(field) not in _TAKING
+        if root is None or root[1] not in (there if is_arrow else variables):
+            return True
+    return False
 
 
 def _has_lookup(node: Node) -> bool:
