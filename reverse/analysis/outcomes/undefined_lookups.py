@@ -82,6 +82,7 @@ class UndefinedLookups:
 
     def may_be_nothing(self, value: e.Expression, facts: Facts, depth: int = 0) -> bool:
         """Whether a pointer may be null, an optional empty, an iterator the end."""
+        value = value.target if isinstance(value, e.AddressOf) else value
         type_ = getattr(value, "type", t.UNKNOWN)
         if isinstance(type_, t.Reference) and not (type_.may_be_null or type_.ownership.value):
             return False
@@ -90,7 +91,7 @@ class UndefinedLookups:
         match value:
             case e.Literal(None):
                 return True
-            case e.Convert(_, operand) | e.Copy(operand) | e.Move(operand) | e.AddressOf(operand):
+            case e.Convert(_, operand) | e.Copy(operand) | e.Move(operand):
                 return self.may_be_nothing(operand, facts, depth)
             case e.Conditional(test, then, otherwise):
                 first = self.may_be_nothing(then, tested(facts, test, True), depth)
