@@ -189,20 +189,13 @@ class OutcomeCalls:
                         self._hands(node, name)
                     case ClassOrigin(name, False) if not keeps:
                         self._makes(node, name)
-                    case LibraryOrigin(name, False) if not keeps and self._is_handed(name):
+                    case LibraryOrigin(name, False) if not keeps and self.notes.table.may_be_called(
+                        name
+                    ):
                         outcome = self.notes.table.function(name)
                         self._library(node, name, outcome, None, facts)
                     case _:
                         pass
-
-    def _is_handed(self, name: str) -> bool:
-        """Whether what a library has under a name is perhaps a function, that is called then.
-
-        In C++ a name that no table has is taken for that of a constant.
-        """
-        if self.notes.table.language is Language.CPP:
-            return self.notes.table.is_known(name)
-        return not name.rpartition(".")[2].isupper()  # constants are written so
 
     def _asks_a_node(self, node: s.Call) -> bool:
         """Whether a method is one that asks a node for something, as to call back."""
