@@ -12,6 +12,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, FunctionKind, Program
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.client_times import is_of_times
+from rebsync.reverse.libraries.cpp import keeping_arguments, logging
 
 # The types of parameters, by how the form writes those of C++.
 _TYPES = (("float", float), ("truth", bool), ("i", int), ("text", str), ("bytes", str))
@@ -92,8 +93,8 @@ class CppFacts:
     def unchanging_addresses(self) -> Mapping[Key, int]:
         """By each variable in how many places its address is taken only to look at it.
 
-        Classes of times look at what they get by its address; functions of the program do if
-        none of them stores through their parameter. `stored_through` says what is stored through
+        Classes of times and logs look at what they get by its address; functions of the program do
+        if none of them stores through their parameter. `stored_through` says what is stored through
         a temporary.
         """
         places = ((key_of(of, f.name)) for f in self._functions for of in self._looked_at(f))
@@ -134,13 +135,19 @@ class CppFacts:
                         is_kept = parameter.name not in _stored_into(called)
                         if isinstance(argument.value, e.AddressOf) and is_kept:
                             yield argument.value.target
-                case s.Call(_, s.LibraryCallee(name), arguments) if is_of_times(name):
+                case s.Call(_, s.LibraryCallee(name), arguments) if _looks(name):
                     values = (a.value for a in arguments)
                     yield from (v.target for v in values if isinstance(v, e.AddressOf))
                 case e.Dereference(e.AddressOf(of)):
                     yield of
                 case _:
                     pass
+
+
+def _looks(name: str) -> bool:
+    """Whether a function of a library only looks at what it gets."""
+    is_told = name.startswith(logging()) or name.rpartition("::")[2] in keeping_arguments()
+    return is_told or is_of_times(name)
 
 
 def _declared_type(given: str, values: list[e.Expression]) -> type | None:

@@ -23,6 +23,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.outcome_rules import Size, Tells
+from rebsync.reverse.libraries.routines import Language
 
 _LIMIT = 8  # sizes from here on are one
 # Parts that texts have, whatever is in them: of `split`, by a text, there is always a first one.
@@ -57,6 +58,8 @@ class ElementCounts:
                     for p in elements
                 )
                 return min(sum(parts), _LIMIT)
+            case e.Literal(str() as text):
+                return len(text)
             case e.BuildMapping(_, entries):
                 return int(any(not isinstance(p, e.Spread) for p in entries))
             case e.Binary(Operator.ADD, left, right):
@@ -261,6 +264,10 @@ class ElementCounts:
             for node in walk(self.graph.program.function(name)):
                 for container in self._loses(node, name):
                     key = key_of(container, name)
+                    # In C++ containers are values: whoever takes an address may store anything.
+                    if self.table.language is Language.CPP:
+                        found |= {key} if key is not None else set()
+                        continue
                     if key is None or any(_is_other(v) for _, v in self.graph.stores.of(key)):
                         return None
                     found.add(key)
@@ -269,6 +276,8 @@ class ElementCounts:
     def _loses(self, node: Node, function: str) -> Iterator[e.Expression]:
         """The containers that a node may take elements out of, or hands on what does."""
         match node:
+            case e.Move(of):
+                yield of
             case s.Delete(e.Index(of)) | s.Assign(e.Index(of, e.Slice())):
                 yield of
             case s.CompoundAssign(target, operator) if operator in _LESSENING:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
+from rebsync.intervals import ANY, Interval, compared, exactly
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.python.value_types import ANY_TYPE, ValueTypes
 from rebsync.reverse.ir import expressions as e
@@ -79,6 +80,29 @@ class IsBelow:
 
 
 @dataclass(frozen=True, slots=True)
+class IsWithin:
+    """A value was compared with numbers; where it is a whole one, it is of an interval."""
+
+    value: e.Expression
+    interval: Interval
+
+
+@dataclass(frozen=True, slots=True)
+class IsLess:
+    """A value is less than another."""
+
+    value: e.Expression
+    other: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
+class IsEnd:
+    """A value is the iterator behind the last element of a container."""
+
+    value: e.Expression
+
+
+@dataclass(frozen=True, slots=True)
 class IsPositive:
     """A value is a number that is not negative."""
 
@@ -111,6 +135,9 @@ Fact: TypeAlias = (
     | IsSize
     | IsSame
     | IsBelow
+    | IsWithin
+    | IsLess
+    | IsEnd
     | IsPositive
     | IsOf
     | Implies
@@ -181,6 +208,10 @@ def _expressions(fact: Fact) -> tuple[e.Expression, ...]:
             return container, key
         case Holds(value) | IsThere(value) | IsBound(value) | IsBelow(value) | IsPositive(value):
             return (value,)
+        case IsWithin(value) | IsEnd(value):
+            return (value,)
+        case IsLess(value, other):
+            return value, other
         case IsSize(value, container):
             return value, container
         case IsSame(value, other):
@@ -277,13 +308,14 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
     if isinstance(left, e.Literal) and not isinstance(right, e.Literal):
         return _compared(facts, MIRRORED.get(operator, operator), right, left)
     if not isinstance(right, e.Literal):
-        return facts
+        return facts | _between(facts, operator, left, right)
     number = right.value
     if number is None and operator in (Operator.NOT_SAME, Operator.UNEQUAL):
         return facts | {Holds(left), IsThere(left)}
     if not isinstance(number, int | float):
         return facts
     is_zero = number == 0
+    facts |= _within(operator, left, number)
     if operator is Operator.EQUAL and is_zero:
         return _held(facts, left, False)
     excludes = {
@@ -304,6 +336,27 @@ def _compared(facts: Facts, operator: Operator, left: e.Expression, right: e.Exp
             if isinstance(fact, IsSize) and fact.value == bare(left):
                 facts |= sized(fact.container, int(least[operator]))
     return facts
+
+
+def _between(facts: Facts, operator: Operator, left: e.Expression, right: e.Expression) -> Facts:
+    """What it says of values to be less than another, or other than the end of a container.
+
+    The one is said of a number as well before it became one without a sign.
+    """
+    if operator is Operator.UNEQUAL and any(IsEnd(v) in facts for v in (left, right)):
+        return frozenset({Holds(left), Holds(right)})
+    if operator is Operator.GREATER:
+        operator, left, right = Operator.LESS, right, left
+    less = {left, bare(left)} if operator is Operator.LESS else ()
+    return frozenset(IsLess(value, right) for value in less)
+
+
+def _within(operator: Operator, value: e.Expression, number: float) -> Facts:
+    """The interval of the whole numbers that a comparison with a number lets through."""
+    if not isinstance(number, int):
+        return NO_FACTS
+    interval = compared(ANY, operator.value, exactly(number))
+    return NO_FACTS if interval in (None, ANY) else frozenset({IsWithin(value, interval)})
 
 
 def bare(value: e.Expression) -> e.Expression:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.origins import ClassOrigin, Origins
-from rebsync.reverse.analysis.stores import ANY_VALUE, Member, Stored, key_of
+from rebsync.reverse.analysis.stores import ANY_VALUE, AnyValue, Member, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.routines import Language
 
 
 def held_by(origins: Origins, value: e.Expression, function: str) -> list[Stored]:
@@ -24,6 +25,18 @@ def held_by(origins: Origins, value: e.Expression, function: str) -> list[Stored
     if isinstance(value, e.Attribute) and not is_own(origins, value.object, function):
         return [(function, ANY_VALUE)]
     return origins.graph.stores.of(key)
+
+
+def all_held(origins: Origins, value: e.Expression, function: str) -> list[Stored]:
+    """The same of C++, where a variable whose address is only looked at holds nothing by that."""
+    stored, key = held_by(origins, value, function), key_of(value, function)
+    others = [each for each in stored if isinstance(each[1], AnyValue)]
+    if not others or key is None or origins.table.language is not Language.CPP:
+        return stored
+    if key in origins.of_cpp.stored_through:
+        return stored
+    looked_at = origins.of_cpp.unchanging_addresses.get(key, 0)
+    return [each for each in stored if each not in others] + others[looked_at:]
 
 
 def is_own(origins: Origins, value: e.Expression, function: str) -> bool:

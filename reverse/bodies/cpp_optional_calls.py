@@ -9,7 +9,6 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import HELD, resolve
-from rebsync.reverse.bodies.cpp_present import is_asked
 from rebsync.reverse.bodies.scope import Record
 from rebsync.reverse.models.building import chosen, is_calm
 from rebsync.reverse.syntax.cpp_tree import text_of
@@ -28,7 +27,8 @@ def call(
         case "has_value", 0:
             return there
         case "value", 0:
-            if not is_asked(node, text_of(target)):
+            form = reader.scope.form
+            if form is None or form.looked_up(reader.cpp, node):
                 why = f'"{text_of(node)}" throws where there is no value'
                 raise reader.unread(node, why, "ask it before, or use value_or")
             return m.Name(held.name, span)

@@ -11,14 +11,13 @@ from collections.abc import Callable, Collection, Container, Iterable, Iterator,
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.effects.cpp_form import CppForm
-from rebsync.reverse.bodies.effects.cpp_lookups import looked_up_in, unsure_lookups
 from rebsync.reverse.bodies.scope import Scope
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.annotations import best_priority
 from rebsync.reverse.generated.cpp_beside import Beside
 from rebsync.reverse.generated.cpp_descriptors import number_of
+from rebsync.reverse.generated.cpp_failures import failures
 from rebsync.reverse.generated.cpp_idle import working
 from rebsync.reverse.generated.cpp_initialisers import odd_handles
 from rebsync.reverse.generated.cpp_names import declared_type
@@ -42,7 +41,6 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 _SETS_UP = SETS_UP | {"advertise", "advertiseAll", "unused"}
 _LOST = "no subscription takes this in: the class only sends it to itself"
 _LATE = "messages may be served by now: set this up before mailbox_.construct(...)"
-_NOTHING = "what this looks at may not be there, and the node may end"
 _STARTING = frozenset({"construct", "start"})
 _ONCE = frozenset({"construct", "onServed", "start"})
 _CHANGES = ("assignment_expression", "update_expression", "delete_expression", "throw_statement")
@@ -78,33 +76,10 @@ def check_plumbing(
         if function.body is None:
             continue
         odd = _odd_in(code, owner, function, lineage, fields, by_hand)
-        for node, why in (*odd, *_failing(code, form, owner, function)):
-            unread = Unread(function.cpp.span(node), why)
+        places = [(function.cpp.span(node), why) for node, why in odd]
+        for place, why in (*places, *failures(code, form, owner, function)):
+            unread = Unread(place, why)
             findings.unreadable(function.cpp.source, unread, f"{owner.name}.{function.name}")
-
-
-def _failing(
-    code: Code, form: CppForm, owner: CppClass, function: CppFunction
-) -> Iterator[tuple[Node, str]]:
-    """What may end the program, and the model has nothing of: what is logged, what is looked up.
-
-    Whether an array of the model has an element is a matter of the model, but for logs and what
-    has none of its types.
-    """
-    logs = [n for n in inside(function.body, "expression_statement") if is_logging(n)]
-    for log in logs:
-        if (why := form.raises(function.cpp, log)) is not None:
-            yield log, why
-    ways = inside(function.body, "if_statement")
-    texts = inside(function.body, "declaration")
-    told = [*logs, *(n for n in ways if is_logging(n))]
-    told += [n for n in texts if declared_type(code, part(n, "type")) is None]
-    fields = (f for c in code.lineage(owner.name) for f in c.fields)
-    variables = {f.name for f in fields if declared_type(code, f.type) is not None}
-    for lookup in unsure_lookups(code, owner, function.body) if function.body is not None else ():
-        is_told = any(n.start_byte <= lookup.start_byte < n.end_byte for n in told)
-        if is_told or looked_up_in(lookup) not in variables:
-            yield lookup, _NOTHING
 
 
 def _odd_servers(code: Code, roles: Roles) -> Iterator[tuple[Cpp, Node, str]]:

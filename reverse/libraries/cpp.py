@@ -285,6 +285,11 @@ def logging() -> tuple[str, ...]:
     return tuple(prefix for library in _libraries() for prefix in library.logs)
 
 
+def asks_first(name: str) -> bool:
+    """Whether a macro that logs gets a condition, and only then looks at what it is to say."""
+    return name.startswith(logging()) and ("_COND" in name or "_EXPRESSION" in name)
+
+
 @derived
 def keeping_arguments() -> frozenset[str]:
     """Functions that change none of their arguments, by their last names."""

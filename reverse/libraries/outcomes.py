@@ -157,6 +157,15 @@ class LibraryOutcomes:
         is_cpp = self.language is Language.CPP
         return is_cpp and not is_class and not last[:1].isupper() and name not in PLAIN_CLASSES
 
+    def may_be_called(self, name: str) -> bool:
+        """Whether what a library has under a name is perhaps a function, that others may call.
+
+        In C++ a name that no table has is taken for that of a constant.
+        """
+        if self.language is Language.CPP:
+            return self.is_known(name)
+        return not name.rpartition(".")[2].isupper()  # constants are written so
+
     def is_known(self, name: str) -> bool:
         """Whether a table has a function or class by its full name."""
         return name in self._named

@@ -40,3 +40,13 @@ LESSENING = frozenset(
         *("pop_front", "shrink_to_fit"),
     }
 )
+# Functions and methods of C++ that lead to nothing where they find nothing, or behind the last
+# element; to the first or last one, if there is one; and to one from where their argument leads.
+SEARCHING = frozenset(
+    {
+        *("find", "find_if", "find_if_not", "lower_bound", "upper_bound", "search", "lock"),
+        *("adjacent_find", "getenv", "dynamic_pointer_cast", "end", "cend", "rend", "crend"),
+    }
+)
+LEADING_TO_FIRST = frozenset({"begin", "cbegin", "rbegin", "crbegin", "data"})
+LEADING_ON = frozenset({"max_element", "min_element", "next", "prev"})

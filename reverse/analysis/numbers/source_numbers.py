@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import product
 
-from rebsync.reverse.analysis.held_values import is_own
+from rebsync.reverse.analysis.held_values import all_held
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.stores import AnyValue, Key, key_of
 from rebsync.reverse.ir import expressions as e
@@ -57,20 +57,14 @@ class SourceNumbers:
         self, value: e.Expression, key: Key, function: str, within: frozenset[Key]
     ) -> list[float]:
         """All numbers that are ever stored in a variable, if nothing else is."""
-        if isinstance(value, e.Attribute) and not is_own(self._origins, value.object, function):
-            return []
-        every = self._origins.graph.stores.of(key)
-        stored = [(f, v) for f, v in every if not isinstance(v, AnyValue)]
-        facts = self._origins.of_cpp
-        if len(every) - len(stored) > facts.unchanging_addresses.get(key, 0):
-            return []
-        if key in facts.stored_through or not stored:
+        stored = all_held(self._origins, value, function)
+        if any(isinstance(v, AnyValue) for _, v in stored):
             return []
         found = [
             self._of(v, f, within | {key}) if isinstance(v, e.Expression) else [] for f, v in stored
         ]
         numbers = [n for each in found for n in each]
-        return numbers if all(found) and len(numbers) <= _MOST else []
+        return numbers if found and all(found) and len(numbers) <= _MOST else []
 
 
 def _is_wide(type_: t.Type) -> bool:

@@ -36,6 +36,7 @@ def _is_positive(value: object) -> bool:
 _OfNumbers: TypeAlias = Literal[Raises.NEGATIVE, Raises.ZERO_SECOND, Raises.ZERO_STEP, Raises.POWER]
 _Plain: TypeAlias = Literal[Raises.NO_TEXT, Raises.OBJECTS, Raises.UNWRITTEN]
 _OF_MOMENTS = {"datetime": datetime, "time": time}
+_MEMORY = 1 << 40
 _WHOLE = (["utf-8"], ["utf8"], ["UTF-8"])  # encodings that have all characters
 
 
@@ -179,7 +180,7 @@ class LibraryExceptions:
         """Whether the arguments are numbers for which a rule says that a call does not raise."""
         match when:
             case Raises.NEGATIVE:
-                return all(self.expressions.is_positive(v, facts) for v in values[:1])
+                return all(self._is_size(v, facts) for v in values[:1])
             case Raises.ZERO_SECOND:
                 return all(self.expressions.is_nonzero(v, facts) for v in values[1:2])
             case Raises.ZERO_STEP:
@@ -237,7 +238,13 @@ class LibraryExceptions:
     def _is_count(self, node: s.Call, facts: Facts) -> bool:
         """Whether a call gets a number of elements that may be negative."""
         count = count_given(node)
-        return count is not None and not self.expressions.is_positive(count, facts)
+        return count is not None and not self._is_size(count, facts)
+
+    def _is_size(self, value: e.Expression, facts: Facts) -> bool:
+        """Whether a number is not negative; in C++ nor one of more elements than any memory has."""
+        is_cpp = self.table.language is Language.CPP
+        is_great = is_cpp and self.expressions.bounds.range_of(value, facts).low > _MEMORY
+        return not is_great and self.expressions.is_positive(value, facts)
 
     def _are_ordered(self, values: list[e.Expression], facts: Facts) -> bool:
         """Whether of two numbers the second is not the smaller one."""

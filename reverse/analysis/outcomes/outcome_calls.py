@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from rebsync.reverse.analysis.facts import Facts, IsThere, stored, without_shared
+from rebsync.reverse.analysis.facts import Facts, IsThere, stored, tested, without_shared
 from rebsync.reverse.analysis.made_objects import made_by
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
@@ -27,6 +27,7 @@ from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
+from rebsync.reverse.libraries.cpp import asks_first
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS, PLAIN_CLASSES, UNKNOWN_CLASS
 from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.reverse.libraries.routines import Language
@@ -166,11 +167,12 @@ class OutcomeCalls:
         return any(c == scope or c.endswith(f"::{scope}") for c in classes)
 
     def _arguments(self, node: s.Call, facts: Facts) -> None:
-        keeps = self._keeps_types(node)
+        keeps, asks = self._keeps_types(node), asks_first(getattr(node.callee, "name", ""))
         sizes = [self.notes.counts.elements(a.value, self.function) for a in node.arguments]
         for argument in node.arguments:
             value = argument.value
             self.expressions.check(value, facts)
+            facts = tested(facts, value, True) if asks else facts
             for origin in self.origins.of(value, self.function):
                 match origin:
                     case FunctionOrigin() if self._asks_a_node(node):
@@ -183,20 +185,13 @@ class OutcomeCalls:
                         self._hands(node, name)
                     case ClassOrigin(name, False) if not keeps:
                         self._makes(node, name)
-                    case LibraryOrigin(name, False) if not keeps and self._is_handed(name):
+                    case LibraryOrigin(name, False) if not keeps and self.notes.table.may_be_called(
+                        name
+                    ):
                         outcome = self.notes.table.function(name)
                         self._library(node, name, outcome, None, facts)
                     case _:
                         pass
-
-    def _is_handed(self, name: str) -> bool:
-        """Whether what a library has under a name is perhaps a function, that is called then.
-
-        In C++ a name that no table has is taken for that of a constant.
-        """
-        if self.notes.table.language is Language.CPP:
-            return self.notes.table.is_known(name)
-        return not name.rpartition(".")[2].isupper()  # constants are written so
 
     def _asks_a_node(self, node: s.Call) -> bool:
         """Whether a method is one that asks a node for something, as to call back."""
@@ -392,6 +387,8 @@ class OutcomeCalls:
         if name.endswith("shared_from_this") and self.function in self.origins.of_cpp.constructing:
             self.notes.problem(node, f'"{name}" may raise an exception', "std::bad_weak_ptr")
         values = [a.value for a in node.arguments] if self._is_cpp else []
+        if self._is_cpp:
+            self.expressions.undefined.call(node, outcome, receiver, facts)
         if any(has_own_iterator(self.origins, value, self.function) for value in values):
             self.notes.problem(node, f'"{name}" may never come to the end')
         for raised in self._exceptions.of(node, outcome, receiver, facts):

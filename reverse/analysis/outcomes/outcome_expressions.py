@@ -10,7 +10,6 @@ from rebsync.reverse.analysis.facts import (
     IsSize,
     bare,
     names_of,
-    size_of,
     tested,
 )
 from rebsync.reverse.analysis.foreign_values import ForeignValues
@@ -19,12 +18,14 @@ from rebsync.reverse.analysis.numbers.constant_numbers import ConstantNumbers, i
 from rebsync.reverse.analysis.numbers.least_numbers import LeastNumbers
 from rebsync.reverse.analysis.numbers.signs import Signs
 from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origin
+from rebsync.reverse.analysis.outcomes.element_bounds import ElementBounds
 from rebsync.reverse.analysis.outcomes.library_operators import LibraryOperators
+from rebsync.reverse.analysis.outcomes.undefined_lookups import UndefinedLookups
 from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.python.none_values import NoneValues
 from rebsync.reverse.analysis.python.type_errors import TypeErrors
 from rebsync.reverse.analysis.python.unset_names import UnsetNames
-from rebsync.reverse.analysis.stores import AnyValue, key_of
+from rebsync.reverse.analysis.stores import key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Operator
@@ -51,9 +52,11 @@ class OutcomeExpressions:
         self.function = notes.function.name
         self.origins = notes.origins
         self._signs = Signs(notes)
+        self.types = TypeErrors(notes)
+        self.bounds = ElementBounds(notes, self._signs, self.types.kinds)
+        self.undefined = UndefinedLookups(notes, self.bounds)
         self._constants = ConstantNumbers(notes.origins, notes.function.name)
         self.none = NoneValues(notes)
-        self.types = TypeErrors(notes)
         self._unset = UnsetNames(notes)
         self.foreign = ForeignValues(notes.origins)
         self.operators = LibraryOperators(notes)
@@ -109,6 +112,9 @@ class OutcomeExpressions:
             case e.Dereference(of):
                 if isinstance(getattr(of, "type", None), t.Optional) and Holds(of) not in facts:
                     self.notes.fails(value, "is empty")
+                self.undefined.pointee(value, facts)
+            case e.Convert(_, _, t.Text()):
+                self.undefined.text(value, facts)
             case e.LibraryReference(name):
                 if acts := self.notes.table.function(name).acts:
                     self.notes.problem(value, f'"{name}": {acts}')
@@ -254,13 +260,14 @@ class OutcomeExpressions:
 
     def size(self, container: e.Expression, facts: Facts) -> int:
         """How many elements a container has at least."""
-        type_ = getattr(container, "type", None)
-        length = type_.length if isinstance(type_, t.Array) else self.types.kinds.length(container)
-        counted = self.notes.counts.size(container, self.function)
-        return max(size_of(facts, container), counted, length)
+        return self.bounds.size(container, facts)
 
     def _reads_at(self, value: e.Index, facts: Facts) -> None:
-        if not value.checked or isinstance(value.index, e.Slice):
+        if isinstance(value.index, e.Slice):
+            return
+        if not value.checked:
+            if self.notes.table.language is Language.CPP:
+                self.undefined.element(value, facts)
             return
         holders = names_of(facts, value.object)
         indices = names_of(facts, value.index) | {_as_key(value)}
@@ -278,7 +285,7 @@ class OutcomeExpressions:
                 return
             if literal and self.notes.counts.has_key(value.object, value.index, self.function):  # type: ignore[arg-type]
                 return
-        if not is_mapping and self._is_within(value, facts):
+        if not is_mapping and self.bounds.is_within(value, facts):
             return
         at = value.index.value if isinstance(value.index, e.Literal) else None
         given = self.sized_by_caller(value.object, at + 1) if isinstance(at, int) else None
@@ -320,49 +327,11 @@ class OutcomeExpressions:
         if not isinstance(target.index, e.Slice):
             self.check(target.index, facts)
         kinds = self.origins.of(target.object, self.function)
-        if target.checked and not self._is_of(kinds, "dict", "defaultdict"):
+        if not self._is_of(kinds, "dict", "defaultdict"):
             self._reads_at(target, facts)
 
     def _is_of(self, kinds: frozenset[Origin], *names: str) -> bool:
         return bool(kinds) and kinds <= {LibraryOrigin(name, True) for name in names}
-
-    def _is_within(self, value: e.Index, facts: Facts) -> bool:
-        """Whether an index is one of an element that is there."""
-        size = self.size(value.object, facts)
-        if isinstance(value.object, e.Local) and self.notes.is_parameter(value.object):
-            size = max(size, self.notes.elements.get(self.function, 0))
-        from_end = value.from_end and not self.types.kinds.length(value.object)
-        match bare(value.index):
-            case e.Literal(int() as index):
-                return -size <= index < size if from_end else 0 <= index < size
-            case e.Unary(Operator.NEGATE, e.Literal(int() as index)):
-                return from_end and index <= size
-            case e.Binary(operator, _, e.Literal(int() as bound)) if operator in _MODULO:
-                return operator is Operator.FLOOR_MODULO and 0 < bound <= size
-            case e.Binary(Operator.FLOOR_MODULO, _, right):
-                holders = names_of(facts, value.object)
-                return any(IsSize(right, h) in facts for h in holders) and size > 0
-            case index:
-                bounds = (f.bound for f in facts if isinstance(f, IsBelow) and f.value == index)
-                return any(bound <= size for bound in bounds) or self._is_ring(index, size)
-
-    def _is_ring(self, index: e.Expression, size: int) -> bool:
-        """Whether all that is ever stored under an index's name is below a size."""
-        if not isinstance(index, e.Global | e.Attribute):
-            return False
-        stored = held_by(self.origins, index, self.function)
-        return bool(stored) and all(self._is_low(v, size) for _, v in stored)
-
-    def _is_low(self, value: object, size: int) -> bool:
-        match value:
-            case AnyValue():
-                return False
-            case e.Literal(int() as number):
-                return 0 <= number < size
-            case e.Binary(Operator.FLOOR_MODULO, _, e.Literal(int() as bound)):
-                return 0 < bound <= size
-            case _:
-                return False
 
 
 def _as_key(value: e.Index) -> e.Expression:

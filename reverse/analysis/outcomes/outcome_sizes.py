@@ -9,6 +9,7 @@ from rebsync.reverse.analysis.facts import (
     Holds,
     Implies,
     IsBelow,
+    IsEnd,
     IsOf,
     IsSize,
     IsThere,
@@ -30,6 +31,7 @@ from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
 from rebsync.reverse.libraries.outcome_rules import Size, Tells
 from rebsync.reverse.libraries.outcomes import CallOutcome
+from rebsync.reverse.libraries.size_effects import LEADING_TO_FIRST
 
 _PARTS = frozenset({"split", "rsplit", "splitlines", "partition", "items", "keys", "values"})
 _ASKED = ("__len__", "size", "begin", "end")
@@ -89,6 +91,11 @@ class OutcomeSizes:
         if outcome is None or of is None or node.target is None:
             return self._of_result(node)
         first = node.arguments[0].value if node.arguments else None
+        last = getattr(node.callee, "name", "").rpartition("::")[2]
+        if last in _ENDS:
+            return frozenset({IsEnd(node.target)})
+        if last in LEADING_TO_FIRST and self.expressions.size(of, facts):
+            return frozenset({Holds(node.target)})
         match outcome.tells:
             case Tells.SIZE:
                 return frozenset({IsSize(node.target, of)})

@@ -72,6 +72,10 @@ class OutcomeAnalysis:
         """What one call of a function may do besides giving a value."""
         return frozenset(p for p in self._solutions.of(name) if p.given is None)
 
+    def own(self, name: str) -> frozenset[Problem]:
+        """What a function itself may do besides giving a value, without what it calls."""
+        return self._of_function(name).own
+
     def _of_function(self, name: str) -> Equation[Problem]:
         if name not in self._equations:
             function = self.program.function(name)

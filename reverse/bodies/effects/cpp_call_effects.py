@@ -13,7 +13,6 @@ from rebsync.reverse.bodies.cpp_macros import macro_bodies
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.effects import known_functions
 from rebsync.reverse.bodies.effects.cpp_effect_reader import EffectReader
-from rebsync.reverse.bodies.effects.cpp_formats import has_odd_format
 from rebsync.reverse.bodies.effects.cpp_kinds import OF_TEXTS
 from rebsync.reverse.bodies.effects.cpp_roots import is_modelled
 from rebsync.reverse.bodies.effects.touches import Touches
@@ -65,8 +64,6 @@ def check_call(effects: EffectReader, node: Node) -> None:
     call = effects.scope.call(node)
     if call is None or call.name.startswith("["):
         raise effects.touches(node, "this runs a function of its own")
-    if has_odd_format(effects.scope, call):
-        raise effects.touches(node, "this takes a value for a text, or lacks one, and may crash")
     name, known = call.name.rpartition("::")[2], False
     of, meaning = effects.root_of(call.target) if call.target is not None else ("", None)
     if call.target is None or isinstance(meaning, Itself):

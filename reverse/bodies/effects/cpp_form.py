@@ -11,7 +11,7 @@ from tree_sitter import Node
 from rebsync.reverse.analysis.outcomes.held_locks import HeldLocks
 from rebsync.reverse.analysis.outcomes.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes.outcomes import RECURSES, OutcomeAnalysis
-from rebsync.reverse.analysis.problems import UNSAID, Problem
+from rebsync.reverse.analysis.problems import NOTHING_THERE, UNSAID, Problem
 from rebsync.reverse.bodies.effects.cpp_unread_calls import UnreadCalls
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -231,6 +231,17 @@ class CppForm:
         within = (p for p in odd for t in timers if t.start <= p.place.start < t.end)
         return frozenset(found.difference(within))
 
+    def looked_up(self, cpp: Cpp, place: Node) -> list[Span]:
+        """What code looks up at a place that may not be there, by how the language has it."""
+        symbol, span = self._symbol_around(place), cpp.span(place)
+        if symbol is None:
+            return []
+        owner = self._lowering.world.symbols.classes.get(symbol.owner or "")
+        names = (symbol.name, *lambda_names(symbol, owner).values())
+        found = {p.place for n in names for p in self._outcomes.own(n) if p.why == NOTHING_THERE}
+        inside_ = (p for p in found if span.start <= p.start and p.end <= span.end)
+        return sorted(inside_, key=lambda p: (p.start, p.end))
+
     def raised_at_start(self, owner: CppClass, member: str) -> str | None:
         """What an exception is that a class's member may end with where it is made."""
         every = map(self._program.function, self._program.functions)
@@ -276,13 +287,18 @@ class CppForm:
     def _around(self, node: Node) -> str | None:
         """The name of the function or lambda that a node stands in; None if it is in none."""
         around = [n for n in ancestors(node) if n.type in _FUNCTIONS]
-        symbol = next((self._functions[n.id] for n in around if n.id in self._functions), None)
+        symbol = self._symbol_around(node)
         if symbol is None:
             return None
         if around[0].type == "function_definition":
             return symbol.name
         owner = self._lowering.world.symbols.classes.get(symbol.owner or "")
         return lambda_names(symbol, owner).get(around[0].id)
+
+    def _symbol_around(self, node: Node) -> FunctionSymbol | None:
+        """The function with a name that a node stands in."""
+        found = (self._functions.get(n.id) for n in ancestors(node))
+        return next((f for f in found if f is not None), None)
 
     def odd_locks(self, functions: Iterable[CppFunction]) -> Iterator[tuple[Cpp, Span, str]]:
         """The places in functions where a thread may wait for itself, for ever."""

@@ -19,7 +19,6 @@ from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.effects.cpp_call_effects import is_calm
 from rebsync.reverse.bodies.effects.cpp_effects import Effects
 from rebsync.reverse.bodies.effects.cpp_form import CppForm
-from rebsync.reverse.bodies.effects.cpp_lookups import unsure_lookups
 from rebsync.reverse.bodies.effects.cpp_roots import declared_in
 from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import Called, Member, Outside, Scope, Variable
@@ -239,7 +238,7 @@ class _Slice:
         places = self.code.named(cpp, statement, sorted(self.dead.intersection(arrays)))
         if not all(map(_is_element, places)) or self.form.raises(cpp, statement) is not None:
             return False
-        return not unsure_lookups(self.code, self.owner, statement)
+        return not self.form.looked_up(cpp, statement)
 
 
 def _is_element(name: Node) -> bool:

@@ -12,7 +12,6 @@ from collections.abc import Collection, Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.bodies.effects.cpp_form import CppForm
-from rebsync.reverse.bodies.effects.cpp_lookups import unsure_lookups
 from rebsync.reverse.bodies.scope import Publishes
 from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, calls_in, string_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
@@ -136,7 +135,7 @@ def _sends(code: Code, form: CppForm, owner: CppClass, function: CppFunction, me
     stores = inside(function.body, "expression_statement") if given else []
     filled = [n for n in stores if squeezed(n).partition(".")[0] in messages]
     may_fail = (
-        form.raises(function.cpp, n) is not None or unsure_lookups(code, owner, n) for n in filled
+        form.raises(function.cpp, n) is not None or form.looked_up(function.cpp, n) for n in filled
     )
     return len(used) == len(given) + len(_stores(function.node, member)) and not any(may_fail)
 

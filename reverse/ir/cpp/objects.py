@@ -37,8 +37,7 @@ def address(context: Context, value: Value, place: Span) -> e.Expression:
     type_ = t.Reference(value.type)
     if value.is_lvalue:
         if isinstance(expression, e.Dereference):
-            of = getattr(expression.reference, "type", None)
-            if isinstance(of, t.Optional):  # which may be empty
+            if _may_be_nothing(getattr(expression.reference, "type", t.UNKNOWN)):
                 context.emit(s.Evaluate(expression, place))
             return expression.reference
         if isinstance(expression, e.Local):
@@ -51,6 +50,12 @@ def address(context: Context, value: Value, place: Span) -> e.Expression:
             raise Unlowered("a reference to what is not known as an object")
     target = context.stored(expression, value.type, place)
     return e.AddressOf(target, type_, place)
+
+
+def _may_be_nothing(type_: t.Type) -> bool:
+    """Whether what is dereferenced may lead to nothing by its type: no reference does."""
+    is_pointer = isinstance(type_, t.Reference) and (type_.may_be_null or type_.ownership.value)
+    return bool(is_pointer) or isinstance(type_, t.Optional | t.Unknown)
 
 
 def as_value(context: Context, value: Value, place: Span) -> e.Expression:

@@ -1,0 +1,82 @@
+"""What may end a program of generated C++, and the model says nothing of."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+
+from tree_sitter import Node
+
+from rebsync.reverse.analysis.problems import NOTHING_THERE
+from rebsync.reverse.bodies.cpp_users import is_logging
+from rebsync.reverse.bodies.effects.cpp_form import CppForm
+from rebsync.reverse.generated.cpp_names import declared_type
+from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
+from rebsync.reverse.syntax.cpp_tree import inside, operator_of, part, text_of
+from rebsync.source import Span
+
+_LOOKS = (
+    *("subscript_expression", "pointer_expression", "field_expression", "call_expression"),
+    "pointer_declarator",
+)
+_TAKING = frozenset({"front", "back", "top", "pop", "pop_back", "pop_front", "erase"})
+_POINTER = re.compile(r"\*|optional")
+_ROOT = re.compile(r"[*&(]*(?:this\s*->\s*)?(\w+)")
+
+
+def failures(
+    code: Code, form: CppForm, owner: CppClass, function: CppFunction
+) -> Iterator[tuple[Span, str]]:
+    """What may end the program, and the model has nothing of: what is logged, what is looked up.
+
+    Whether an array of the model has an element is a matter of the model, but for logs and what
+    has none of its types.
+    """
+    span = function.cpp.span
+    logs = [n for n in inside(function.body, "expression_statement") if is_logging(n)]
+    for log in logs:
+        if (why := form.raises(function.cpp, log)) is not None:
+            yield span(log), why
+    texts = inside(function.body, "declaration")
+    told = [*logs, *(n for n in inside(function.body, "if_statement") if is_logging(n))]
+    told += [n for n in texts if declared_type(code, part(n, "type")) is None and _has_lookup(n)]
+    fields = (f for c in code.lineage(owner.name) for f in c.fields)
+    variables = {f.name for f in fields if declared_type(code, f.type) is not None}
+    if function.body is None or not (told or _looks_up(function, function.body, variables)):
+        return
+    for lookup in form.looked_up(function.cpp, function.body):
+        root = _ROOT.match(function.cpp.source.text, lookup.start)
+        is_told = any(s.start <= lookup.start < s.end for s in map(span, told))
+        if is_told or root is None or root[1] not in variables:
+            yield lookup, NOTHING_THERE
+
+
+def _looks_up(function: CppFunction, body: Node, variables: Collection[str]) -> bool:
+    """Whether code looks up more than what the model has, and what comes, by how it is written.
+
+    Only then the form is asked, which takes long.
+    """
+    comes = (p.node for p in function.parameters if not _POINTER.search(text_of(p.node)))
+    there = {"this", *variables, *(text_of(n) for p in comes for n in inside(p, "identifier"))}
+    for node in filter(_is_lookup, inside(body, *_LOOKS)):
+        root, field = _ROOT.match(text_of(node)), node.child_by_field_name("field")
+        is_arrow = field is not None and text_of(field) not in _TAKING
+        if root is None or root[1] not in (there if is_arrow else variables):
+            return True
+    return False
+
+
+def _has_lookup(node: Node) -> bool:
+    return any(map(_is_lookup, inside(node, *_LOOKS)))
+
+
+def _is_lookup(node: Node) -> bool:
+    match node.type:
+        case "pointer_expression":
+            return operator_of(node) == "*"
+        case "field_expression":
+            return operator_of(node) == "->" or text_of(part(node, "field")) in _TAKING
+        case "call_expression":
+            return text_of(part(node, "function")).rpartition("::")[2] == "getenv"
+        case _:
+            return True
