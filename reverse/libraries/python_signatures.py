@@ -1,8 +1,9 @@
 """What functions and methods of Python's own library take: how many arguments, of which kinds.
 
 A signature has a kind for each argument: `kind` must be there, `kind?` may be, `*kind` are all that
-follow, `name=kind` is given by its name, `name:kind?` by either. `a|b` is one of two kinds. A name
-in several rows takes what any of them says; what no row has may refuse what it gets.
+follow, `**kind` all others by name, `name=kind` is given by its name, `name:kind?` by either.
+`a|b` is one of two kinds. A name in several rows takes what any of them says; what no row has may
+refuse what it gets.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ class LibrarySignature:
     def kind(self, name: str | int) -> str:
         """The kind of an argument, by its name or its place; empty where there is none."""
         if isinstance(name, str):
-            return self.names.get(name, "")
+            return self.names.get(name) or self.names.get("*", "")
         return self.places[name] if name < len(self.places) else self.rest
 
 
@@ -202,6 +203,7 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     ("description=any prog=any add_help=any formatter_class=any", "argparse.ArgumentParser"),
     ("text", "os.stat pathlib.Path.exists"),
     ("text number", "os.access os.open"),
+    ("text|number text? encoding=text|none errors=text|none newline=text|none", "open"),
     ("number", "os.close"),
     ("number number", "os.read"),
     ("number number number", "os.lseek os.pread"),
@@ -240,7 +242,7 @@ _METHODS: tuple[tuple[str, str], ...] = (
     ("whole", "str.zfill str.expandtabs deque.rotate list.pop"),
     ("whole letter?", "str.center str.ljust str.rjust"),
     ("encoding:text? errors:text?", "str.encode bytes.decode"),
-    ("*any", "str.format"),
+    ("*any **any", "str.format"),
     (
         "any",
         """
@@ -284,7 +286,9 @@ def _read(text: str) -> LibrarySignature:
         plain = argument.removesuffix("?")
         by_name, is_named, kind = plain.partition("=")
         name, is_either, either = plain.partition(":")
-        if argument.startswith("*"):
+        if argument.startswith("**"):
+            names["*"] = argument[2:]
+        elif argument.startswith("*"):
             rest = argument[1:]
         elif is_named:
             names[by_name] = kind
