@@ -59,8 +59,6 @@ _OF_TOPICS = (
 _TIME = "from_sec from_seconds is_zero nsecs secs set canon to_nsec to_sec to_time now"
 
 _TIMES = ("rospy.Time", "rospy.Duration", "time", "duration")  # the last two in messages
-# Classes of times and durations: they add up with each other, and with no numbers.
-TIMES = frozenset({*_TIMES, "rclpy.time.Time", "rclpy.duration.Duration"})
 
 # By the full name of a class the attributes of its objects, beside those of all objects.
 _ATTRIBUTES: Mapping[str, str] = {
@@ -148,9 +146,21 @@ _HOLDS: Mapping[str, str] = {
         for name in names.split()
     },
 }
-# Of times that are no client library's: what an operator gives, by the classes of its operands.
+# Those of messages are of the same classes.
+SAME_TIMES = {"rospy.Time": "time", "rospy.Duration": "duration"}
+_CLIENT_TIMES = (("time", "duration"), ("rclpy.time.Time", "rclpy.duration.Duration"))
 _SPAN, _MOMENT, _DAY = "datetime.timedelta", "datetime.datetime", "datetime.date"
+# What an operator gives for times, by the classes of its operands.
 OF_TIMES: Mapping[tuple[str, str, str], str] = {
+    **{("+", time, span): time for time, span in _CLIENT_TIMES},
+    **{("+", span, time): time for time, span in _CLIENT_TIMES},
+    **{("-", time, span): time for time, span in _CLIENT_TIMES},
+    **{("-", time, time): span for time, span in _CLIENT_TIMES},
+    **{(sign, span, span): span for _, span in _CLIENT_TIMES for sign in "+-"},
+    **{("<", each, each): "number" for pair in _CLIENT_TIMES for each in pair},
+    **{(sign, "duration", "number"): "duration" for sign in ("*", "/", "//")},
+    **{(sign, "duration", "duration"): "number" for sign in ("/", "//")},
+    ("*", "number", "duration"): "duration",
     ("+", _SPAN, _SPAN): _SPAN,
     ("-", _SPAN, _SPAN): _SPAN,
     ("*", _SPAN, "number"): _SPAN,

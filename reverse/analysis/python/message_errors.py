@@ -11,7 +11,13 @@ from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.argument_types import message_name
 from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
-from rebsync.reverse.analysis.python.value_types import MessageType, OwnType, ValueTypes, own_type
+from rebsync.reverse.analysis.python.value_types import (
+    LibraryType,
+    MessageType,
+    OwnType,
+    ValueTypes,
+    own_type,
+)
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 
@@ -71,4 +77,6 @@ def _takes(expected: ValueTypes, given: ValueTypes) -> bool:
         return frozenset(map(own_type, given)) <= _LISTED | {None}
     if kinds == {OwnType.MESSAGE}:
         return given <= expected | {None}
+    if any(isinstance(type_, LibraryType) for type_ in given):
+        return False
     return frozenset(map(own_type, given)) <= kinds | {None}

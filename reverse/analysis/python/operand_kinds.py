@@ -37,7 +37,6 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import COMPARISONS
 from rebsync.reverse.ir.program import FunctionKind
 from rebsync.reverse.ir.walk import walk
-from rebsync.reverse.libraries.attributes import TIMES
 
 ATTRIBUTES: Mapping[OwnType | None, frozenset[str]] = {
     OwnType.NUMBER: frozenset(dir(int)) | frozenset(dir(float)),
@@ -197,9 +196,7 @@ class OperandKinds:
 
 def _answers(type_: ValueType | None) -> bool:
     """Whether objects of a type have operators of their own."""
-    return isinstance(type_, InstanceType) or (
-        isinstance(type_, LibraryType) and type_.name in TIMES
-    )
+    return isinstance(type_, InstanceType | LibraryType)
 
 
 def _is_nothing(value: object) -> bool:

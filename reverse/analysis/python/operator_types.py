@@ -19,7 +19,7 @@ from rebsync.reverse.analysis.python.value_types import (
     own_type,
 )
 from rebsync.reverse.ir.operators import Operator
-from rebsync.reverse.libraries.attributes import OF_TIMES, TIMES
+from rebsync.reverse.libraries.attributes import OF_TIMES, SAME_TIMES
 
 _NUMBER = OwnType.NUMBER
 SEQUENCES = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.ARRAY})
@@ -59,13 +59,14 @@ def takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bo
 
 
 def given_by(operator: Operator, left: ValueType | None, right: ValueType | None) -> str:
-    """The class of what an operator gives for a time of Python's own library; empty if none."""
+    """The class of what an operator gives for a time; empty if none."""
     symbol = "<" if operator in ORDERED else operator.value
-    names = [each.name if isinstance(each, LibraryType) else _name(each) for each in (left, right)]
-    return OF_TIMES.get((symbol, names[0], names[1]), "")
+    return OF_TIMES.get((symbol, _name(left), _name(right)), "")
 
 
 def _name(type_: ValueType | None) -> str:
+    if isinstance(type_, LibraryType):
+        return SAME_TIMES.get(type_.name, type_.name)
     own = own_type(type_)
     return own.value if own is not None else ""
 
@@ -88,7 +89,7 @@ def _is_ordered(
         case (None, _) | (_, None):
             return False
         case (LibraryType(), _) | (_, LibraryType()):
-            return _are_times(one, other) or bool(given_by(Operator.LESS, one, other))
+            return bool(given_by(Operator.LESS, one, other))
         case InstanceType(name), _:
             return has_order(name)
         case _, InstanceType(name):
@@ -99,11 +100,6 @@ def _is_ordered(
             return are_ordered(first_ones | others, has_order)
         case _:
             return takes(Operator.LESS, own_type(one), own_type(other))
-
-
-def _are_times(one: ValueType | None, other: ValueType | None) -> bool:
-    """Whether both are times or durations of a client library."""
-    return all(isinstance(each, LibraryType) and each.name in TIMES for each in (one, other))
 
 
 def _are_parts(

@@ -47,17 +47,11 @@ from rebsync.reverse.analysis.python.value_types import (
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
-from rebsync.reverse.libraries.attributes import TIMES
 from rebsync.reverse.libraries.routines import Language
 
 _WRONG = "is of another type"
 _LACKS = "has no such attribute"
 NUMBER, TEXT = OwnType.NUMBER, OwnType.TEXT
-# Operators that times take with times only.
-_OF_TIMES = (
-    *(Operator.ADD, Operator.SUBTRACT, Operator.LESS, Operator.LESS_EQUAL),
-    *(Operator.GREATER, Operator.GREATER_EQUAL),
-)
 _EQUALITY = (Operator.EQUAL, Operator.UNEQUAL)
 _OF_BITS = frozenset(
     {Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR}
@@ -290,15 +284,11 @@ class TypeErrors:
             wrong = False
         else:
             wrong = any(not takes(operator, a, b) for a in kinds[0] for b in kinds[1])
-            wrong |= any(_is_refused(operator, a, b) for a in types[0] for b in types[1])
+            wrong |= any(self._refuses(operator, a, b) for a in types[0] for b in types[1])
             wrong |= operator in ORDERED and not self._elements.are_comparable(*types)
             wrong |= operator in _OF_BITS and any(map(self._floats.has, (left, right)))
             is_times = operator is Operator.MULTIPLY and self._floats.has(right)
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
-        if operator in _OF_TIMES and (
-            _is_time_and_number(*types) or _is_time_and_number(*types[::-1])
-        ):
-            wrong = True
         if operator is Operator.FLOOR_MODULO and isinstance(left, e.Literal):
             wrong |= isinstance(left.value, str) and self._puts(left.value, right, facts)
         if wrong:
@@ -308,6 +298,17 @@ class TypeErrors:
         elif operator not in (*_EQUALITY, Operator.SAME, Operator.NOT_SAME):
             self._answers(value, left, operator)
             self._answers(value, right, operator)
+
+    def _refuses(self, operator: Operator, left: ValueType | None, right: ValueType | None) -> bool:
+        """Whether an object of a library is no operand of an operator."""
+        pair = left, right
+        is_text = operator is Operator.FLOOR_MODULO and left is OwnType.TEXT
+        is_own = any(isinstance(type_, InstanceType) for type_ in pair)
+        if is_text or is_own or not any(isinstance(type_, LibraryType) for type_ in pair):
+            return False
+        if None in pair:
+            return not self._notes.table.trusts_types
+        return not given_by(operator, left, right)
 
     def _puts(self, text: str, value: e.Expression, facts: Facts) -> bool:
         """Whether `%` may not put values into a text: too many, too few, or of another type."""
@@ -373,21 +374,6 @@ class TypeErrors:
                 self._notes.fails(node, _WRONG)
         else:
             self._needs(node, value, {NUMBER, TEXT}, facts)
-
-
-def _is_time_and_number(one: ValueTypes, other: ValueTypes) -> bool:
-    """Whether one value may be a time or duration of a client library, and one a number."""
-    is_time = any(isinstance(t, LibraryType) and t.name in TIMES for t in one)
-    return is_time and OwnType.NUMBER in other
-
-
-def _is_refused(operator: Operator, left: ValueType | None, right: ValueType | None) -> bool:
-    """Whether an object of a library, other than times of clients, is no operand of an operator."""
-    is_object = any(isinstance(t, LibraryType) and t.name not in TIMES for t in (left, right))
-    is_other = left is None or right is None or isinstance(left, InstanceType)
-    is_text = operator is Operator.FLOOR_MODULO and left is OwnType.TEXT
-    is_other |= is_text or isinstance(right, InstanceType)
-    return is_object and not is_other and not given_by(operator, left, right)
 
 
 def _is_none(value: e.Expression) -> bool:
