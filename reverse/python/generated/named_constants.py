@@ -137,9 +137,18 @@ class CodeConstants(PyValues):
         """What a binding gives that is the only one of its name, and gives the same at any time."""
         is_only = binding.how in _NAMING and name != "*" and _is_new(scope, name)
         is_steady = binding.how != "value" or (is_only and self._is_steady(binding, name, scope))
-        if is_only and is_steady and not self._is_stored(scope, name):
+        fits = not binding.path or self._fits(binding, scope)
+        if is_only and is_steady and fits and not self._is_stored(scope, name):
             return PyValues.bound(self, binding, name, scope)
         return (self.unknown("this may change", binding.node, scope),)
+
+    def _fits(self, binding: Binding, scope: Scope) -> bool:
+        """Whether names are given as many values as they are: `A, B = 1, 2`."""
+        left = binding.node.child_by_field_name("left")
+        names = named(left) if left is not None else []
+        value = _only(self.values.ways(binding.value, scope))
+        is_flat = all(each.type == "identifier" for each in names)
+        return is_flat and isinstance(value, Items) and len(value.each) == len(names)
 
     def _is_stored(self, scope: Scope, name: str) -> bool:
         """Whether an object has another value than its class, or others store one there."""
@@ -158,7 +167,10 @@ class CodeConstants(PyValues):
 
     def _makes_constant(self, call: Node, scope: Scope) -> bool:
         """Whether a call gives the next number of an enumeration, or an object with fields."""
-        match self.values.ways(field(call, "function"), scope):
+        function = field(call, "function")
+        if text_of(function) == "range" and "range" not in scope.module.names:
+            return True
+        match self.values.ways(function, scope):
             case (External(name="enum.auto"),):
                 return True
             case (made,) if is_moment(made):
