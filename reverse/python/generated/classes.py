@@ -75,9 +75,8 @@ class ModelClasses:
 
     def __post_init__(self) -> None:
         self._values = PyValues(self.code)
-        self._named = CodeConstants(
-            self.code, values=self._values, messages=self.messages.constants
-        )
+        told = self.messages.constants
+        self._named = CodeConstants(self.code, values=self._values, messages=told)
         self._form = PyForm(
             self.code,
             MessageTypes({}, ""),
@@ -224,8 +223,7 @@ class ModelClasses:
     def _is_base(self, owner: Scope, above: Scope) -> bool:
         """Whether a class is named among the bases of another."""
         bases = owner.node.child_by_field_name("superclasses")
-        names = [text_of(b) for b in named(bases)] if bases is not None else []
-        return above.name in names
+        return bases is not None and above.name in map(text_of, named(bases))
 
     def _reactive(self, owner: Scope) -> m.ReactiveClass:
         roles = self._of(owner)
