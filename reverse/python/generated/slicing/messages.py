@@ -39,6 +39,7 @@ _GIVING_POINTS = frozenset({"float"})
 _GIVING_WHOLE = frozenset({"int", "len", "round"})
 _NUMBERS = frozenset({"integer", "float", "true", "false"})
 _NEVER_NUMBERS = frozenset({"none", "list", "tuple", "dictionary", "string", "concatenated_string"})
+_HUGE = 1e9
 _TRUE = frozenset({"true", "false", "comparison_operator", "not_operator"})
 
 
@@ -74,7 +75,7 @@ class ToldMessages:
             function, given = field(node, "function"), named(field(node, "arguments"))
             publisher, _, method = text_of(function).removeprefix("self.").rpartition(".")
             if method == "publish" and publisher in self.shown:
-                return self.shown[publisher].sends(given)
+                return self._sends(self.shown[publisher], given)
             if method == "sendTransform":
                 return self.sends_transform(given)
             type_ = self.types.get(text_of(function))
@@ -87,6 +88,17 @@ class ToldMessages:
             of = self.types.get(text_of(field(node, "object")))
             return of is None or text_of(field(node, "attribute")) in CONSTANTS.get(of, ())
         return True
+
+    def _sends(self, shown: Shown, given: list[Node]) -> bool:
+        """Whether a publisher gets a message with a value that this takes."""
+        value = shown.value(given)
+        if value is None:
+            return False
+        stores = [*_stores(value)] if value.type == "identifier" else []
+        computed = stores[0] if len(stores) == 1 else value
+        is_small = not any(map(_may_be_huge, nodes_in(computed)))
+        is_float = self._has_point(computed) and not self.looks.is_text(computed)
+        return shown.takes(value) or (shown.is_float and is_small and is_float)
 
     def _is_made(self, call: Node, type_: str) -> bool:
         """`KeyValue(key="cell", value=str(x))`, or in the order of the fields."""
@@ -234,3 +246,16 @@ def _own(value: Node) -> str:
 
 def _computes(value: Node) -> bool:
     return value.type == "binary_operator" and text_of(field(value, "operator")) != "%"
+
+
+def _may_be_huge(node: Node) -> bool:
+    """Whether a part of a number may make more of it than 32 bits of a float hold."""
+    match node.type:
+        case "float":
+            return not -_HUGE < float(text_of(node).replace("_", "")) < _HUGE
+        case "binary_operator":
+            return text_of(field(node, "operator")) == "**"
+        case "call":
+            return text_of(field(node, "function")) != "float"
+        case _:
+            return False

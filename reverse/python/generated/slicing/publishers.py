@@ -66,18 +66,24 @@ class Shown:
         """The type as the library of messages has it."""
         return f"{_PACKAGE}.msg.{self.type}"
 
-    def sends(self, arguments: list[Node]) -> bool:
-        """Whether it is given a message with a value that this takes: `Int32(data=self._x)`."""
+    @property
+    def is_float(self) -> bool:
+        """Whether its messages have one number with a point."""
+        return self.type in ("Float32", "Float64")
+
+    def value(self, arguments: list[Node]) -> Node | None:
+        """The value of the message that it is given: `Int32(data=self._x)`."""
         given = arguments[0] if len(arguments) == 1 else None
         if given is None or given.type != "call" or text_of(field(given, "function")) != self.type:
-            return False
+            return None
         values = named(field(given, "arguments"))
         if len(values) != 1 or values[0].type != "keyword_argument":
-            return False
+            return None
         is_data = text_of(field(values[0], "name")) == "data"
-        return is_data and self._takes(field(values[0], "value"))
+        return field(values[0], "value") if is_data else None
 
-    def _takes(self, value: Node) -> bool:
+    def takes(self, value: Node) -> bool:
+        """Whether its messages take a value."""
         if self.type == "String":
             return self._is_text(value)
         if value.type in _LITERALS.get(self.type, ()):
