@@ -28,17 +28,20 @@ _PLAIN = frozenset({"string", "integer", "float", "true", "false", "none"})
 _WRAPS = ("wraps", "functools.wraps")
 
 
-def is_transparent(constants: CodeConstants, module: Scope, decorator: str, silent: Silent) -> bool:
+def is_transparent(
+    constants: CodeConstants, function: Scope, decorator: str, silent: Silent
+) -> bool:
     """Whether a decorator only logs, and calls the function with all that it is given.
 
     It may be made by a function of literals: `@timed("way")`.
     """
+    module, has_result = function.module, any(named(r) for r in function.returns)
     name, _, given = decorator.partition("(")
     code, made = constants.code, plain_function(constants.of(module, name))
     if made is None:
         return False
     if not given:
-        return _only_tells(code, module, made, silent)
+        return _only_tells(code, module, made, silent, has_result)
     call = named(parse(Source("", decorator)).root)[0]
     arguments = named(field(named(call)[0], "arguments"))
     inner = _given_back(code, made)
@@ -48,7 +51,7 @@ def is_transparent(constants: CodeConstants, module: Scope, decorator: str, sile
         and len(arguments) == len(made.parameters)
         and all(v.type in _PLAIN for v in values)
         and not inner.decorators
-        and _only_tells(code, module, inner, silent)
+        and _only_tells(code, module, inner, silent, has_result)
     )
 
 
@@ -90,7 +93,7 @@ def _tells_around(code: PyCode, module: Scope, made: Scope, silent: Silent) -> b
     return around.yields(body_of(made))
 
 
-def _only_tells(code: PyCode, module: Scope, made: Scope, silent: Silent) -> bool:
+def _only_tells(code: PyCode, module: Scope, made: Scope, silent: Silent, has_result: bool) -> bool:
     """Whether what a decorator puts in place of a function does that function, and tells of it."""
     function = _given_back(code, made) if len(made.parameters) == 1 else None
     if function is None:
@@ -106,7 +109,8 @@ def _only_tells(code: PyCode, module: Scope, made: Scope, silent: Silent) -> boo
     hidden = hidden_names(code, made.module)
     looks = looks_of(code, (made.module, module), frozenset(), hidden)
     told = _own_locals(function)
-    return _Around(function, call, looks, told, silent).gives(body_of(function))
+    around = _Around(function, call, looks, told, silent, has_result)
+    return around.gives(body_of(function))
 
 
 def _own_locals(function: Scope) -> frozenset[str]:
@@ -134,13 +138,17 @@ def _given_back(code: PyCode, made: Scope) -> Scope | None:
 
 @dataclass(frozen=True, slots=True)
 class _Around:
-    """The function that a decorator gives, and the call of the one that it is of."""
+    """The function that a decorator gives, and the call of the one that it is of.
+
+    One that has no result need not be given back.
+    """
 
     function: Scope
     call: str
     looks: Looks
     told: frozenset[str]
     silent: Silent
+    has_result: bool = True
 
     def gives(self, body: list[Node]) -> bool:
         """Whether statements do the call once, give what it gives, and else only tell people."""
@@ -149,7 +157,7 @@ class _Around:
             case [one] if left[0].type == "try_statement":
                 return bool(one) and self._tries(left[0])
             case [one]:
-                return one == f"return {self.call}"
+                return one == f"return {self.call}" or (one == self.call and not self.has_result)
             case [one, last]:
                 result = stored_into(expression_in(left[0]))
                 bound = self.function.names.get(result, ())

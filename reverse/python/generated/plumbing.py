@@ -101,7 +101,8 @@ class Plumbing:
             if any(c.type == "async" for c in function.node.children):
                 self._list(owner.py, function.node, _LATE, function.name)
             odd = [d for d in function.decorators if not self._is_plain(function, d)]
-            if odd := [d for d in odd if not self._is_transparent(d)]:
+            named_by, told = self.constants, self.silent
+            if odd := [d for d in odd if not is_transparent(named_by, function, d, told)]:
                 why = f'nobody knows what "@{odd[0]}" makes of it'
                 self._list(owner.py, function.node, why, function.name)
         for node, why in self._overridden():
@@ -111,11 +112,6 @@ class Plumbing:
                 continue
             if not self.constants.is_quiet(owner, statement):
                 self._list(owner.py, statement, _WHY, "")
-
-    def _is_transparent(self, decorator: str) -> bool:
-        """Whether a decorator only tells people of the function."""
-        module = self.roles.owner.module
-        return is_transparent(self.constants, module, decorator, self.silent)
 
     def _is_plain(self, function: Scope, decorator: str) -> bool:
         """Whether the model knows what a function is with it: what is called is no property."""
