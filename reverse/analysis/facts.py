@@ -12,6 +12,7 @@ from rebsync.intervals import ANY, Interval, compared, exactly
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.python.value_types import ANY_TYPE, ValueTypes
 from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import MIRRORED, Operator
 from rebsync.reverse.ir.walk import walk
 
@@ -168,8 +169,26 @@ def without(facts: Facts, target: e.Expression) -> Facts:
     base = target
     while isinstance(base, e.Index):
         base = base.object
+    if isinstance(base, e.Dereference):
+        facts = _without_referred(facts, base)
     kept = isinstance(target, e.Index)
     return frozenset(f for f in facts if isinstance(f, IsBound) or not _names(f, base, kept))
+
+
+def _without_referred(facts: Facts, target: e.Dereference) -> Facts:
+    """The facts that are left when what something refers to has changed, whatever that is.
+
+    Pointers stay what they were, unless it is one.
+    """
+    is_pointer = isinstance(getattr(target, "type", None), t.Reference)
+
+    def is_apart(value: e.Expression) -> bool:
+        is_local = isinstance(value, e.Local) and isinstance(value.type, t.Reference)
+        return isinstance(value, e.Temporary) or (is_local and not is_pointer)
+
+    return frozenset(
+        f for f in facts if isinstance(f, IsBound) or all(map(is_apart, _expressions(f)))
+    )
 
 
 def stored(facts: Facts, target: e.Expression, types: ValueTypes | None = None) -> Facts:

@@ -40,15 +40,32 @@ def failures(
     texts = inside(function.body, "declaration")
     told = [*logs, *(n for n in inside(function.body, "if_statement") if is_logging(n))]
     told += [n for n in texts if declared_type(code, part(n, "type")) is None and _has_lookup(n)]
-    fields = (f for c in code.lineage(owner.name) for f in c.fields)
-    variables = {f.name for f in fields if declared_type(code, f.type) is not None}
+    variables = _of_model(code, owner, function)
     if function.body is None or not (told or _looks_up(function, function.body, variables)):
         return
-    for lookup in form.looked_up(function.cpp, function.body):
+    found = list(form.looked_up(function.cpp, function.body))
+    for lookup in found:
+        if any(lookup.start <= o.start and o.end <= lookup.end and o != lookup for o in found):
+            continue  # what is in it says it
         root = _ROOT.match(function.cpp.source.text, lookup.start)
         is_told = any(s.start <= lookup.start < s.end for s in map(span, told))
         if is_told or root is None or root[1] not in variables:
             yield lookup, NOTHING_THERE
+
+
+def _of_model(code: Code, owner: CppClass, function: CppFunction) -> set[str]:
+    """The variables, parameters and locals of types that the model has."""
+    fields = ((f.name, f.type) for c in code.lineage(owner.name) for f in c.fields)
+    declared = [p.node for p in function.parameters]
+    declared += inside(function.body, "declaration", "parameter_declaration", "for_range_loop")
+    own = (
+        (text_of(n), part(each, "type"))
+        for each in declared
+        for d in each.children_by_field_name("declarator")
+        for n in inside(d, "identifier", "pointer_declarator")[:1]
+        if n.type == "identifier"
+    )
+    return {name for name, type_ in (*fields, *own) if declared_type(code, type_) is not None}
 
 
 def _looks_up(function: CppFunction, body: Node, variables: Collection[str]) -> bool:
