@@ -161,6 +161,7 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     ("text default:any?", "os.getenv os.environ.get"),
     ("text?", "logging.getLogger"),
     ("text width:whole?", "textwrap.fill"),
+    ("text whole placeholder=text", "textwrap.shorten"),
     ("text text", "textwrap.indent"),
     ("text", "time.strftime"),
     ("number|none?", "time.localtime time.gmtime time.ctime"),
@@ -192,6 +193,7 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
         logging.debug logging.info logging.warning logging.error logging.critical logging.warn
         logging.exception logging.log pprint.pformat""",
     ),
+    ("any **any", "dataclasses.replace"),
     ("default=any default_factory=any init=any repr=any compare=any", "dataclasses.field"),
     ("limit:number|none? chain:any?", "traceback.format_exc traceback.print_exc"),
     ("text any rename=any defaults=any", "collections.namedtuple"),
