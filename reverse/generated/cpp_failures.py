@@ -21,8 +21,7 @@ _LOOKS = (
 )
 _TAKING = frozenset({"front", "back", "top", "pop", "pop_back", "pop_front", "erase"})
 _POINTER = re.compile(r"\*|optional")
-_OF_ALL = r"std::m(?:in|ax)_element\(\s*(?:std::begin\(\s*)?"  # of what is never empty
-_ROOT = re.compile(rf"[*&(]*(?:{_OF_ALL})?(?:this\s*->\s*)?(\w+)")
+_ROOT = re.compile(r"[*&(]*(?:this\s*->\s*)?(\w+)")
 
 
 def failures(

@@ -136,6 +136,7 @@ class UndefinedLookups:
         first = next((a.value for a in call.arguments), of) if of is None else of
         if name in SEARCHING or first is None:
             return name in SEARCHING
+        first = first.target if isinstance(first, e.AddressOf) else first
         if name in LEADING_ON:
             first = call.arguments[0].value if call.arguments else first
             return self.may_be_nothing(first, facts)
