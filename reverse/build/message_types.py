@@ -187,8 +187,11 @@ class MessageTypes:
         return same[0] if len(same) == 1 else None
 
     def _declared(self, type_: str) -> list[tuple[str, str, int | None]] | None:
-        if type_ in self.own:
-            return self.own[type_]
+        owner, _, name = type_.partition("/")
+        # generated packages of ROS 2 have one of interfaces beside them: both are read as one
+        beside = f"{self.package}/{name}" if owner == f"{self.package}_interfaces" else type_
+        if (own := self.own.get(type_, self.own.get(beside))) is not None:
+            return own
         text = COMMON.get(type_)
         return list(map(_field, text.split(", "))) if text else ([] if text == "" else None)
 

@@ -134,7 +134,7 @@ class GeneratedBodies:
     def _read(self, cpp: Cpp, inside: Scope, body: Node, within: str) -> m.Block:
         """A body, and what it asks of sensors besides what they saw."""
         read = self._said(cpp, inside, body, within)
-        for source, unread in acting_for_sensors(self.code, cpp, body):
+        for source, unread in acting_for_sensors(self.code, cpp, body, self.scope.messages):
             self.findings.unreadable(source, unread, within)
         listed = [f.span for f in self.findings.all if f.source == cpp.source]
         for source, unread in acting_in_blocks(self.code, cpp, body, listed):

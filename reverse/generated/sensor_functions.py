@@ -7,15 +7,17 @@ hardware is theirs; the rebec, its messages and its time are the model's.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 from tree_sitter import Node
 
+from rebsync.model import Type
 from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
 from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.generated.cpp_meanings import is_runtime_header
 from rebsync.reverse.generated.cpp_names import has_mailbox
+from rebsync.reverse.generated.ill_formed import ill_formed
 from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.generated.user_blocks import user_blocks
 from rebsync.reverse.ir.cpp.functions import lambda_names
@@ -25,8 +27,8 @@ from rebsync.reverse.ir.program import Program
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of
-from rebsync.reverse.syntax.cpp_index import Code
-from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
+from rebsync.reverse.syntax.cpp_index import Code, CppFunction
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, part, text_of
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.source import Source, Span
 
@@ -39,14 +41,24 @@ _PLAIN = frozenset(
 )
 
 
-def acting_for_sensors(code: Code, cpp: Cpp, body: Node) -> Iterator[tuple[Source, Unread]]:
-    """The places that may do more than to say what was seen, where a body asks its sensors."""
+def acting_for_sensors(
+    code: Code, cpp: Cpp, body: Node, messages: Mapping[str, Mapping[str, Type | None]]
+) -> Iterator[tuple[Source, Unread]]:
+    """The places that may do more than to say what was seen, where a body asks its sensors.
+
+    `messages` are the fields of the package's types of messages.
+    """
     asked = [c.arguments[1] for c in code.calls_in(cpp, body) if _asks(c)]
     looked = []
     for argument in asked:
         if (found := _seeing(argument)) is None:
             yield cpp.source, Unread(cpp.span(argument), "no sensor is asked here")
-        elif not _is_plain(code, found):
+            continue
+        functions = _functions_named(code, found)
+        for function in functions:
+            yield from _without_field(function, messages)
+            yield from ((function.cpp.source, unread) for unread in ill_formed(code, function))
+        if not _is_plain(functions):
             looked.append(found)
     if looked:
         yield from _SensorProgram(code).acting(cpp, looked)
@@ -156,10 +168,27 @@ def _seeing(node: Node) -> Node | None:
     return looked if is_name or looked.type == "lambda_expression" else None
 
 
-def _is_plain(code: Code, looked: Node) -> bool:
-    """Whether all functions of a name only give a field of what they get."""
+def _functions_named(code: Code, looked: Node) -> list[CppFunction]:
+    """All functions of the name that a sensor is handed; none for a lambda."""
     name = text_of(looked).lstrip("& ").rpartition("::")[2]
-    functions = [f for (_, own), found in code.definitions.items() if own == name for f in found]
+    every = ((own, found) for (_, own), found in code.definitions.items())
+    return [f for own, found in every if own == name for f in found] if name.isidentifier() else []
+
+
+def _is_plain(functions: Collection[CppFunction]) -> bool:
+    """Whether functions only give a field of what they get."""
     parts = (n for f in functions if f.body is not None for n in f.body.named_children)
-    is_plain = all(n.type in _PLAIN for part in parts for n in nodes_in(part))
-    return is_plain and bool(functions) and name.isidentifier()
+    return bool(functions) and all(n.type in _PLAIN for p in parts for n in nodes_in(p))
+
+
+def _without_field(
+    function: CppFunction, messages: Mapping[str, Mapping[str, Type | None]]
+) -> Iterator[tuple[Source, Unread]]:
+    """The places where a function names a field that its message has not."""
+    fields = {t.rpartition("/")[2]: of for t, of in messages.items()}
+    types = {p.name: text_of(p.type).rpartition("::")[2] for p in function.parameters}
+    for node in inside(function.body, "field_expression") if function.body is not None else ():
+        type_, name = types.get(text_of(part(node, "argument")), ""), text_of(part(node, "field"))
+        if type_ in fields and name not in fields[type_]:
+            why = f'messages of {type_} have no field "{name}"'
+            yield function.cpp.source, Unread(function.cpp.span(node), f"{_ASKED}: {why}")

@@ -275,6 +275,8 @@ def _made(command: Command, names: dict[str, str], project: str) -> Iterator[_To
     """What is built, and what is installed."""
     span, words = command.span, [argument.text for argument in command.arguments]
     match command.name:
+        case "project" if words:
+            yield "project of the build", "", "", "there", span
         case "add_executable" if words:
             target = names.get(words[0], words[0])
             for path in words[1:]:

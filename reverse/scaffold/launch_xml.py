@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
@@ -30,6 +31,7 @@ from rebsync.source import Source
 PARAMETERS = "config/params.yaml"
 _ENTRY = re.compile(r"\s*(\w+):\s*(?:-?\d+|true|false)\s*")
 Load = Callable[[str], "Source | None"]
+_ARGUMENT = re.compile(r"\$\(arg\s+(\w+)\s*\)")
 _BY_NAMES = "topic_tools"  # whose programs publish under names alone that they are handed
 
 
@@ -41,6 +43,33 @@ def facts_of_launch(source: Source, package: str) -> Iterator[Fact]:
         names = [name for name, _ in found]
         given = {name: value for name, value in found if names.count(name) == 1}
         yield from _Tags(source, package, frozenset(_nodes(root)), given).facts(root)
+        yield from _arguments(source, root)
+
+
+def _arguments(source: Source, root: XmlElement) -> Iterator[Fact]:
+    """The arguments for which roslaunch ends: used without a declaration, or declared again."""
+    declared = Counter(
+        each.get("name")
+        for each in _inside(root)
+        if each.name == "arg" and not {"if", "unless"} & each.attributes.keys()
+    )
+    named = {each.get("name") for each in _inside(root) if each.name == "arg"}
+    for each in (root, *_inside(root)):
+        for text in (a.value for a in each.attributes.values()):
+            for name in {*_ARGUMENT.findall(text)} - named:
+                why = f"nothing here gives the argument `{name}`"
+                yield Fact(UNKNOWN, name, f"the <{each.name}>", why, source, each.span)
+        if each.name == "arg" and declared[each.get("name")] > 1:
+            why = "the argument is declared above"
+            yield Fact(UNKNOWN, "", f"the <arg> `{each.get('name')}`", why, source, each.span)
+
+
+def _inside(element: XmlElement) -> Iterator[XmlElement]:
+    """The tags in a tag, but for what an included file is given."""
+    for each in element.elements():
+        yield each
+        if each.name != "include":
+            yield from _inside(each)
 
 
 def facts_of_settings(source: Source, load: Load) -> Iterator[Fact]:

@@ -15,6 +15,9 @@ from rebsync.source import Source, Span
 # The modules of the run-time part.
 MODULE = re.compile(rf"(?:.*/)?(?:__init__|{'|'.join(RUNTIME_HEADERS)})\.py\Z")
 
+# Annotations by which a data class has another constructor.
+_NO_FIELDS = frozenset({"ClassVar", "InitVar", "KW_ONLY"})
+
 # What takes one text, and is there wherever its module is imported.
 _LOGS_TEXTS = re.compile(
     r"(?:rospy\.log(?:debug|info|warn|err|fatal)(?:_once)?|print"
@@ -115,6 +118,16 @@ def _looks(call: ast.Call) -> bool:
     return name in HARMLESS or called in own_names() or name in own_name_methods()
 
 
+def _field(node: ast.AnnAssign) -> ast.AnnAssign:
+    """A field without its type, if that does not say which kind of a field it is."""
+    words = {n.id for n in ast.walk(node.annotation) if isinstance(n, ast.Name)}
+    is_special = not words.isdisjoint(_NO_FIELDS)
+    annotation = node.annotation if is_special else ast.Constant(...)
+    return ast.copy_location(
+        ast.AnnAssign(node.target, annotation, node.value, simple=node.simple), node
+    )
+
+
 class _Plain(ast.NodeTransformer):
     """Takes types out, and calls names as they are in another tree."""
 
@@ -126,6 +139,14 @@ class _Plain(ast.NodeTransformer):
 
     def visit_arg(self, node: ast.arg) -> ast.AST:
         return ast.arg(self.names.get(node.arg, node.arg), None)
+
+    def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:
+        """A class: what is annotated in its body may be a field, whatever its type is."""
+        body = [_field(s) if isinstance(s, ast.AnnAssign) else self.visit(s) for s in node.body]
+        node.body = []
+        self.generic_visit(node)
+        node.body = body
+        return node
 
     def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST:
         self.generic_visit(node)

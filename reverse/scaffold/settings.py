@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import configparser
 import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from rebsync.reverse.build.messages import read_message
 from rebsync.reverse.launch.parameters import YAML, read_parameters
 from rebsync.reverse.scaffold.fact import (
     CONSTANT,
@@ -18,7 +20,7 @@ from rebsync.reverse.scaffold.fact import (
     has_bearing,
 )
 from rebsync.reverse.scaffold.state_messages import FIELD, facts_of_state_message, is_state_message
-from rebsync.source import Source, Span
+from rebsync.source import NOWHERE, Source, Span
 
 _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 
@@ -47,12 +49,20 @@ _BUILDING = re.compile(
 
 def facts_of_message(source: Source, package: str) -> Iterator[Fact]:
     message = Path(source.path).stem
+    unknowns = read_message(source, package, message).unknowns if _is_message(source) else ()
+    for unknown in unknowns:
+        yield Fact(UNKNOWN, message, unknown.what, unknown.why, source, unknown.span)
     if is_state_message(source.text):
         yield from facts_of_state_message(message, source)
         return
     for m in FIELD.finditer(source.text):
         type_ = m[1].removeprefix(f"{package}/")
         yield Fact("field", message, m[2], type_, source, Span(*m.span()))
+
+
+def _is_message(source: Source) -> bool:
+    """Whether it is a message type alone, not the two of a service or the three of an action."""
+    return source.path.endswith(".msg")
 
 
 def facts_of_parameters(source: Source) -> Iterator[Fact]:
@@ -118,6 +128,11 @@ def facts_of_setup(source: Source) -> Iterator[Fact]:
 
     Sections of tools that only look at code say nothing of it.
     """
+    try:
+        configparser.RawConfigParser().read_string(source.text)
+    except configparser.Error as error:
+        why = " ".join(error.message.split())
+        yield Fact(UNKNOWN, "", Path(source.path).name, why, source, NOWHERE)
     for m in _FOLDER.finditer(source.text):
         yield Fact("folder of programs", "", m[1], m[2], source, Span(*m.span()))
     section, option = "", ""

@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from rebsync.reverse.files.compiled_text import LINE_COMMENT
+from rebsync.reverse.syntax.py_module import module_of
 
 STAND_IN = re.compile(r"(?:.*/)?\w+_stand_in(?:\.cpp|\.py)?")
 # What gets at topics, services, parameters, other programs, and names that only running tells.
@@ -31,6 +32,8 @@ _DRAWING = re.compile(
 
 def plays_on(base: str, text: str, *, is_python: bool) -> bool:
     """Whether a stand-in still does nothing but to play its sensors, however it does that."""
+    if is_python and module_of(text) is None:
+        return False
     before, now = (Counter(_reaching(_REMARKS[is_python].sub("", each))) for each in (base, text))
     return before == now
 

@@ -206,5 +206,7 @@ def of_declared(type_: t.Type) -> ValueTypes:
             return A_TEXT
         case t.Array(element):
             return sequence(OwnType.MODEL_ARRAY, of_declared(element) or ANY_TYPE)
+        case t.RosMessage(name):
+            return frozenset((MessageType(name),))
         case _:
             return NO_TYPES

@@ -1,19 +1,25 @@
 """What functions of Python do that say what a sensor saw: their effects besides a value.
 
-Whatever they give is among the model's choices.
+Whatever they give is among the model's choices. They get messages of the type that the sensor has
+in the class, whatever they are annotated with.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
 
+from rebsync.reverse.analysis.origins import FunctionOrigin, Origins
 from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
+from rebsync.reverse.analysis.python.argument_types import message_name
+from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.program import Program
+from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.program import Function, Program
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
@@ -29,20 +35,25 @@ _UNKNOWN = "only a function of a module says what a sensor saw"
 _PLAIN = (ast.Return, ast.Attribute, ast.Name, ast.Constant, ast.expr_context)
 
 
-def list_sensor_effects(code: PyCode, generated: Collection[str], findings: Findings) -> None:
+def list_sensor_effects(
+    code: PyCode, generated: Collection[str], types: MessageTypes, findings: Findings
+) -> None:
     """Lists what modules do where generated ones, by their paths, ask what a sensor saw."""
     texts = {path: scope.py.source for path, scope in code.modules.items()}
     asked = [
-        (path, given)
+        (path, given, _message(source, given))
         for path, source in texts.items()
         if source.path in generated and ".choose(" in source.text
         for given in _given(source)
     ]
-    if not asked or all(_is_plain(texts, given) for path, given in asked):
+    fields = {
+        message: types.python_fields(message, types.has_octets) for *_, message in asked if message
+    }
+    if all(_is_plain(texts, given, fields.get(message)) for _, given, message in asked):
         return
-    sensors = _SensorModules(code, frozenset(generated))
-    for path, given in asked:
-        for source, span, why in sensors.acting(path, given):
+    sensors = _SensorModules(code, frozenset(generated), fields)
+    for path, given, message in asked:
+        for source, span, why in sensors.acting(path, given, message):
             start = source.text.rfind("\n", 0, span.start) + 1
             line = source.text[start:].partition("\n")[0]
             findings.unreadable(source, Unread(Span(start, start + len(line)), why), "")
@@ -71,7 +82,29 @@ def _looked(given: ast.expr) -> ast.expr | None:
             return None
 
 
-def _is_plain(texts: dict[str, Source], given: ast.expr) -> bool:
+def _message(source: Source, given: ast.expr) -> str:
+    """The type of the messages that the sensor which is asked gets; empty if that is not told."""
+    match given:
+        case ast.Call(func=ast.Attribute(ast.Attribute(ast.Name("self"), member))):
+            pass
+        case _:
+            return ""
+    types, names = set[str](), dict[str, str]()
+    for node in ast.walk(module_of(source.text) or ast.Module([], [])):
+        match node:
+            case ast.Assign([ast.Attribute(_, attr)], ast.Call(args=[*_, ast.Name(type_)])) if (
+                attr == member
+            ):
+                types.add(type_)
+            case ast.ImportFrom(str(module)):
+                names |= {a.asname or a.name: f"{module}.{a.name}" for a in node.names}
+            case _:
+                pass
+    found = {message_name(names.get(name, "")) for name in types}
+    return (found.pop() or "") if len(found) == 1 else ""
+
+
+def _is_plain(texts: dict[str, Source], given: ast.expr, fields: Mapping[str, str] | None) -> bool:
     """Whether all functions of a name only give a field of what they get, as generated ones do."""
     looked = _looked(given)
     if not isinstance(looked, ast.Name):
@@ -80,13 +113,20 @@ def _is_plain(texts: dict[str, Source], given: ast.expr) -> bool:
     nodes = (n for tree in trees if tree is not None for n in ast.walk(tree))
     functions = [n for n in nodes if isinstance(n, ast.FunctionDef) and n.name == looked.id]
     bodies = [n for f in functions for body in f.body for n in ast.walk(body)]
-    return bool(functions) and all(isinstance(n, _PLAIN) for n in bodies)
+    asked = {n.attr for n in bodies if isinstance(n, ast.Attribute)}
+    is_there = fields is None or asked <= fields.keys()
+    return is_there and bool(functions) and all(isinstance(n, _PLAIN) for n in bodies)
 
 
 class _SensorModules:
     """The program that a package is; `generated` are the modules of classes and run-time."""
 
-    def __init__(self, code: PyCode, generated: frozenset[str]) -> None:
+    def __init__(
+        self,
+        code: PyCode,
+        generated: frozenset[str],
+        fields: Mapping[str, Mapping[str, str] | None],
+    ) -> None:
         self.program = python_program(code)
         self.code = code
         self.generated = generated
@@ -95,8 +135,10 @@ class _SensorModules:
         program = Program(own, classes, self.program.function, self.program.modules.items())
         folders = {part for path in code.modules for part in path.split("/")[:-1]}
         modules = {path.rpartition("/")[2].removesuffix(".py") for path in code.modules}
-        table = LibraryOutcomes(Language.PYTHON, frozenset(folders | modules) - {"", "src"})
-        self.analysis = OutcomeAnalysis(program, table, self._is_model)
+        opaque = frozenset(folders | modules) - {"", "src"}
+        self.table = LibraryOutcomes(Language.PYTHON, opaque, fields=fields.get)
+        self.others = program
+        self.origins = Origins.of_program(program, self.table)
 
     def _is_model(self, name: str) -> bool:
         """Whether a module or function is of the generated classes or run-time part."""
@@ -108,8 +150,25 @@ class _SensorModules:
             return source.path in self.generated
         return source.path in self.generated and ("." in function or function[:1].isupper())
 
-    def acting(self, path: str, given: ast.expr) -> Iterator[tuple[Source, Span, str]]:
-        """The places that may do more than to say what was seen."""
+    def analysis(self, names: Collection[str], message: str) -> OutcomeAnalysis:
+        """How functions end where these get messages of a type."""
+
+        def lowered(name: str) -> Function:
+            function = self.others.function(name)
+            if name not in names or not function.parameters or not message:
+                return function
+            first, *others = function.parameters
+            typed = (replace(first, type=t.RosMessage(message)), *others)
+            return replace(function, parameters=typed)
+
+        given = self.others
+        program = Program(given.functions, given.classes.values(), lowered, given.modules.items())
+        return OutcomeAnalysis(program, self.table, self._is_model)
+
+    def acting(
+        self, path: str, given: ast.expr, message: str
+    ) -> Iterator[tuple[Source, Span, str]]:
+        """The places that may do more than to say what was seen in a message of a type."""
         source = self.code.modules[path].py.source
         place = _place(source, given)
         looked = _looked(given)
@@ -119,7 +178,8 @@ class _SensorModules:
         names = self._functions(path, source, looked)
         if not names:
             yield source, place, _UNKNOWN
-        found = {problem for name in names for problem in self.analysis.of(name)}
+        analysis = self.analysis(names, message)
+        found = {problem for name in names for problem in analysis.of(name)}
         for problem in sorted(found, key=lambda p: (p.function, p.place.start, p.why)):
             of = self.code.modules[problem.function.partition(":")[0]].py.source
             yield of, problem.place, f"{_ASKED}: {problem.why}"
@@ -141,8 +201,8 @@ class _SensorModules:
                     values.append(e.Global(module, item))
                 case _:
                     pass
-        found = {n for value in values for n in self.analysis.functions(value)}
-        return sorted(found)
+        held = {origin for value in values for origin in self.origins.of(value, "")}
+        return sorted({o.name for o in held if isinstance(o, FunctionOrigin)})
 
 
 def _place(source: Source, node: ast.expr) -> Span:

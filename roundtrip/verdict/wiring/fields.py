@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable
 
 from rebsync.names import field_names
+from rebsync.reserved import RUNTIME_CLASSES
 from rebsync.reverse.scaffold.fact import Fact, Facts
 from rebsync.roundtrip.diff.difference import Comparison, Removed, Renamed
 
@@ -17,7 +18,12 @@ _WORD = re.compile(r"\w+")
 
 
 def is_told_of(field: Fact, base: Facts, today: Facts, of_code: Comparison) -> bool:
-    """Whether a field may be another: it goes with a parameter, or extraction tells of its name."""
+    """Whether a field may be another: it goes with a parameter, or extraction tells of its name.
+
+    Of the names in messages of the run-time part, which its own code has, it tells nothing.
+    """
+    if field.owner in RUNTIME_CLASSES:
+        return False
     if field.key not in today and _goes_with_parameter(field, of_code):
         return True
     return _types(base, field.owner) == _types(today, field.owner)
