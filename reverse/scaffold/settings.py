@@ -18,6 +18,7 @@ from rebsync.reverse.scaffold.fact import (
     UNKNOWN,
     Fact,
     has_bearing,
+    is_of_runtime,
 )
 from rebsync.reverse.scaffold.state_messages import FIELD, facts_of_state_message, is_state_message
 from rebsync.source import NOWHERE, Source, Span
@@ -27,15 +28,17 @@ _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 _ENTRY = re.compile(r"^([ \t]*)(\w+):[ \t]*([^\n#]*?)[ \t]*(?:#.*)?$", re.MULTILINE)
 # A section of parameters in ROS 2 that is not for all nodes.
 _ONE_NODE = re.compile(r"^(?!/\*\*:)([^\s#][^\n]*):[ \t]*\n[ \t]+ros__parameters:", re.MULTILINE)
+_WHOLE, _FRACTION = "a whole number", "a fraction"
 _TYPES = {
-    "a whole number": re.compile(r"[+-]?(?:0x[\da-fA-F]+|\d[\d_]*)"),
-    "a fraction": re.compile(r"[+-]?(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?"),
+    _WHOLE: re.compile(r"[+-]?(?:0x[\da-fA-F]+|\d[\d_]*)"),
+    _FRACTION: re.compile(r"[+-]?(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?"),
     "a truth": re.compile(r"true|false|yes|no|on|off", re.IGNORECASE),
 }
 # How many metres a cell has, no model says, as long as it has some.
 _METRES = "metres"
 # Within which seconds a node waits long enough for more urgent messages, and no model time passes.
 _SETTLES, _LEAST, _MOST = "long enough", 0.05, 0.2
+_ROS2 = "ros__parameters:"
 _UNIT = re.compile(r"^[ \t]*time_unit:[ \t]*([\d.]+)[ \t]*(?:#.*)?$", re.MULTILINE)
 _FOLDER = re.compile(r"^(script_dir|install_scripts)[ \t]*=[ \t]*(\S+)", re.MULTILINE)
 _REMARK = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -94,9 +97,16 @@ def facts_of_parameters(source: Source) -> Iterator[Fact]:
 
 
 def _parameter(section: str, name: str, value: str, source: Source, at: Span) -> Iterator[Fact]:
-    """An entry of a section: the type of a constant, or a value of the run-time part."""
+    """An entry of a section: the type of a constant, or a value of the run-time part, or its type.
+
+    ROS 1 takes a whole number for a fraction, ROS 2 ends the node; for a text all end it.
+    """
     if section == "env":
         yield Fact(CONSTANT, "", name, _type_of(value), source, at)
+    elif is_of_runtime(section) and not has_bearing(f"{section}/{name}"):
+        type_ = _type_of(value)
+        is_taken = type_ == _WHOLE and _ROS2 not in source.text
+        yield Fact(CONSTANT, "", f"{section}/{name}", _FRACTION if is_taken else type_, source, at)
     elif has_bearing(whole := f"{section}/{name}"):
         if whole == "drive/cell_size" and _is_length(value):
             value = _METRES
@@ -108,13 +118,13 @@ def _parameter(section: str, name: str, value: str, source: Source, at: Span) ->
 def _settles(value: str, text: str) -> bool:
     """Whether a node waits long enough, and far less than a unit of time."""
     units = [float(m[1]) for m in _UNIT.finditer(text) if _type_of(m[1]) != "a text"]
-    is_plain = _type_of(value) == "a fraction" and "e" not in value.lower()
+    is_plain = _type_of(value) == _FRACTION and "e" not in value.lower()
     return is_plain and _LEAST <= float(value) <= _MOST and all(u >= 1 for u in units)
 
 
 def _is_length(value: str) -> bool:
     """Whether a value is a length, as all of ROS read it."""
-    is_plain = _type_of(value) == "a fraction" and "e" not in value.lower()
+    is_plain = _type_of(value) == _FRACTION and "e" not in value.lower()
     return is_plain and 0 < float(value) < math.inf
 
 
