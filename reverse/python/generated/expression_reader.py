@@ -73,6 +73,16 @@ class ModelExpressionReader(OperandReader):
     def expression(self, node: Node) -> m.Expression:
         """An expression. Unread: the model has none for it."""
 
+    def hides_name(self, name: str) -> bool:
+        """Whether a name is one of the body's own, whatever the module calls so."""
+        own = self.locals, self.closures, self.kept_sends, self.kept, self.bound, self.kept_tables
+        return any(name in names for names in own)
+
+    def of_run_time(self, called: str) -> str:
+        """What the run-time part calls a function; what is none of it as it is called."""
+        is_own = self.hides_name(called.partition(".")[0])
+        return called if is_own else self.names.constants.of_run_time(called)
+
     def kind(self, expression: m.Expression) -> m.Type | None:
         """The widest type of the kind of an expression, if it can be told."""
         return kind_of(

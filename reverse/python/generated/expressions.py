@@ -16,6 +16,7 @@ from rebsync.reverse.python.expressions.conditions import comparison, connected,
 from rebsync.reverse.python.expressions.tables import looked_up, pairs_of
 from rebsync.reverse.python.expressions.values import WHOLE, Value
 from rebsync.reverse.python.generated import arrays, closures, formats, idioms, places, tuples
+from rebsync.reverse.python.generated.arguments import in_order
 from rebsync.reverse.python.generated.decorators import is_cast
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.failing import may_fail
@@ -187,8 +188,7 @@ class Expressions(ModelExpressionReader):
     def library(self, function: Node) -> str:
         holder, _, name = text_of(function).rpartition(".")
         if not holder:
-            known = self.locals, self.closures, self.kept_sends, self.kept, self.bound
-            is_own = self.names.constants.binds(name) or any(name in names for names in known)
+            is_own = self.names.constants.binds(name) or self.hides_name(name)
             return "" if is_own else f"builtins.{name}"
         return text_of(function) if holder == "random" and self._is_of_library(holder) else ""
 
@@ -257,6 +257,7 @@ class Expressions(ModelExpressionReader):
         """An assignment: `x = int32.add(x, 1)` is what the model writes `x++`, or `++x`."""
         span = self.py.span(whole)
         called, arguments = call_parts(value) or ("", [])
+        called = self.of_run_time(called)
         updated: m.Expression | None = formats.updated(self, target, called, arguments)
         if updated is not None:
             if statement and isinstance(updated, m.Unary):
@@ -271,16 +272,9 @@ class Expressions(ModelExpressionReader):
 
     # --- calls ----------------------------------------------------------------------------------
 
-    def _of_values(self, called: str) -> str:
-        """What is called; a function of the run-time part by its name where `v` is its module."""
-        module, _, name = called.rpartition(".")
-        package = self.py.source.path.rpartition("/")[0].rpartition("/")[2]
-        is_values = self.names.imported.get(module) == f"{package}.values as {module}"
-        return name if is_values and module not in self.locals else called
-
     def _call(self, node: Node) -> m.Expression:
         called, arguments = call_parts(node) or ("", [])
-        called = self._of_values(self.kept_sends.get(called, called))
+        called = self.of_run_time(self.kept_sends.get(called, called))
         if called in self.closures:
             return closures.value_of_call(self, node, called, arguments)
         if called in formats.FORMATS and len(arguments) == 1:
@@ -372,7 +366,10 @@ class Expressions(ModelExpressionReader):
         if holder == "self" and name in self.names.servers:
             raise self.unread(node, "this serves a message at once; the model only sends them")
         target = m.Super(span) if holder == "super()" else None
-        arguments = idioms.in_order(self, node, arguments, self.names.parameters.get(name, ()))
+        parameters = self.names.parameters.get(name, ())
+        arguments = in_order(self, node, arguments, parameters)
+        if len(arguments) != len(parameters):
+            raise self.unread(node, f'"{name}" is called with other arguments')
         given = tuple(map(self.expression, arguments))
         return self.cuts.passing(m.Call(target, function, given, span=span), name)
 

@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.python.generated.arguments import in_order
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
-from rebsync.reverse.python.generated.idioms import in_order
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.names import Helper
 from rebsync.reverse.python.values.py_worth import Function, Value
@@ -35,9 +35,9 @@ def arguments_for(
         if not arguments or text_of(arguments[0]) != reader.own:
             raise reader.unread(node, f'"{helper.name}" is given another object elsewhere')
         arguments = arguments[1:]
-    names = tuple(p.name for p in parameters_of(helper.function, helper.own))
-    given = in_order(reader, node, arguments, names)
-    if len(given) != len(names) or any(a.type == "list_splat" for a in given):
+    parameters = parameters_of(helper.function, helper.own)
+    given = in_order(reader, node, arguments, parameters)
+    if len(given) != len(parameters) or any(a.type == "list_splat" for a in given):
         raise reader.unread(node, f'"{helper.name}" is called with other arguments')
     return tuple(map(reader.expression, given))
 

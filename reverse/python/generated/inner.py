@@ -96,7 +96,7 @@ def _value_behind(value: Node) -> Node | None:
 def kept_moment(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
     """The times of `soon = When(after=a)`: known where it is made, and counted from each send."""
     called, _ = call_parts(value) or ("", [])
-    is_kept = called == "When" and left.type == "identifier"
+    is_kept = reader.expressions.of_run_time(called) == "When" and left.type == "identifier"
     if not is_kept or not _is_bound_once(value, text_of(left), passed=True):
         return None
     expressions, span = reader.expressions, reader.expressions.py.span(value)

@@ -17,6 +17,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.graph import Unresolved
 from rebsync.reverse.libraries import python as libraries
 from rebsync.reverse.python.generated.kinds import float_literal
+from rebsync.reverse.python.generated.module_variables import imported_as
 from rebsync.reverse.python.values.py_evaluator import lineage
 from rebsync.reverse.python.values.py_lookup import attribute
 from rebsync.reverse.python.values.py_values import PyValues
@@ -234,6 +235,15 @@ class NamedConstants:
     def binds(self, name: str) -> bool:
         """Whether a name is the module's own, whatever Python has by that name."""
         return name in self.module.names
+
+    def of_run_time(self, name: str) -> str:
+        """What the run-time part calls something, whatever the module does: `v.int32`."""
+        whole = imported_as(self.module, name)
+        for at in (match.start() for match in re.finditer(r"\.\b", whole)):
+            module = module_named(self.code.code, whole[:at], self.module) if at else None
+            if module is not None and is_runtime_file(module.py.source):
+                return whole[at + 1 :]
+        return name
 
     def get(self, text: str) -> m.Expression | None:
         """The literal that a text stands for; None if it is no such name."""

@@ -52,7 +52,7 @@ from rebsync.reverse.python.generated.slicing.services import asked_back
 from rebsync.reverse.python.generated.slicing.timers import called_back, only_logs_by_words
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
+from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, PyParameter, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _RUNTIME = {"_mailbox", "_drive", "_state_pub"}
@@ -68,14 +68,14 @@ _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox", *TEXTS}
 class PySends:
     """A function that sends: `known` as in the model, "self", or None for any rebec of a class.
 
-    `parameters` are the names of all that it is given, the time among them. `types` are those of
+    `parameters` are all that it is given, the time among them. `types` are those of
     the arguments, `rivals` the types that other servers of the name take.
     """
 
     known: str | None
     server: str
     arguments: int
-    parameters: tuple[str, ...] = ()
+    parameters: tuple[PyParameter, ...] = ()
     types: Signature = ()
     rivals: frozenset[Signature] = frozenset()
 
@@ -328,13 +328,14 @@ def _does(
     for statement in (s for inner, _ in body for s in inner):
         inner = named(statement)[0] if statement.type == "expression_statement" else None
         called, arguments = call_parts(inner) or ("", [])
-        passed = [p.name for p in function.parameters[1:]]
+        passed = function.parameters[1:]
+        is_timed = any(p.name == "when" for p in passed)
         if called == "self._mailbox.receive" and len(arguments) == 5 and function.parameters:
             _received(roles, function, arguments, servers)
-        elif called == "self._mailbox.post" and arguments and "when" in passed:
+        elif called == "self._mailbox.post" and arguments and is_timed:
             server = servers.get(text_of(arguments[0]), ("", ()))[0]
             roles.sends[function.name] = PySends("self", server, len(passed) - 1, tuple(passed))
-        elif called == "self._mailbox.publish" and len(arguments) == 3 and "when" in passed:
+        elif called == "self._mailbox.publish" and len(arguments) == 3 and is_timed:
             _published(roles, function, arguments[0], passed)
 
 
@@ -371,9 +372,9 @@ def _received(
             roles.orders.append((text_of(message), fields))
 
 
-def _published(roles: PyRoles, function: Scope, publisher: Node, passed: list[str]) -> None:
-    parts = call_parts(publisher)
-    member = parts[1][0] if parts is not None and parts[0] == "to" else publisher
+def _published(roles: PyRoles, function: Scope, by: Node, passed: list[PyParameter]) -> None:
+    parts = call_parts(by)
+    member = parts[1][0] if parts is not None and parts[0] == "to" else by
     found = roles.publishers.get(text_of(member).removeprefix("self."))
     if found is not None:
         known, key, message = found

@@ -9,6 +9,7 @@ from rebsync.names import original
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.python.generated import idioms
+from rebsync.reverse.python.generated.arguments import in_order
 from rebsync.reverse.python.generated.arrays import array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.overloads import told
@@ -71,7 +72,7 @@ def sent(
     """What a function that sends is given, as a send of the model."""
     span, is_to_any = reader.py.span(node), sends.known is None
     expected = sends.arguments + is_to_any
-    arguments = idioms.in_order(reader, node, arguments, sends.parameters)
+    arguments = in_order(reader, node, arguments, sends.parameters)
     rest = arguments[is_to_any:]
     values: list[m.Expression] = []
     target: m.Expression = m.Self(span)
