@@ -17,7 +17,7 @@ from rebsync.reverse.python.expressions.operands import OperandReader
 from rebsync.reverse.python.expressions.values import OTHER, Value
 from rebsync.reverse.python.generated.cuts import Cuts
 from rebsync.reverse.python.generated.kinds import kind_of
-from rebsync.reverse.python.generated.names import Closure, ModelNames
+from rebsync.reverse.python.generated.names import Callee, Closure, ModelNames
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
 from rebsync.static.types import BOOLEAN, DOUBLE, INT
@@ -43,7 +43,7 @@ class ModelExpressionReader(OperandReader):
     types: dict[str, m.Type] = with_default(default_factory=dict)
     bound: dict[str, m.Expression] = with_default(default_factory=dict)
     closures: dict[str, Closure] = with_default(default_factory=dict)
-    kept_sends: dict[str, str] = with_default(default_factory=dict)
+    kept_sends: dict[str, Callee] = with_default(default_factory=dict)
     kept_tables: dict[str, Node] = with_default(default_factory=dict)
     moments: dict[str, dict[str, m.Name]] = with_default(default_factory=dict)
     own: str = "self"

@@ -17,11 +17,13 @@ from rebsync.reverse.python.expressions.tables import looked_up, pairs_of
 from rebsync.reverse.python.expressions.values import WHOLE, Value
 from rebsync.reverse.python.generated import arrays, closures, formats, idioms, places, tuples
 from rebsync.reverse.python.generated.arguments import in_order
+from rebsync.reverse.python.generated.callees import callee
 from rebsync.reverse.python.generated.decorators import is_cast
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.failing import may_fail
 from rebsync.reverse.python.generated.helpers import arguments_for
 from rebsync.reverse.python.generated.kinds import float_literal
+from rebsync.reverse.python.generated.names import Callee, Chosen
 from rebsync.reverse.python.generated.py_types import (
     call_parts,
     in_double_quotes,
@@ -273,8 +275,13 @@ class Expressions(ModelExpressionReader):
     # --- calls ----------------------------------------------------------------------------------
 
     def _call(self, node: Node) -> m.Expression:
-        called, arguments = call_parts(node) or ("", [])
-        called = self.of_run_time(self.kept_sends.get(called, called))
+        _, arguments = call_parts(node) or ("", [])
+        return self._run(node, callee(self, field(node, "function")), arguments)
+
+    def _run(self, node: Node, called: Callee, arguments: list[Node]) -> m.Expression:
+        if isinstance(called, Chosen):
+            ways = (self._run(node, each, arguments) for each in (called.then, called.otherwise))
+            return idioms.grouped(node, m.Conditional(called.asked, *ways, self.py.span(node)))
         if called in self.closures:
             return closures.value_of_call(self, node, called, arguments)
         if called in formats.FORMATS and len(arguments) == 1:

@@ -6,19 +6,23 @@ locals, or stand for the arguments where it only gives a value.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.generated import idioms
+from rebsync.reverse.python.generated.callees import callee
 from rebsync.reverse.python.generated.closures import arguments_of
-from rebsync.reverse.python.generated.names import Closure
+from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
+from rebsync.reverse.python.generated.names import Chosen, Closure
 from rebsync.reverse.python.generated.py_types import call_parts, type_of
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import SCOPES, calls_in, field, is_label, named, text_of
-from rebsync.static.types import INT
+from rebsync.static.types import BOOLEAN, INT
 
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
 _LOOPS = frozenset({"for_statement", "while_statement"})
@@ -54,14 +58,37 @@ def named_lambda(reader: ModelStatementReader, left: Node, value: Node) -> bool:
     return True
 
 
-def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> bool:
-    """Whether `send = self.send_self_m` was taken for another name of what sends."""
+def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
+    """`send = self.send_self_m`, another name of what sends, or of one of two that a local tells.
+
+    None for another assignment.
+    """
+    expressions, name, made = reader.expressions, text_of(left), list[m.Statement]()
+    if left.type != "identifier" or not _is_send(expressions, value):
+        return None
+    if not _is_bound_once(value, name):
+        return None
+    found = callee(expressions, value)
+    if isinstance(found, Chosen):
+        local = reader.free(f"{name}_then", pattern=f"{name}_then{{}}")
+        expressions.locals[f"chosen as {local}"] = local
+        expressions.types[local] = BOOLEAN
+        span = expressions.py.span(value)
+        declarator = m.Declarator(local, found.asked, span)
+        made.append(m.Local(m.Declaration(BOOLEAN, (declarator,), span=span), span=span))
+        found = replace(found, asked=m.Name(local))
+    expressions.kept_sends[name] = found
+    return made
+
+
+def _is_send(expressions: ModelExpressionReader, value: Node) -> bool:
+    """Whether a value is a function that sends, or one of two."""
+    if value.type == "conditional_expression":
+        then, _, otherwise = named(value)
+        plain = (n for n in (then, otherwise) if n.type == "attribute")
+        return [_is_send(expressions, each) for each in plain] == [True, True]
     holder, _, name = text_of(value).rpartition(".")
-    is_send = holder == "self" == reader.expressions.own and name in reader.expressions.names.sends
-    if left.type != "identifier" or not is_send or not _is_bound_once(value, text_of(left)):
-        return False
-    reader.expressions.kept_sends[text_of(left)] = text_of(value)
-    return True
+    return holder == "self" == expressions.own and name in expressions.names.sends
 
 
 def kept_table(reader: ModelStatementReader, left: Node, value: Node) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import field as with_default
+from typing import TypeAlias
 
 from tree_sitter import Node
 
@@ -75,3 +76,15 @@ class Closure:
 
     parameters: tuple[tuple[str, m.Type | None], ...]
     body: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """One of two functions, as a condition says."""
+
+    asked: m.Expression
+    then: Callee
+    otherwise: Callee
+
+
+Callee: TypeAlias = "str | Chosen"

@@ -14,6 +14,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, cell
 from rebsync.reverse.python.generated import (
     aliases,
+    callees,
     counts,
     endings,
     going_on,
@@ -173,7 +174,7 @@ class Statements(ModelStatementReader):
         if called == "self._drive.move" and len(arguments) == 2:
             cells = tuple(map(self._cell, ("X", "Y"), arguments))
             return [m.Empty((m.Annotation("Move", cells, span),), span)]
-        return [m.ExpressionStatement(self.expressions.expression(inner), span=span)]
+        return [callees.evaluated(self.expressions, inner)]
 
     def _cell(self, axis: str, node: Node) -> m.Expression:
         found = bare(self.expressions.expression(node))
@@ -199,8 +200,8 @@ class Statements(ModelStatementReader):
             return [self._declared(name, self.hoisted.pop(name), value, node)]
         if inner_functions.named_lambda(self, left, value):
             return []
-        if inner_functions.kept_send(self, left, value):
-            return []
+        if (sends := inner_functions.kept_send(self, left, value)) is not None:
+            return sends
         if inner_functions.kept_table(self, left, value):
             return []
         if (times := inner_functions.kept_moment(self, left, value)) is not None:
