@@ -28,7 +28,6 @@ from rebsync.reverse.python.generated.filled import fillings_of
 from rebsync.reverse.python.generated.helpers import (
     called_in,
     first_of,
-    giving_texts,
     own_name,
     without_object,
 )
@@ -320,7 +319,6 @@ class ModelBodies:
                 self._add_result(results, functions[name], function, names)
             helpers |= without_object(above, roles.functions)
         taken = {*functions.values(), *names.variables.values(), *self.types}
-        taken |= giving_texts(self.named, owner.module)
         for name, helper in called_in(self.named, scopes, taken).items():
             helpers[name] = helper
             self._add_result(results, helper.name, helper.function, names)

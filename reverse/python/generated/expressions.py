@@ -280,8 +280,8 @@ class Expressions(ModelExpressionReader):
 
     def _run(self, node: Node, called: Callee, arguments: list[Node]) -> m.Expression:
         if isinstance(called, Chosen):
-            ways = (self._run(node, each, arguments) for each in (called.then, called.otherwise))
-            return idioms.grouped(node, m.Conditional(called.asked, *ways, self.py.span(node)))
+            then, other = (self._run(node, c, arguments) for c in (called.then, called.otherwise))
+            return idioms.grouped(node, m.Conditional(called.asked, then, other, self.py.span(node)))
         if called in self.closures:
             return closures.value_of_call(self, node, called, arguments)
         if called in formats.FORMATS and len(arguments) == 1:

@@ -66,7 +66,7 @@ class ToldScope(ToldValues):
             case s.Call() | s.Construct():
                 return self._called(node)
             case s.Return(value):
-                return self.is_all_own and self.is_free_or_none(value)
+                return (self.is_all_own or self.gives) and self.is_free_or_none(value)
             case s.Yield(target, value):
                 return self.is_all_own and target is None and self.is_free(value)
             case s.Break() | s.Continue():
@@ -287,6 +287,11 @@ class ToldScope(ToldValues):
             is_whole = len(node.arguments) == places.logging[name]
             by_position = all(not a.stars and a.name is None for a in node.arguments)
             return is_whole and by_position and self._given(node, seen=True)
+        found = self.effects.origins.methods(owner, name)
+        if found and all(map(self.effects.gives_free, found)):
+            for each in found:
+                self.known.update(self.effects.acting(each))
+            return self._given(node)
         if not places.logs or name not in asked_of_node() or node.arguments:
             return False
         self._know(node)
