@@ -175,12 +175,14 @@ class Expressions(ModelExpressionReader):
         return self.value(chosen(asked, one.expression, other.expression))
 
     def container(self, node: Node, ordered: bool) -> list[Value] | None:
-        found = tuples.kept(self, node) or arrays.array_elements(self, node)
+        found = tuples.parts(self, node)
+        if found is None and not ordered:
+            found = tuples.members(self, node)
         return None if found is None else [*map(self.value, found)]
 
     def table(self, node: Node) -> Sequence[tuple[Value, Value]] | None:
-        table = self.kept_tables.get(text_of(node))
-        return pairs_of(self, table) if table is not None else None
+        written = tuples.table(self, node)
+        return pairs_of(self, written) if written is not None else None
 
     def dotted(self, node: Node) -> Value:
         if (constant := self.names.constants.get(text_of(node))) is None:
@@ -239,6 +241,10 @@ class Expressions(ModelExpressionReader):
         at = text_of(field(node, "subscript"))
         if (stands := self.bound.get(f"{text_of(field(node, 'value'))}.{at}")) is not None:
             return stands
+        if tuples.table(self, field(node, "value")) is not None:
+            if (found := tuples.looked_up(self, node, single=True)) is None:
+                raise self.unread(node, "say what there is for each value by `if`")
+            return idioms.grouped(node, found[0])
         target = self.expression(field(node, "value"))
         return m.Index(target, self.index(field(node, "subscript")), self.py.span(node))
 
@@ -281,7 +287,9 @@ class Expressions(ModelExpressionReader):
     def _run(self, node: Node, called: Callee, arguments: list[Node]) -> m.Expression:
         if isinstance(called, Chosen):
             then, other = (self._run(node, c, arguments) for c in (called.then, called.otherwise))
-            return idioms.grouped(node, m.Conditional(called.asked, then, other, self.py.span(node)))
+            return idioms.grouped(
+                node, m.Conditional(called.asked, then, other, self.py.span(node))
+            )
         if called in self.closures:
             return closures.value_of_call(self, node, called, arguments)
         if called in formats.FORMATS and len(arguments) == 1:

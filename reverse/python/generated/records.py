@@ -15,6 +15,8 @@ from rebsync import model as m
 from rebsync.reverse.python.generated.module_variables import hidden_names, imported_as
 from rebsync.reverse.python.generated.py_types import type_of
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.python.generated.stored import declaration
+from rebsync.reverse.python.generated.tuples import parts
 from rebsync.reverse.python.values.py_worth import Class
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -39,9 +41,11 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
     if value is None or field(inner, "left").type != "identifier":
         return None
     name = text_of(field(inner, "left"))
-    if value.type == "tuple":
-        fields: Sequence[str] = [*map(str, range(len(named(value))))]
-        given: list[tuple[str, Node]] | None = [*zip(fields, named(value), strict=True)]
+    given: Sequence[tuple[str, Node | m.Expression]] | None
+    values = named(value) if value.type == "tuple" else _chosen(reader, value)
+    if values:
+        fields: Sequence[str] = [*map(str, range(len(values)))]
+        given = [*zip(fields, values, strict=True)]
     else:
         is_call = value.type == "call"
         fields = _fields_of(reader, text_of(field(value, "function"))) or () if is_call else ()
@@ -50,11 +54,28 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
         return None
     if any(f"{name}_{f}" in reader.expressions.locals for f in fields):
         return None
-    found: list[m.Statement] = [reader.implied_local(f"{name}_{f}", v, node) for f, v in given]
+    found: list[m.Statement] = [_local(reader, f"{name}_{f}", v, node) for f, v in given]
     own = reader.expressions
     local = [own.value(m.Name(reader.local(f"{name}_{f}"))) for f, _ in given]
     with own.standing_for([f"{name}.{f}" for f, _ in given], local):
         return [*found, *reader.block(rest, node).statements]
+
+
+def _chosen(reader: ModelStatementReader, value: Node) -> Sequence[Node | m.Expression] | None:
+    """The elements of a tuple that a condition or a table chooses."""
+    is_one = value.type in ("conditional_expression", "call", "subscript")
+    return parts(reader.expressions, value, arrays=False) if is_one else None
+
+
+def _local(
+    reader: ModelStatementReader, name: str, value: Node | m.Expression, node: Node
+) -> m.Local:
+    if isinstance(value, Node):
+        return reader.implied_local(name, value, node)
+    type_ = reader.expressions.kind(value)
+    if type_ is None:
+        raise reader.expressions.unread(node, "say these values one by one")
+    return declaration(reader, name, type_, value, node)
 
 
 def _fields_of(reader: ModelStatementReader, name: str) -> Sequence[str] | None:

@@ -10,12 +10,12 @@ from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.arguments import in_order
-from rebsync.reverse.python.generated.arrays import array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.overloads import told
 from rebsync.reverse.python.generated.pairs import values_in_place
 from rebsync.reverse.python.generated.py_types import string_value
 from rebsync.reverse.python.generated.roles import PySends
+from rebsync.reverse.python.generated.tuples import parts
 from rebsync.reverse.syntax.py_tree import named, text_of
 
 _CLOCK = names_in_model(Language.PYTHON)
@@ -95,7 +95,7 @@ def _unpacked(reader: ModelExpressionReader, node: Node) -> list[m.Expression]:
         return [reader.expression(node)]
     if values := values_in_place(reader, named(node)[0]):
         return [*map(reader.expression, values)]
-    elements = array_elements(reader, named(node)[0])
+    elements = parts(reader, named(node)[0])
     if elements is None:
         raise reader.unread(node, "nobody knows how many values this gives")
     return elements
