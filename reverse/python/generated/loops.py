@@ -16,6 +16,7 @@ from rebsync.reverse.python.generated.arrays import NO_LENGTH, array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.py_types import call_parts, markers_above
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.python.generated.tuples import parts
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -68,7 +69,7 @@ def through(
     left, right = field(node, "left"), field(node, "right")
     names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]
     match called, arguments:
-        case (("enumerate" | "zip"), _) if any(a.type in ("tuple", "list") for a in arguments):
+        case (("enumerate" | "zip"), _) if any(_is_shown(reader, a) for a in arguments):
             return _unrolled(reader, node, names)
         case "enumerate", [values] if len(names) == 2:
             return numbered(reader, node, names[0], names[1:], [values])
@@ -78,8 +79,15 @@ def through(
             return _backwards(reader, node, names[0], inner)
         case "", _ if right.type in ("tuple", "list") and len(names) == 1:
             return _listed(reader, node, names[0], named(right))
+        case "", _ if _is_shown(reader, right):
+            return _unrolled(reader, node, names)
         case _:
             return None
+
+
+def _is_shown(reader: ModelStatementReader, node: Node) -> bool:
+    """Whether the values that are gone through are written out somewhere."""
+    return node.type in ("tuple", "list") or bool(parts(reader.expressions, node, arrays=False))
 
 
 def numbered(
