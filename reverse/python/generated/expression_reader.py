@@ -83,6 +83,10 @@ class ModelExpressionReader(OperandReader):
         is_own = self.hides_name(called.partition(".")[0])
         return called if is_own else self.names.constants.of_run_time(called)
 
+    def variable(self, name: str) -> str | None:
+        """The variable of the model that a name or attribute is."""
+        return self.locals.get(name) or self.names.variables.get(name.removeprefix("self."))
+
     def kind(self, expression: m.Expression) -> m.Type | None:
         """The widest type of the kind of an expression, if it can be told."""
         return kind_of(

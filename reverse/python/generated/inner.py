@@ -39,8 +39,8 @@ def declare(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     if (value := _only_value(body)) is not None:
         reader.expressions.closures[name] = Closure(parameters, value)
         return []
-    if leaves(body) or idioms.stored_in(body):
-        why = "only a function that gives nothing, and stores nothing, stands for what it does"
+    if leaves(body) or any(not name.startswith("self.") for name in idioms.stored_in(body)):
+        why = "only a function that gives nothing, and has no locals, stands for what it does"
         raise reader.expressions.unread(node, why)
     reader.inner[name] = Closure(parameters, body)
     return []

@@ -53,6 +53,7 @@ _DATA = frozenset(
 _NAMING = frozenset({"import", "scope", "value"})
 _LISTS = frozenset({"list", "tuple"})
 _LARGEST = 2**31 - 1
+_OWN_CLASS = re.compile(r"\A(?:type\(self\)|self\.__class__)\.")
 _NAMED = re.compile(r"([^\W\d]\w*)((?:\.\w+)*)(?:\[(\d+)\])?")
 
 
@@ -250,7 +251,7 @@ class NamedConstants:
     def get(self, text: str) -> m.Expression | None:
         """The literal that a text stands for; None if it is no such name."""
         if text not in self._found:
-            match = _NAMED.fullmatch(text)
+            match = _NAMED.fullmatch(text if self.binds("type") else _OWN_CLASS.sub("self.", text))
             self._found[text] = self._read(match) if match is not None else None
         return self._found[text]
 

@@ -41,8 +41,9 @@ def values_given(function: Scope) -> list[Node]:
 
 
 def is_alone(code: PyCode, function: Scope) -> bool:
-    """Whether a method is the only one of its name, as it was written."""
-    return len(code.methods.get(function.name, ())) == 1 and not function.decorators
+    """Whether a method, or property, is the only one of its name, as it was written."""
+    is_written = [*function.decorators] in ([], ["property"])
+    return len(code.methods.get(function.name, ())) == 1 and is_written
 
 
 def is_beside(function: Scope) -> bool:

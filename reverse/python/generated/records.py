@@ -87,7 +87,7 @@ def _fields_of(reader: ModelStatementReader, name: str) -> Sequence[str] | None:
     if name in hidden_names(names.constants.code.code, names.constants.module):
         return None
     match names.constants.code.of(names.constants.module, name):
-        case Class(owner) if _is_record(owner):
+        case Class(owner) if _is_record(owner) or _is_tuple(owner):
             return _fields(owner) or None
         case _:
             return None
@@ -97,6 +97,12 @@ def _is_record(owner: Scope) -> bool:
     heads = [_DATACLASS.match(d) for d in owner.decorators]
     whole = [imported_as(owner.module, head[1]) if head else "" for head in heads]
     return whole == ["dataclasses.dataclass"]
+
+
+def _is_tuple(owner: Scope) -> bool:
+    above = owner.node.child_by_field_name("superclasses")
+    names = [imported_as(owner.module, text_of(n)) for n in named(above)] if above else []
+    return names == ["typing.NamedTuple"] and not owner.decorators
 
 
 def _given(call: Node, fields: Sequence[str]) -> list[tuple[str, Node]] | None:
@@ -149,7 +155,7 @@ _STORING = frozenset(
 
 def _fields(scope: Scope) -> tuple[str, ...]:
     """The fields of a data class; none where its objects may do more than to hold them."""
-    if scope.node.child_by_field_name("superclasses") is not None:
+    if scope.node.child_by_field_name("superclasses") is not None and not _is_tuple(scope):
         return ()
     found = []
     for statement in named(field(scope.node, "body")):

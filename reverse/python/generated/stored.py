@@ -68,13 +68,14 @@ def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     lefts, right = named(field(node, "left")), field(node, "right")
     expressions = reader.expressions
     is_plain = right.type in ("expression_list", "tuple")
-    elements = tuples.parts(expressions, right) if not is_plain else None
+    values = values_in_place(expressions, right)
+    elements = None if is_plain or values else tuples.parts(expressions, right)
     if elements is not None and len(elements) == len(lefts):
-        if not idioms.names_in(right).isdisjoint({idioms.base_of(left) for left in lefts}):
+        read = {n.name for e in elements for n in m.walk(e) if isinstance(n, m.Name | m.Member)}
+        if not read.isdisjoint(map(expressions.variable, map(idioms.base_of, lefts))):
             raise expressions.unread(node, _WHOLE)
         pairs = zip(lefts, elements, strict=True)
         return [s for left, e in pairs for s in _given(reader, left, e, node)]
-    values = values_in_place(expressions, right)
     if not values and is_plain:
         values = named(right)
     lefts, values = _flat(lefts, values)

@@ -15,6 +15,7 @@ from rebsync.reverse.python.generated.arrays import array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.failing import may_fail
 from rebsync.reverse.python.generated.kinds import is_floating
+from rebsync.reverse.python.generated.pairs import values_in_place
 from rebsync.reverse.python.generated.py_types import call_parts, without_parentheses
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, text_of
@@ -39,6 +40,7 @@ def parts(
     if node.type in ("identifier", "attribute"):
         is_own = reader.hides_name(text.partition(".")[0])
         found = kept(reader, node) or (not is_own and [*reader.names.constants.tuple_of(text)])
+        found = found or [*map(reader.expression, values_in_place(reader, node))]
         return found or (array_elements(reader, node) if arrays else None)
     if may_fail(reader, node):
         return None
@@ -48,6 +50,8 @@ def parts(
         case "conditional_expression", [then, condition, otherwise]:
             ways = [parts(reader, way, arrays=arrays) for way in (then, otherwise)]
             return _chosen(reader.condition(condition), *ways) if all(ways) else None
+        case _ if given := values_in_place(reader, node):
+            return [*map(reader.expression, given)]
         case _:
             return looked_up(reader, node)
 
