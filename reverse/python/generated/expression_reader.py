@@ -75,8 +75,9 @@ class ModelExpressionReader(OperandReader):
 
     def hides_name(self, name: str) -> bool:
         """Whether a name is one of the body's own, whatever the module calls so."""
-        own = self.locals, self.closures, self.kept_sends, self.kept, self.bound, self.kept_tables
-        return any(name in names for names in own)
+        own = self.locals, self.closures, self.kept_sends, self.kept, self.kept_tables, self.moments
+        is_part = any(name == each.partition(".")[0] for each in self.bound)
+        return is_part or any(name in names for names in own)
 
     def of_run_time(self, called: str) -> str:
         """What the run-time part calls a function; what is none of it as it is called."""

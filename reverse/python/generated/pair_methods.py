@@ -41,8 +41,8 @@ def values_given(function: Scope) -> list[Node]:
 
 
 def is_alone(code: PyCode, function: Scope) -> bool:
-    """Whether a method, or property, is the only one of its name, as it was written."""
-    is_written = [*function.decorators] in ([], ["property"])
+    """Whether a method, or property, is the only one of its name, by which alone it runs."""
+    is_written = [*function.decorators] in ([], ["property"]) and function.name[:2] != "__"
     return len(code.methods.get(function.name, ())) == 1 and is_written
 
 

@@ -119,6 +119,11 @@ class ToldValues(ABC):
     gives: bool = False
 
     @property
+    def depth(self) -> int:
+        """How many functions this one is looked at within."""
+        return 0 if self.outside is None else 1 + self.outside.depth
+
+    @property
     def is_all_own(self) -> bool:
         """Whether the whole function is looked at, and its locals are its own."""
         return self.places is None or self.outside is not None

@@ -227,6 +227,7 @@ def silent_in(
     )
     found = replace(found, texts=found.texts - found.rest)
     speaking = found.members | looks.loggers | looks.logging.keys() | found.counters
+    makers |= {f"self.{name}" for name in found.describing}
     found = replace(found, locals=candidate_locals(code, functions.values(), speaking, makers))
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)
