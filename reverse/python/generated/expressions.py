@@ -100,6 +100,8 @@ class Expressions(ModelExpressionReader):
                     raise self.unread(node, f'the model has no operator "{operator}"')
                 left = self._operand(field(node, "left"), level)
                 right = self._operand(field(node, "right"), level + 1)
+                if operator in "+-*":
+                    left, right = idioms.as_number(self, left), idioms.as_number(self, right)
                 read = m.Binary(operator, left, right, span)
                 return (
                     idioms.divided(self, node, read)
@@ -242,9 +244,7 @@ class Expressions(ModelExpressionReader):
         if (stands := self.bound.get(f"{text_of(field(node, 'value'))}.{at}")) is not None:
             return stands
         if tuples.table(self, field(node, "value")) is not None:
-            if (found := tuples.looked_up(self, node, single=True)) is None:
-                raise self.unread(node, "say what there is for each value by `if`")
-            return idioms.grouped(node, found[0])
+            return idioms.grouped(node, tuples.looked_up_one(self, node))
         target = self.expression(field(node, "value"))
         return m.Index(target, self.index(field(node, "subscript")), self.py.span(node))
 

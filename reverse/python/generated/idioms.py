@@ -6,13 +6,14 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own, written
+from rebsync.reverse.models.building import bare, chosen
 from rebsync.reverse.python.generated.cuts import FUNCTIONS, other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
 from rebsync.reverse.python.generated.named_constants import is_moment
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import field, named, text_of
-from rebsync.static.types import INT
+from rebsync.static.types import BOOLEAN, INT
 
 _PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})
 _AROUND = frozenset(
@@ -81,6 +82,13 @@ def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Bina
         whole = m.Binary(operator[0], read.left, read.right, read.span)
         return reader.cuts.divided(whole)
     raise reader.unread(node, other_division(operator))
+
+
+def as_number(reader: ModelExpressionReader, operand: m.Expression) -> m.Expression:
+    """An operand of an addition or product, of which Python takes truth values for 1 and 0."""
+    if reader.kind(operand) != BOOLEAN:
+        return operand
+    return m.Paren(chosen(bare(operand), m.IntLiteral(1), m.IntLiteral(0)))
 
 
 def kind_at(reader: ModelExpressionReader, node: Node) -> m.Type | None:

@@ -82,13 +82,15 @@ def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> list[m.S
 
 
 def _is_send(expressions: ModelExpressionReader, value: Node) -> bool:
-    """Whether a value is a function that sends, or one of two."""
+    """Whether a value is a function that sends, or another of the object, or one of two."""
     if value.type == "conditional_expression":
         then, _, otherwise = named(value)
         plain = (n for n in (then, otherwise) if n.type == "attribute")
         return [_is_send(expressions, each) for each in plain] == [True, True]
     holder, _, name = text_of(value).rpartition(".")
-    return holder == "self" == expressions.own and name in expressions.names.sends
+    names = expressions.names
+    is_method = name in names.functions and name not in names.servers | names.properties
+    return holder == "self" == expressions.own and (name in names.sends or is_method)
 
 
 def kept_table(reader: ModelStatementReader, left: Node, value: Node) -> bool:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from tree_sitter import Node
 
+from rebsync.reverse.python.generated.module_variables import imported_as
 from rebsync.reverse.python.generated.py_types import is_text, type_of
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -42,8 +43,16 @@ def values_given(function: Scope) -> list[Node]:
 
 def is_alone(code: PyCode, function: Scope) -> bool:
     """Whether a method, or property, is the only one of its name, by which alone it runs."""
-    is_written = [*function.decorators] in ([], ["property"]) and function.name[:2] != "__"
-    return len(code.methods.get(function.name, ())) == 1 and is_written
+    is_written = [*function.decorators] in ([], ["property"])
+    is_written = is_written or is_context(function.module, function)
+    is_called = is_written and function.name[:2] != "__"
+    return is_called and len(code.methods.get(function.name, ())) == 1
+
+
+def is_context(module: Scope, function: Scope) -> bool:
+    """Whether a function only makes contexts: `@contextmanager`."""
+    whole = [imported_as(module, each) for each in function.decorators]
+    return whole == ["contextlib.contextmanager"]
 
 
 def is_beside(function: Scope) -> bool:

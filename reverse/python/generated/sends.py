@@ -81,7 +81,7 @@ def sent(
     elif sends.known is not None and sends.known != "self":
         target = m.Name(sends.known, span)
     while rest and len(values) < sends.arguments:
-        values += _unpacked(reader, rest.pop(0))
+        values += unpacked(reader, rest.pop(0))
     if len(values) != sends.arguments or len(rest) > 1 or len(arguments) < is_to_any:
         raise reader.unread(node, f"this sends with {expected} arguments")
     times = idioms.times(reader, rest[0]) if rest else {}
@@ -89,7 +89,7 @@ def sent(
     return m.Call(target, sends.server, given, times.get("after"), times.get("deadline"), span)
 
 
-def _unpacked(reader: ModelExpressionReader, node: Node) -> list[m.Expression]:
+def unpacked(reader: ModelExpressionReader, node: Node) -> list[m.Expression]:
     """One argument, or the elements of an array behind a star."""
     if node.type != "list_splat":
         return [reader.expression(node)]

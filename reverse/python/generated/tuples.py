@@ -17,6 +17,7 @@ from rebsync.reverse.python.generated.failing import may_fail
 from rebsync.reverse.python.generated.kinds import is_floating
 from rebsync.reverse.python.generated.pairs import values_in_place
 from rebsync.reverse.python.generated.py_types import call_parts, without_parentheses
+from rebsync.reverse.python.generated.record_classes import fields_of, given_to, is_tuple
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -52,6 +53,10 @@ def parts(
             return _chosen(reader.condition(condition), *ways) if all(ways) else None
         case _ if given := values_in_place(reader, node):
             return [*map(reader.expression, given)]
+        case "call", _ if is_tuple(reader, called := text_of(field(node, "function"))):
+            fields = fields_of(reader, called) or ()
+            of_fields = dict(given_to(node, fields) or ())
+            return _calm([reader.expression(of_fields[f]) for f in fields if f in of_fields])
         case _:
             return looked_up(reader, node)
 
@@ -98,6 +103,14 @@ def looked_up(
         is_it = binary("==", asked.expression, known.expression)
         found = _chosen(is_it, values, found) if number or kind == WHOLE else values
     return found
+
+
+def looked_up_one(reader: ModelExpressionReader, node: Node) -> m.Expression:
+    """The same of a table of plain values. Unread: it may have no such key."""
+    found = looked_up(reader, node, single=True)
+    if found is None:
+        raise reader.unread(node, "say what there is for each value by `if`")
+    return found[0]
 
 
 def _single(reader: ModelExpressionReader, node: Node) -> list[m.Expression] | None:
