@@ -116,6 +116,8 @@ class Plumbing:
 
     def _is_plain(self, function: Scope, decorator: str) -> bool:
         """Whether the model knows what a function is with it: what is called is no property."""
+        if function.name in self.roles.describing:
+            return True  # what it does is asked where it is used
         if decorator != "property":
             return decorator in DECORATORS
         roles, name = self.roles, function.name
