@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -66,13 +66,17 @@ def in_order(
     return [each for each in known if each is not None]
 
 
-def shared(code: PyCode, method: Scope) -> tuple[PyParameter, ...]:
+def shared(
+    code: PyCode, line: Callable[[Scope], Sequence[Scope]], method: Scope
+) -> tuple[PyParameter, ...]:
     """What a method is given besides its object, whichever method of its name is called.
 
-    Where others of that name take something else, only places tell what is what.
+    Where others of that name, in classes above or below, take something else, only places tell what
+    is what.
     """
-    own = text_of(field(method.node, "parameters"))
-    others = (f for f in code.methods.get(method.name, ()) if f is not method)
+    own, owner = text_of(field(method.node, "parameters")), method.owner
+    named_so = ((f, f.owner) for f in code.methods.get(method.name, ()))
+    others = (f for f, c in named_so if c and owner and (owner in line(c) or c in line(owner)))
     if all(text_of(field(f.node, "parameters")) == own for f in others):
         return tuple(method.parameters[1:])
     return tuple(replace(p, default=None, by=p.by or BY_PLACE) for p in method.parameters[1:])

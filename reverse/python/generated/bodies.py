@@ -329,7 +329,7 @@ class ModelBodies:
             results=results,
             properties=frozenset(properties),
             helpers=helpers,
-            parameters={f.name: arguments.shared(self.code, f) for f in scopes},
+            parameters={f.name: arguments.shared(self.code, self.line, f) for f in scopes},
         )
 
     def _add_result(
