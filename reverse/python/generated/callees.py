@@ -52,6 +52,8 @@ def evaluated(reader: ModelExpressionReader, node: Node) -> m.Statement:
         case _:
             return _branching(reader.expression(node), reader.span(node))
     asked, span = reader.condition(condition), reader.span(node)
+    if reader.kind(asked) is None:
+        raise reader.unread(condition, "nobody knows whether this holds")
     blocks = [m.Block((evaluated(reader, n),)) if n is not None else None for n in ways]
     if blocks[0] is None:
         asked, blocks = negated(asked), blocks[1:]

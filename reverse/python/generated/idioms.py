@@ -168,6 +168,7 @@ def augmented(reader: ModelExpressionReader, node: Node) -> m.Expression:
     operator = text_of(field(node, "operator")).removesuffix("=")
     target = reader.expression(field(node, "left"))
     value = reader.expression(field(node, "right"))
+    value = as_number(reader, value) if operator in ("+", "-", "*") else value
     kinds = reader.kind(target), reader.kind(value)
     if operator in FUNCTIONS and not (operator == "/" and is_floating(kinds[0])):
         right = f"x = {FUNCTIONS[operator]}(x, e)"
