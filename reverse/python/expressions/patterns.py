@@ -88,8 +88,9 @@ def asked(
         found = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
     elif of is not None:
         pairs = zip((of, *beside), (case.values, *case.beside), strict=False)
-        for each in filter(None, (_is_one(reader, v, values) for v, values in pairs)):
-            found = each if found is None else binary("&&", found, each)
+        for each in (_is_one(reader, v, values) for v, values in pairs):
+            if each is not None:
+                found = each if found is None else binary("&&", found, each)
     if case.guard is None:
         return found
     held = reader.condition(case.guard)
