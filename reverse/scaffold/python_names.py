@@ -71,8 +71,15 @@ class _Resolved(ast.NodeTransformer):
         return ast.copy_location(ast.Constant(self.texts[node.id].value), node) if is_text else node
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """`partial(f, x)` as `lambda: f(x)`, which asks later for what does not change."""
+        """`partial(f, x)` as `lambda: f(x)`, which asks later for what does not change.
+
+        What a descriptor is given by name, it is given by place.
+        """
         self.generic_visit(node)
+        names, takes = [k.arg for k in node.keywords], ["name", "rank"][len(node.args) :]
+        if ast.unparse(node.func) == "Server" and names == takes[: len(names)]:
+            node.args += [k.value for k in node.keywords]
+            node.keywords = []
         is_partial = ast.unparse(node.func) in self.partial and not node.keywords
         if not is_partial or not all(map(self._is_steady, node.args[1:])):
             return node

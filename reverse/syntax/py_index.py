@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import field as with_default
+from dataclasses import replace
 from pathlib import PurePosixPath
 
 from tree_sitter import Node
@@ -85,9 +86,23 @@ class Scope:
             self._parameters = self._read_parameters()
         return self._parameters
 
-    def _read_parameters(self) -> list[PyParameter]:
+    @property
+    def parameter_nodes(self) -> list[Node]:
+        """The parameters as they are written, without what separates them."""
         node = self.node.child_by_field_name("parameters")
-        return [p for c in named(node) if (p := _parameter(c))] if node is not None else []
+        return [n for n in named(node) if n.type not in _SEPARATORS] if node is not None else []
+
+    def _read_parameters(self) -> list[PyParameter]:
+        node, found, by = self.node.child_by_field_name("parameters"), list[PyParameter](), ""
+        for each in named(node) if node is not None else ():
+            if each.type == "positional_separator":
+                found = [replace(p, by=BY_PLACE) for p in found]
+            elif each.type == "keyword_separator":
+                by = BY_NAME
+            elif (parameter := _parameter(each)) is not None:
+                found.append(replace(parameter, by=by))
+                by = BY_NAME if parameter.star == 1 else by
+        return found
 
     @property
     def self_name(self) -> str | None:
@@ -102,13 +117,21 @@ class Scope:
         scope.names.setdefault(name, []).append(binding)
 
 
+BY_NAME, BY_PLACE = "name", "place"
+_SEPARATORS = frozenset({"keyword_separator", "positional_separator"})
+
+
 @dataclass(frozen=True, slots=True)
 class PyParameter:
-    """A parameter of a function: `star` is how many stars stand before it."""
+    """A parameter of a function: `star` is how many stars stand before it.
+
+    `by` says how it is given, if it is by its name alone, or by its place alone.
+    """
 
     name: str
     default: Node | None = None
     star: int = 0
+    by: str = ""
 
 
 def _parameter(node: Node) -> PyParameter | None:

@@ -12,6 +12,7 @@ from rebsync.reverse.python.bodies.body_scope import unknown
 from rebsync.reverse.python.bodies.body_units import scope_around
 from rebsync.reverse.python.expressions.tables import pairs_of, selected
 from rebsync.reverse.python.expressions.values import STRING, TRUTH, WHOLE, Value
+from rebsync.reverse.python.values.py_values import PyValues
 from rebsync.reverse.python.values.py_worth import External, Items, Table
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, text_of
@@ -106,26 +107,26 @@ def _is_constant(reading: Reading, node: Node, depth: int = 0) -> bool:
             is_view = function.type == "attribute"
             return is_view and _is_constant(reading, field(function, "object"), depth + 1)
         case "identifier" | "attribute" if depth < _DEEPEST:
-            made = _bound_once(reading, text_of(node).rpartition(".")[2])
+            made = bound_once(reading.values, text_of(node).rpartition(".")[2])
             return made is not None and _is_constant(reading, made, depth + 1)
         case _:
             return False
 
 
-def _bound_once(reading: Reading, name: str) -> Node | None:
+def bound_once(values: PyValues, name: str) -> Node | None:
     """The one value that code binds a name to of which it does no more than to look into it."""
     made: list[Node] = []
-    for module in reading.code.modules.values():
+    for module in values.code.modules.values():
         for each in nodes_in(module.node):
             if each.type == "identifier" and text_of(each) == name:
-                use = _use(reading, each, module.py.source.path)
+                use = _use(values, each, module.py.source.path)
                 if use is None:
                     return None
                 made += use
     return made[0] if len(made) == 1 else None
 
 
-def _use(reading: Reading, name: Node, path: str) -> list[Node] | None:
+def _use(values: PyValues, name: Node, path: str) -> list[Node] | None:
     """What a place in the code binds a name to; None where it may do more than to look."""
     at = name
     above = at.parent
@@ -145,7 +146,7 @@ def _use(reading: Reading, name: Node, path: str) -> list[Node] | None:
             return []  # its elements are constants
         case "argument_list" if above is not None and above.parent is not None:
             function = field(above.parent, "function")
-            ways = reading.values.ways(function, scope_around(reading.code, name, path))
+            ways = values.ways(function, scope_around(values.code, name, path))
             return [] if ways in _READERS else None
         case _:
             return None

@@ -108,6 +108,9 @@ def rows(reader: OperandReader, node: Node, width: int) -> list[tuple[Value, ...
         case "zip" if width == len(arguments):
             each = [certain(reader, a, "zip") for a in arguments]
             return list(zip(*each, strict=False))
+        case _ if width > 1 and node.type in ("tuple", "list"):
+            if all(n.type == "tuple" and len(named(n)) == width for n in named(node)):
+                return [tuple(certain(reader, n, "this")) for n in named(node)]
         case _ if width == 1 and node.type not in COMPREHENSIONS:
             return [(value,) for value in certain(reader, node, name or "this")]
     raise reader.unread(node, "nobody knows what this goes through")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from tree_sitter import Node
 
@@ -23,7 +23,8 @@ _NONE = "the model has no such case"
 class MatchCase:
     """A branch of a `match`: the name that takes everything, or some values; then what is done.
 
-    A value is negative where a minus stands before it.
+    A value is negative where a minus stands before it. Where a tuple is looked at, `beside` are the
+    values of its other elements.
     """
 
     clause: Node
@@ -31,21 +32,29 @@ class MatchCase:
     values: list[tuple[Node, bool]]
     guard: Node | None
     block: Node
+    beside: tuple[list[tuple[Node, bool]], ...] = ()
 
 
-def cases(reader: OperandReader, node: Node) -> Iterator[MatchCase]:
-    """The branches of a `match`. Unread: a pattern looks into a container or an object, or binds
-    several names, or nothing is left for the cases behind it.
+def cases(reader: OperandReader, node: Node, width: int = 1) -> Iterator[MatchCase]:
+    """The branches of a `match` of one value, or of a tuple. Unread: a pattern looks into another
+    container or an object, or names an element, or nothing is left for the cases behind it.
     """
     clauses = [c for c in named(field(node, "body")) if c.type == "case_clause"]
     for clause in clauses:
         patterns = [c for c in named(clause) if c.type == "case_pattern"]
-        if len(patterns) != 1:
+        if width > 1 and [n.type for n in named(patterns[0])] == ["tuple_pattern"]:
+            patterns = named(named(patterns[0])[0])
+        (name, values), *rest = (_pattern(reader, p) for p in patterns)
+        is_any = width > 1 and [*map(text_of, patterns)] == ["_"]
+        if (len(patterns) != width and not is_any) or any(n for n, _ in rest):
+            raise Unread(reader.span(clause), _NONE)
+        if width > 1 and name is not None:
             raise Unread(reader.span(clause), _NONE)
         guard = clause.child_by_field_name("guard")
         test = named(guard)[0] if guard is not None else None
-        case = MatchCase(clause, *_pattern(reader, patterns[0]), test, field(clause, "consequence"))
-        if not case.values and test is None and clause != clauses[-1]:
+        beside = tuple(v for _, v in rest)
+        case = MatchCase(clause, name, values, test, field(clause, "consequence"), beside)
+        if not any((values, *beside)) and test is None and clause != clauses[-1]:
             raise Unread(reader.span(clause), "no case behind this one is ever taken")
         yield case
 
@@ -70,20 +79,33 @@ def _pattern(reader: OperandReader, pattern: Node) -> tuple[Node | None, list[tu
     return None, values
 
 
-def asked(reader: OperandReader, case: MatchCase, of: Value | None) -> m.Expression | None:
+def asked(
+    reader: OperandReader, case: MatchCase, of: Value | None, beside: Sequence[Value] = ()
+) -> m.Expression | None:
     """What must hold so that a value takes a branch, if none above it; None: nothing."""
     found: m.Expression | None = None
     if of is None and case.values:
         found = m.Choice((m.BoolLiteral(True), m.BoolLiteral(False)))
-    for number, (value, is_negative) in enumerate(case.values if of is not None else ()):
-        assert of is not None
-        read = _value(reader, of, value, is_negative)
-        one = reader.compared("==", of, read, value, number)
-        found = one if found is None else binary("||", found, one)
+    elif of is not None:
+        pairs = zip((of, *beside), (case.values, *case.beside), strict=False)
+        for each in (_is_one(reader, v, values) for v, values in pairs):
+            if each is not None:
+                found = each if found is None else binary("&&", found, each)
     if case.guard is None:
         return found
     held = reader.condition(case.guard)
     return held if found is None else binary("&&", found, held)
+
+
+def _is_one(
+    reader: OperandReader, of: Value, values: list[tuple[Node, bool]]
+) -> m.Expression | None:
+    found: m.Expression | None = None
+    for number, (value, is_negative) in enumerate(values):
+        read = _value(reader, of, value, is_negative)
+        one = reader.compared("==", of, read, value, number)
+        found = one if found is None else binary("||", found, one)
+    return found
 
 
 def _value(reader: OperandReader, of: Value, value: Node, is_negative: bool) -> Value:

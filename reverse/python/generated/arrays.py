@@ -31,9 +31,7 @@ def array_elements(reader: ModelExpressionReader, node: Node) -> list[m.Expressi
 def _array(reader: ModelExpressionReader, node: Node) -> tuple[m.Expression, int] | None:
     if node.type not in ("identifier", "attribute"):
         return None
-    name = text_of(node)
-    plain = reader.locals.get(name) or reader.names.variables.get(name.removeprefix("self."))
-    if not {plain} & (reader.types.keys() | reader.names.types.keys()):
+    if not {reader.variable(text_of(node))} & (reader.types.keys() | reader.names.types.keys()):
         return None
     read = reader.expression(node)
     type_ = type_of(reader, read)

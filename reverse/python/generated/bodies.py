@@ -22,17 +22,17 @@ from rebsync.reverse.bodies.overloads import Served
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.generated.sensors import list_unseen
 from rebsync.reverse.python.bodies.body_form import PyForm
-from rebsync.reverse.python.generated import defaults
+from rebsync.reverse.python.generated import arguments
 from rebsync.reverse.python.generated.expressions import Expressions
 from rebsync.reverse.python.generated.filled import fillings_of
 from rebsync.reverse.python.generated.helpers import (
     called_in,
     first_of,
-    giving_texts,
     own_name,
     without_object,
 )
 from rebsync.reverse.python.generated.kinds import literal_kind
+from rebsync.reverse.python.generated.marks import is_constructor
 from rebsync.reverse.python.generated.named_constants import CodeConstants, NamedConstants
 from rebsync.reverse.python.generated.names import Filling, Helper, ModelNames
 from rebsync.reverse.python.generated.overloads import resolved
@@ -44,7 +44,7 @@ from rebsync.reverse.python.generated.slicing.silent import silent_in
 from rebsync.reverse.python.generated.statements import Statements
 from rebsync.reverse.python.generated.widths import WidthContext, hint_of, wanted_of
 from rebsync.reverse.python.values.py_callbacks import body_of
-from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_index import BY_NAME, PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.source import Source, Span
 
@@ -92,8 +92,7 @@ class ModelBodies:
 
     def parameters(self, owner: Scope, function: Scope, within: str) -> tuple[m.Parameter, ...]:
         """What a function takes, without its object."""
-        found = []
-        reader = self.reader(owner, function, within)
+        found, reader = [], self.reader(owner, function, within)
         for node, type_ in self._taken(owner, function):
             span = function.py.span(node)
             if type_ is None:
@@ -217,8 +216,8 @@ class ModelBodies:
 
     def helpers(self, owner: Scope) -> Iterator[Scope]:
         """The functions of modules that a class calls."""
-        found = {id(h.function): h.function for h in self.names(owner).helpers.values()}
-        yield from (f for f in found.values() if not f.is_method)
+        called = {id(h.function): h.function for h in self.names(owner).helpers.values()}
+        yield from (f for f in called.values() if not f.is_method)
 
     # --- what is taken --------------------------------------------------------------------------
 
@@ -234,13 +233,15 @@ class ModelBodies:
         first = first_of(function)
         if not function.is_method:
             first = int(self._own(owner, function) != "\0")
-        nodes = named(field(function.node, "parameters"))[first:]
+        nodes = function.parameter_nodes[first:]
         types = self._of_message(owner, function, len(nodes))
-        for node, type_ in zip(nodes, types, strict=True):
+        is_bound = self.served(owner, function) is None and not is_constructor(function.name)
+        for node, type_, of in zip(nodes, types, function.parameters[first:], strict=True):
             said = node.child_by_field_name("type")
             is_plain = node.type in ("identifier", "typed_parameter")
-            if defaults.has_constant(node):
-                is_plain = self._is_given_all(owner, function, len(nodes))
+            if arguments.has_constant(node):
+                is_plain = is_bound or self._is_given_all(owner, function, len(nodes))
+            is_plain &= is_bound or of.by != BY_NAME
             found = (type_of(said) if said is not None else type_) if is_plain else None
             yield node, found
 
@@ -258,7 +259,7 @@ class ModelBodies:
         """Whether a function serves messages, and whoever names it gives it all that it takes."""
         bodies = (f.node for c in self.line(owner) for f in self.roles(c).functions.values())
         is_server = self.served(owner, function) is not None
-        return is_server and defaults.is_given_all(function.name, bodies, count)
+        return is_server and arguments.is_given_all(function.name, bodies, count)
 
     def _passed(self, shim: Scope) -> Iterator[m.Type | None]:
         message = named(field(shim.node, "parameters"))[-1]
@@ -318,7 +319,6 @@ class ModelBodies:
                 self._add_result(results, functions[name], function, names)
             helpers |= without_object(above, roles.functions)
         taken = {*functions.values(), *names.variables.values(), *self.types}
-        taken |= giving_texts(self.named, owner.module)
         for name, helper in called_in(self.named, scopes, taken).items():
             helpers[name] = helper
             self._add_result(results, helper.name, helper.function, names)
@@ -329,7 +329,7 @@ class ModelBodies:
             results=results,
             properties=frozenset(properties),
             helpers=helpers,
-            parameters={f.name: tuple(p.name for p in f.parameters[1:]) for f in scopes},
+            parameters={f.name: arguments.shared(self.code, self.line, f) for f in scopes},
         )
 
     def _add_result(

@@ -15,6 +15,7 @@ from rebsync.reverse.python.generated.module_variables import (
     looks_of,
 )
 from rebsync.reverse.python.generated.named_constants import CodeConstants
+from rebsync.reverse.python.generated.pair_methods import is_context
 from rebsync.reverse.python.generated.py_types import expression_in, stored_into
 from rebsync.reverse.python.generated.slicing.logs import Looks, only_logs
 from rebsync.reverse.python.generated.slicing.silent import Silent
@@ -63,25 +64,23 @@ def context_of(
     items = [i for i in named(head) if i.type == "with_item"]
     call = field(items[0], "value") if len(items) == 1 else statement
     name = text_of(field(call, "function")) if call.type == "call" else ""
+    is_own, methods = name.startswith("self."), constants.code.methods.get(name[5:], [])
+    made = methods[0] if is_own and len(methods) == 1 else None
     match constants.of(module, name):
-        case Function(made) if is_context(made.module, made):
-            given = named(field(call, "arguments"))
+        case Function(found) if not is_own:
+            made = found
         case _:
-            return None
-    if len(given) > len(made.parameters):
+            pass
+    if made is None or not is_context(made.module, made):
         return None
-    needed = [p for p in made.parameters if p.default is None]
+    given, parameters = named(field(call, "arguments")), made.parameters[is_own:]
+    needed = [p for p in parameters if p.default is None]
     values = [n.child_by_field_name("value") or n for n in given]
-    is_given = len(needed) <= len(given) and all(p.star == 0 for p in made.parameters)
+    is_given = len(needed) <= len(given) <= len(parameters)
+    is_given = is_given and all(p.star == 0 for p in parameters)
     is_known = is_given and all(v.type in _PLAIN for v in values)
     is_telling = is_known and _tells_around(constants.code, module, made, silent)
     return field(statement, "body") if is_telling else None
-
-
-def is_context(module: Scope, function: Scope) -> bool:
-    """Whether a function only makes contexts: `@contextmanager`."""
-    whole = [imported_as(module, each) for each in function.decorators]
-    return whole == ["contextlib.contextmanager"]
 
 
 def _tells_around(code: PyCode, module: Scope, made: Scope, silent: Silent) -> bool:
@@ -189,6 +188,8 @@ class _Around:
             return True
         if self.silent.exceptions.raises(node):
             return False
+        if self.function.is_method:
+            return self.silent.tells(node)
         if only_logs(node, self.looks):
             return True
         effects, py = self.silent.effects, self.function.py

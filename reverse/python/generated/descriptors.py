@@ -11,7 +11,9 @@ from rebsync.reverse.generated.annotations import priority
 from rebsync.reverse.python.generated.parameters import constant
 from rebsync.reverse.python.generated.py_types import call_parts, string_value
 from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_tree import field, text_of
 
+_TAKES = ("name", "rank")
 _PRIORITIES = {"priority": "priority", "global_priority": "globalPriority"}
 
 
@@ -23,10 +25,19 @@ def servers_of(module: Scope) -> dict[str, tuple[str, tuple[m.Annotation, ...]]]
             parts = call_parts(binding.value) if binding.how == "value" else None
             if parts is None or parts[0] != "Server" or not parts[1]:
                 continue
-            server = string_value(parts[1][0])
-            if server is not None:
-                found[name] = server, tuple(_priority(parts[1][1:]))
+            server, *rest = given(parts[1])
+            if (text := string_value(server)) is not None:
+                found[name] = text, tuple(_priority(rest))
     return found
+
+
+def given(arguments: list[Node]) -> list[Node]:
+    """What a descriptor is made of: its name, and its priority, by place or in this order."""
+    by_name = [a for a in arguments if a.type == "keyword_argument"]
+    names = [text_of(field(a, "name")) for a in by_name]
+    if names != [*_TAKES[len(arguments) - len(names) :]][: len(names)]:
+        return arguments
+    return [field(a, "value") if a in by_name else a for a in arguments]
 
 
 def _priority(arguments: list[Node]) -> Iterator[m.Annotation]:

@@ -17,7 +17,7 @@ from rebsync.reverse.python.expressions.operands import OperandReader
 from rebsync.reverse.python.expressions.values import OTHER, Value
 from rebsync.reverse.python.generated.cuts import Cuts
 from rebsync.reverse.python.generated.kinds import kind_of
-from rebsync.reverse.python.generated.names import Closure, ModelNames
+from rebsync.reverse.python.generated.names import Callee, Closure, ModelNames
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
 from rebsync.static.types import BOOLEAN, DOUBLE, INT
@@ -43,7 +43,7 @@ class ModelExpressionReader(OperandReader):
     types: dict[str, m.Type] = with_default(default_factory=dict)
     bound: dict[str, m.Expression] = with_default(default_factory=dict)
     closures: dict[str, Closure] = with_default(default_factory=dict)
-    kept_sends: dict[str, str] = with_default(default_factory=dict)
+    kept_sends: dict[str, Callee] = with_default(default_factory=dict)
     kept_tables: dict[str, Node] = with_default(default_factory=dict)
     moments: dict[str, dict[str, m.Name]] = with_default(default_factory=dict)
     own: str = "self"
@@ -72,6 +72,21 @@ class ModelExpressionReader(OperandReader):
     @abstractmethod
     def expression(self, node: Node) -> m.Expression:
         """An expression. Unread: the model has none for it."""
+
+    def hides_name(self, name: str) -> bool:
+        """Whether a name is one of the body's own, whatever the module calls so."""
+        own = self.locals, self.closures, self.kept_sends, self.kept, self.kept_tables, self.moments
+        is_part = any(name == each.partition(".")[0] for each in self.bound)
+        return is_part or any(name in names for names in own)
+
+    def of_run_time(self, called: str) -> str:
+        """What the run-time part calls a function; what is none of it as it is called."""
+        is_own = self.hides_name(called.partition(".")[0])
+        return called if is_own else self.names.constants.of_run_time(called)
+
+    def variable(self, name: str) -> str | None:
+        """The variable of the model that a name or attribute is."""
+        return self.locals.get(name) or self.names.variables.get(name.removeprefix("self."))
 
     def kind(self, expression: m.Expression) -> m.Type | None:
         """The widest type of the kind of an expression, if it can be told."""

@@ -16,11 +16,14 @@ from rebsync.reverse.python.expressions.conditions import comparison, connected,
 from rebsync.reverse.python.expressions.tables import looked_up, pairs_of
 from rebsync.reverse.python.expressions.values import WHOLE, Value
 from rebsync.reverse.python.generated import arrays, closures, formats, idioms, places, tuples
+from rebsync.reverse.python.generated.arguments import in_order
+from rebsync.reverse.python.generated.callees import callee
 from rebsync.reverse.python.generated.decorators import is_cast
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.failing import may_fail
 from rebsync.reverse.python.generated.helpers import arguments_for
 from rebsync.reverse.python.generated.kinds import float_literal
+from rebsync.reverse.python.generated.names import Callee, Chosen
 from rebsync.reverse.python.generated.py_types import (
     call_parts,
     in_double_quotes,
@@ -97,6 +100,8 @@ class Expressions(ModelExpressionReader):
                     raise self.unread(node, f'the model has no operator "{operator}"')
                 left = self._operand(field(node, "left"), level)
                 right = self._operand(field(node, "right"), level + 1)
+                if operator in "+-*":
+                    left, right = idioms.as_number(self, left), idioms.as_number(self, right)
                 read = m.Binary(operator, left, right, span)
                 return (
                     idioms.divided(self, node, read)
@@ -172,12 +177,14 @@ class Expressions(ModelExpressionReader):
         return self.value(chosen(asked, one.expression, other.expression))
 
     def container(self, node: Node, ordered: bool) -> list[Value] | None:
-        found = tuples.kept(self, node) or arrays.array_elements(self, node)
+        found = tuples.parts(self, node)
+        if found is None and not ordered:
+            found = tuples.members(self, node)
         return None if found is None else [*map(self.value, found)]
 
     def table(self, node: Node) -> Sequence[tuple[Value, Value]] | None:
-        table = self.kept_tables.get(text_of(node))
-        return pairs_of(self, table) if table is not None else None
+        written = tuples.table(self, node)
+        return pairs_of(self, written) if written is not None else None
 
     def dotted(self, node: Node) -> Value:
         if (constant := self.names.constants.get(text_of(node))) is None:
@@ -187,8 +194,7 @@ class Expressions(ModelExpressionReader):
     def library(self, function: Node) -> str:
         holder, _, name = text_of(function).rpartition(".")
         if not holder:
-            known = self.locals, self.closures, self.kept_sends, self.kept, self.bound
-            is_own = self.names.constants.binds(name) or any(name in names for names in known)
+            is_own = self.names.constants.binds(name) or self.hides_name(name)
             return "" if is_own else f"builtins.{name}"
         return text_of(function) if holder == "random" and self._is_of_library(holder) else ""
 
@@ -237,6 +243,8 @@ class Expressions(ModelExpressionReader):
         at = text_of(field(node, "subscript"))
         if (stands := self.bound.get(f"{text_of(field(node, 'value'))}.{at}")) is not None:
             return stands
+        if tuples.table(self, field(node, "value")) is not None:
+            return idioms.grouped(node, tuples.looked_up_one(self, node))
         target = self.expression(field(node, "value"))
         return m.Index(target, self.index(field(node, "subscript")), self.py.span(node))
 
@@ -257,6 +265,7 @@ class Expressions(ModelExpressionReader):
         """An assignment: `x = int32.add(x, 1)` is what the model writes `x++`, or `++x`."""
         span = self.py.span(whole)
         called, arguments = call_parts(value) or ("", [])
+        called = self.of_run_time(called)
         updated: m.Expression | None = formats.updated(self, target, called, arguments)
         if updated is not None:
             if statement and isinstance(updated, m.Unary):
@@ -271,16 +280,16 @@ class Expressions(ModelExpressionReader):
 
     # --- calls ----------------------------------------------------------------------------------
 
-    def _of_values(self, called: str) -> str:
-        """What is called; a function of the run-time part by its name where `v` is its module."""
-        module, _, name = called.rpartition(".")
-        package = self.py.source.path.rpartition("/")[0].rpartition("/")[2]
-        is_values = self.names.imported.get(module) == f"{package}.values as {module}"
-        return name if is_values and module not in self.locals else called
-
     def _call(self, node: Node) -> m.Expression:
-        called, arguments = call_parts(node) or ("", [])
-        called = self._of_values(self.kept_sends.get(called, called))
+        _, arguments = call_parts(node) or ("", [])
+        return self._run(node, callee(self, field(node, "function")), arguments)
+
+    def _run(self, node: Node, called: Callee, arguments: list[Node]) -> m.Expression:
+        if isinstance(called, Chosen):
+            then, other = (self._run(node, c, arguments) for c in (called.then, called.otherwise))
+            return idioms.grouped(
+                node, m.Conditional(called.asked, then, other, self.py.span(node))
+            )
         if called in self.closures:
             return closures.value_of_call(self, node, called, arguments)
         if called in formats.FORMATS and len(arguments) == 1:
@@ -372,7 +381,10 @@ class Expressions(ModelExpressionReader):
         if holder == "self" and name in self.names.servers:
             raise self.unread(node, "this serves a message at once; the model only sends them")
         target = m.Super(span) if holder == "super()" else None
-        arguments = idioms.in_order(self, node, arguments, self.names.parameters.get(name, ()))
+        parameters = self.names.parameters.get(name, ())
+        arguments = in_order(self, node, arguments, parameters)
+        if len(arguments) != len(parameters):
+            raise self.unread(node, f'"{name}" is called with other arguments')
         given = tuple(map(self.expression, arguments))
         return self.cuts.passing(m.Call(target, function, given, span=span), name)
 

@@ -41,7 +41,7 @@ def fillings_of(roles: PyRoles, sends: Mapping[str, PySends]) -> dict[str, Filli
             else:
                 values[left.removeprefix(f"{variable}.")] = _around(right)
         of_parameter = {plain: (key, around) for key, (plain, around) in values.items()}
-        taken = [p for p in own.parameters if p != "when"]
+        taken = [p.name for p in own.parameters if p.name != "when"]
         if message and all(p in of_parameter for p in taken):
             fields = tuple(of_parameter[p] for p in taken)
             own_fields = {key for key, _ in fields}

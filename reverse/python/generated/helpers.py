@@ -11,10 +11,11 @@ from collections.abc import Mapping
 from tree_sitter import Node
 
 from rebsync import model as m
+from rebsync.reverse.python.generated.arguments import in_order
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
-from rebsync.reverse.python.generated.idioms import in_order
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.names import Helper
+from rebsync.reverse.python.generated.pair_methods import is_beside
 from rebsync.reverse.python.values.py_worth import Function, Value
 from rebsync.reverse.syntax.py_index import FUNCTION, PyParameter, Scope
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
@@ -23,7 +24,6 @@ from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 # What stores in an object by a name that is a value, or replaces a module.
 _BY_NAME = re.compile(r"\b(?:setattr|__dict__|vars|globals|reload|sys\.modules)\b")
 
-_TEXTS = frozenset({"string", "concatenated_string"})
 STATIC, OF_CLASS = "staticmethod", "classmethod"
 
 
@@ -35,9 +35,9 @@ def arguments_for(
         if not arguments or text_of(arguments[0]) != reader.own:
             raise reader.unread(node, f'"{helper.name}" is given another object elsewhere')
         arguments = arguments[1:]
-    names = tuple(p.name for p in parameters_of(helper.function, helper.own))
-    given = in_order(reader, node, arguments, names)
-    if len(given) != len(names) or any(a.type == "list_splat" for a in given):
+    parameters = parameters_of(helper.function, helper.own)
+    given = in_order(reader, node, arguments, parameters)
+    if len(given) != len(parameters) or any(a.type == "list_splat" for a in given):
         raise reader.unread(node, f'"{helper.name}" is called with other arguments')
     return tuple(map(reader.expression, given))
 
@@ -122,7 +122,8 @@ def plain_function(value: Value | None) -> Scope | None:
 def _is_free(helper: Scope, found: Mapping[str, Helper], taken: set[str]) -> bool:
     """Whether a class has nothing else by the name of a function."""
     others = (h.function for h in found.values() if h.name == helper.name)
-    return helper.name not in taken and all(other is helper for other in others)
+    is_new = helper.name not in taken and not is_beside(helper)
+    return is_new and all(other is helper for other in others)
 
 
 def _object(call: Node, function: Scope) -> str:
@@ -130,24 +131,3 @@ def _object(call: Node, function: Scope) -> str:
     arguments = named(field(call, "arguments"))
     is_given = bool(arguments) and text_of(arguments[0]) in ("self", "node")
     return function.parameters[0].name if is_given and function.parameters else ""
-
-
-def giving_texts(constants: CodeConstants, module: Scope) -> set[str]:
-    """The functions that a module calls by a name and that give texts, so that no model has them.
-
-    What they do where they are called is asked of the form.
-    """
-    functions = ((name, plain_function(constants.of(module, name))) for name in module.names)
-    return {name for name, function in functions if function is not None and _gives_text(function)}
-
-
-def _gives_text(function: Scope) -> bool:
-    values = [v for r in function.returns for v in named(r)]
-    return bool(values) and all(map(_is_text, values))
-
-
-def _is_text(node: Node) -> bool:
-    if node.type == "conditional_expression":
-        then, _, otherwise = named(node)
-        return _is_text(then) and _is_text(otherwise)
-    return node.type in _TEXTS

@@ -6,13 +6,14 @@ from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.analysis.intervals.writes import array_of, is_own, own, written
+from rebsync.reverse.models.building import bare, chosen
 from rebsync.reverse.python.generated.cuts import FUNCTIONS, other_division
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.kinds import is_floating
 from rebsync.reverse.python.generated.named_constants import is_moment
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import field, named, text_of
-from rebsync.static.types import INT
+from rebsync.static.types import BOOLEAN, INT
 
 _PLAIN = frozenset({"identifier", "attribute", "integer", "float", "true", "false", "none"})
 _AROUND = frozenset(
@@ -83,6 +84,13 @@ def divided(reader: ModelExpressionReader, node: Node, read: m.Binary) -> m.Bina
     raise reader.unread(node, other_division(operator))
 
 
+def as_number(reader: ModelExpressionReader, operand: m.Expression) -> m.Expression:
+    """An operand of an addition or product, of which Python takes truth values for 1 and 0."""
+    if reader.kind(operand) != BOOLEAN:
+        return operand
+    return m.Paren(chosen(bare(operand), m.IntLiteral(1), m.IntLiteral(0)))
+
+
 def kind_at(reader: ModelExpressionReader, node: Node) -> m.Type | None:
     """The kind of what is still to be read, as the types of locals are told."""
     divided = dict(reader.cuts.floored)
@@ -125,40 +133,19 @@ def _is_array(reader: ModelExpressionReader, read: m.Expression) -> bool:
 # --- sends --------------------------------------------------------------------------------------
 
 
-def in_order(
-    reader: ModelExpressionReader, node: Node, arguments: list[Node], parameters: tuple[str, ...]
-) -> list[Node]:
-    """Arguments of which some are given by name, in the order of the parameters.
-
-    Unread: one is missing or there twice, or their order might matter.
-    """
-    given = [a for a in arguments if a.type == "keyword_argument"]
-    if not given:
-        return arguments
-    named_ = {text_of(field(a, "name")): field(a, "value") for a in given}
-    first = arguments[: len(arguments) - len(given)]
-    rest = [p for p in parameters[len(first) :] if p in named_]
-    if len(rest) != len(given) or tuple(rest) != parameters[len(first) :][: len(rest)]:
-        raise reader.unread(node, "this has other arguments than those that are asked for")
-    values = [named_[name] for name in rest]
-    plain = [v for name, v in named_.items() if name != "when"]
-    if list(named_) != rest and not all(map(is_plain, plain)):
-        raise reader.unread(node, "give these in the order of the parameters")
-    return [*first, *values]
-
-
 def times(reader: ModelExpressionReader, node: Node) -> dict[str, m.Expression]:
     """When a send arrives and expires. Unread: it is told otherwise than by `When`."""
-    if node.type == "identifier" and text_of(node) == "AT_ONCE":
-        return {}
     if node.type == "identifier" and text_of(node) in reader.moments:
         return {**reader.moments[text_of(node)]}
-    constants, hidden = reader.names.constants, reader.locals
+    constants, hidden = reader.names.constants, reader.hides_name
     code, module = constants.code, constants.module
-    if node.type == "identifier" and text_of(node) not in hidden:
+    if reader.of_run_time(text_of(node)) == "AT_ONCE":
+        return {}
+    if node.type == "identifier" and not hidden(text_of(node)):
         node = code.moment(module, text_of(node)) or node
     called = text_of(field(node, "function")) if node.type == "call" else ""
-    is_moment_ = called not in hidden and (called == "When" or is_moment(code.of(module, called)))
+    is_made = reader.of_run_time(called) == "When" or is_moment(code.of(module, called))
+    is_moment_ = is_made and not hidden(called.partition(".")[0])
     given = named(field(node, "arguments")) if is_moment_ else []
     is_spread = any(g.type in ("list_splat", "dictionary_splat") for g in given)
     if not is_moment_ or is_spread or len(given) > 2:
@@ -181,6 +168,7 @@ def augmented(reader: ModelExpressionReader, node: Node) -> m.Expression:
     operator = text_of(field(node, "operator")).removesuffix("=")
     target = reader.expression(field(node, "left"))
     value = reader.expression(field(node, "right"))
+    value = as_number(reader, value) if operator in ("+", "-", "*") else value
     kinds = reader.kind(target), reader.kind(value)
     if operator in FUNCTIONS and not (operator == "/" and is_floating(kinds[0])):
         right = f"x = {FUNCTIONS[operator]}(x, e)"

@@ -88,7 +88,9 @@ def list_definition_effects(source: Source, own: Collection[str], findings: Find
     """
     tree = module_of(source.text)
     if tree is not None:
-        _list(source, _ImportedCode(tree).defining(own), findings)
+        package = source.path.split("/")[-2:][0]
+        made = {"values.When", f"{package}.values.When"}
+        _list(source, _ImportedCode(tree, _PLAIN | made).defining(own), findings)
 
 
 def acting_lines(source: Source) -> frozenset[int] | None:

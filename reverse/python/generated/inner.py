@@ -6,19 +6,23 @@ locals, or stand for the arguments where it only gives a value.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.generated import idioms
+from rebsync.reverse.python.generated.callees import callee
 from rebsync.reverse.python.generated.closures import arguments_of
-from rebsync.reverse.python.generated.names import Closure
+from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
+from rebsync.reverse.python.generated.names import Chosen, Closure
 from rebsync.reverse.python.generated.py_types import call_parts, type_of
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import SCOPES, calls_in, field, is_label, named, text_of
-from rebsync.static.types import INT
+from rebsync.static.types import BOOLEAN, INT
 
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
 _LOOPS = frozenset({"for_statement", "while_statement"})
@@ -35,8 +39,8 @@ def declare(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     if (value := _only_value(body)) is not None:
         reader.expressions.closures[name] = Closure(parameters, value)
         return []
-    if leaves(body) or idioms.stored_in(body):
-        why = "only a function that gives nothing, and stores nothing, stands for what it does"
+    if leaves(body) or any(not name.startswith("self.") for name in idioms.stored_in(body)):
+        why = "only a function that gives nothing, and has no locals, stands for what it does"
         raise reader.expressions.unread(node, why)
     reader.inner[name] = Closure(parameters, body)
     return []
@@ -54,14 +58,39 @@ def named_lambda(reader: ModelStatementReader, left: Node, value: Node) -> bool:
     return True
 
 
-def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> bool:
-    """Whether `send = self.send_self_m` was taken for another name of what sends."""
+def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
+    """`send = self.send_self_m`, another name of what sends, or of one of two that a local tells.
+
+    None for another assignment.
+    """
+    expressions, name, made = reader.expressions, text_of(left), list[m.Statement]()
+    if left.type != "identifier" or not _is_send(expressions, value):
+        return None
+    if not _is_bound_once(value, name):
+        return None
+    found = callee(expressions, value)
+    if isinstance(found, Chosen):
+        local = reader.free(f"{name}_then", pattern=f"{name}_then{{}}")
+        expressions.locals[f"chosen as {local}"] = local
+        expressions.types[local] = BOOLEAN
+        span = expressions.py.span(value)
+        declarator = m.Declarator(local, found.asked, span)
+        made.append(m.Local(m.Declaration(BOOLEAN, (declarator,), span=span), span=span))
+        found = replace(found, asked=m.Name(local))
+    expressions.kept_sends[name] = found
+    return made
+
+
+def _is_send(expressions: ModelExpressionReader, value: Node) -> bool:
+    """Whether a value is a function that sends, or another of the object, or one of two."""
+    if value.type == "conditional_expression":
+        then, _, otherwise = named(value)
+        plain = (n for n in (then, otherwise) if n.type == "attribute")
+        return [_is_send(expressions, each) for each in plain] == [True, True]
     holder, _, name = text_of(value).rpartition(".")
-    is_send = holder == "self" == reader.expressions.own and name in reader.expressions.names.sends
-    if left.type != "identifier" or not is_send or not _is_bound_once(value, text_of(left)):
-        return False
-    reader.expressions.kept_sends[text_of(left)] = text_of(value)
-    return True
+    names = expressions.names
+    is_method = name in names.functions and name not in names.servers | names.properties
+    return holder == "self" == expressions.own and (name in names.sends or is_method)
 
 
 def kept_table(reader: ModelStatementReader, left: Node, value: Node) -> bool:
@@ -96,7 +125,7 @@ def _value_behind(value: Node) -> Node | None:
 def kept_moment(reader: ModelStatementReader, left: Node, value: Node) -> list[m.Statement] | None:
     """The times of `soon = When(after=a)`: known where it is made, and counted from each send."""
     called, _ = call_parts(value) or ("", [])
-    is_kept = called == "When" and left.type == "identifier"
+    is_kept = reader.expressions.of_run_time(called) == "When" and left.type == "identifier"
     if not is_kept or not _is_bound_once(value, text_of(left), passed=True):
         return None
     expressions, span = reader.expressions, reader.expressions.py.span(value)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from typing import TypeAlias
 
 from tree_sitter import Node
 
@@ -16,10 +17,13 @@ from rebsync.reverse.python.generated.arrays import NO_LENGTH, array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.py_types import call_parts, markers_above
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.python.generated.tuples import parts
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _STEP = "step"
+# What must hold for a branch, if anything, and the branch.
+Way: TypeAlias = "tuple[m.Expression | None, m.Block]"
 
 # What leaves a round, or may be done after it.
 _LEAVING = frozenset({"break_statement", "continue_statement", "function_definition", "lambda"})
@@ -68,7 +72,7 @@ def through(
     left, right = field(node, "left"), field(node, "right")
     names = [text_of(n) for n in (named(left) if left.type == "pattern_list" else [left])]
     match called, arguments:
-        case (("enumerate" | "zip"), _) if any(a.type in ("tuple", "list") for a in arguments):
+        case (("enumerate" | "zip"), _) if any(_is_shown(reader, a) for a in arguments):
             return _unrolled(reader, node, names)
         case "enumerate", [values] if len(names) == 2:
             return numbered(reader, node, names[0], names[1:], [values])
@@ -78,8 +82,15 @@ def through(
             return _backwards(reader, node, names[0], inner)
         case "", _ if right.type in ("tuple", "list") and len(names) == 1:
             return _listed(reader, node, names[0], named(right))
+        case "", _ if _is_shown(reader, right):
+            return _unrolled(reader, node, names)
         case _:
             return None
+
+
+def _is_shown(reader: ModelStatementReader, node: Node) -> bool:
+    """Whether the values that are gone through are written out somewhere."""
+    return node.type in ("tuple", "list") or bool(parts(reader.expressions, node, arrays=False))
 
 
 def numbered(
@@ -253,11 +264,14 @@ def _for(
 def match(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """`match` as the chain of conditions that it is."""
     expressions, subjects = reader.expressions, node.children_by_field_name("subject")
-    if len(subjects) != 1 or not idioms.is_plain(subjects[0]):
+    if [s.type for s in subjects] == ["tuple"] and len(named(subjects[0])) > 1:
+        subjects = named(subjects[0])
+    (of, *beside), found = [*map(expressions.read, subjects)], list[Way]()
+    is_calm = expressions.is_calm(of, *beside) and not any(map(expressions.may_fail, subjects))
+    if not (is_calm if beside else idioms.is_plain(subjects[0])):
         why = "what this compares more than once is to be in a variable first"
         raise expressions.unread(node, why)
-    of, found = expressions.read(subjects[0]), list[tuple[m.Expression | None, m.Block]]()
-    for case in cases(expressions, node):
+    for case in cases(expressions, node, len(subjects)):
         name = text_of(case.name) if case.name is not None else ""
         if name and not idioms.lasts(expressions, subjects[0], name, case.block):
             why = "this name is not that of what is compared all the time"
@@ -265,7 +279,7 @@ def match(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
         if case.guard is not None and not idioms.is_quiet(case.guard):
             raise expressions.unread(case.guard, "what this does may count for the cases behind it")
         with expressions.standing_for([name] if name else [], [of] if name else []):
-            found.append((asked(expressions, case, of), reader.branch(case.block)))
+            found.append((asked(expressions, case, of, beside), reader.branch(case.block)))
     chain: m.Statement | None = None
     for condition, body in reversed(found):
         span = expressions.py.span(node)

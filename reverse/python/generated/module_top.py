@@ -14,10 +14,10 @@ from rebsync.records import dataclass
 from rebsync.reserved import NO_PYTHON_CLASSES
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.generated_calls import LOGGER
-from rebsync.reverse.python.generated.decorators import is_context
 from rebsync.reverse.python.generated.import_effects import acting_lines
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.names import ModelNames
+from rebsync.reverse.python.generated.pair_methods import is_context
 from rebsync.reverse.python.generated.py_types import (
     call_parts,
     expression_in,

@@ -28,8 +28,9 @@ def imported_as(module: Scope, name: str) -> str:
     if node.type == "import_statement" and not is_alias:
         return name
     wanted = text_of(field(item, "name") if is_alias else item)
-    source = f"{module_of(node)}." if node.type == "import_from_statement" else ""
-    return f"{source}{wanted}{dot}{rest}"
+    source = module_of(node) if node.type == "import_from_statement" else ""
+    between = "." if source and not source.endswith(".") else ""
+    return f"{source}{between}{wanted}{dot}{rest}"
 
 
 def call_and_arguments(node: Node) -> tuple[str, list[Node]]:

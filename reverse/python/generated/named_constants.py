@@ -16,7 +16,9 @@ from rebsync.literals import literal_of
 from rebsync.records import dataclass
 from rebsync.reverse.graph import Unresolved
 from rebsync.reverse.libraries import python as libraries
+from rebsync.reverse.python.bodies.body_tables import bound_once
 from rebsync.reverse.python.generated.kinds import float_literal
+from rebsync.reverse.python.generated.module_variables import imported_as
 from rebsync.reverse.python.values.py_evaluator import lineage
 from rebsync.reverse.python.values.py_lookup import attribute
 from rebsync.reverse.python.values.py_values import PyValues
@@ -51,6 +53,7 @@ _DATA = frozenset(
 _NAMING = frozenset({"import", "scope", "value"})
 _LISTS = frozenset({"list", "tuple"})
 _LARGEST = 2**31 - 1
+_OWN_CLASS = re.compile(r"\A(?:type\(self\)|self\.__class__)\.")
 _NAMED = re.compile(r"([^\W\d]\w*)((?:\.\w+)*)(?:\[(\d+)\])?")
 
 
@@ -111,7 +114,8 @@ class CodeConstants(PyValues):
             return value.type in _LISTS
         is_many = left.type in ("pattern_list", "tuple_pattern")
         names = [text_of(n) for n in (named(left) if is_many else [left])]
-        is_data = scope.kind != CLASS and left.type == "identifier" and _is_data(value)
+        shown = _within_set(value, scope.module)
+        is_data = scope.kind != CLASS and left.type == "identifier" and _is_data(shown)
         return all(
             _is_new(scope, n) and (is_data or self._is_known(self.of(scope, n))) for n in names
         )
@@ -235,12 +239,43 @@ class NamedConstants:
         """Whether a name is the module's own, whatever Python has by that name."""
         return name in self.module.names
 
+    def of_run_time(self, name: str) -> str:
+        """What the run-time part calls something, whatever the module does: `v.int32`."""
+        whole = imported_as(self.module, name)
+        for at in (match.start() for match in re.finditer(r"\.\b", whole)):
+            module = module_named(self.code.code, whole[:at], self.module) if at else None
+            if module is not None and is_runtime_file(module.py.source):
+                return whole[at + 1 :]
+        return name
+
     def get(self, text: str) -> m.Expression | None:
         """The literal that a text stands for; None if it is no such name."""
         if text not in self._found:
-            match = _NAMED.fullmatch(text)
+            match = _NAMED.fullmatch(text if self.binds("type") else _OWN_CLASS.sub("self.", text))
             self._found[text] = self._read(match) if match is not None else None
         return self._found[text]
+
+    def made(self, text: str) -> Node | None:
+        """What a name of the module, or one behind `self.`, is bound to, if that is done once."""
+        head, _, name = text.rpartition(".")
+        scopes = (self.module,) if not head else self.line if head == "self" else ()
+        owner = next((s for s in scopes if name in s.names), None)
+        bindings = owner.names[name] if owner is not None else []
+        is_once = len(bindings) == 1 and bindings[0].how == "value" and not bindings[0].path
+        return bindings[0].value if is_once else None
+
+    def container(self, text: str) -> Node | None:
+        """The display that such a name always stands for: code only looks into it."""
+        made = self.made(text)
+        if made is None or bound_once(self.code.values, text.rpartition(".")[2]) != made:
+            return None
+        return _within_set(made, self.module)
+
+    def tuple_of(self, text: str) -> tuple[m.Expression, ...]:
+        """The elements of a constant tuple; none for anything else."""
+        made, found = self.made(text), self.elements(text)
+        is_tuple = made is not None and made.type == "tuple" and len(named(made)) == len(found)
+        return found if is_tuple else ()
 
     def elements(self, text: str) -> tuple[m.Expression, ...]:
         """Those of a constant tuple or list."""
@@ -290,6 +325,14 @@ def is_moment(value: Value | None) -> bool:
 
 def _only(ways: Ways) -> Value | None:
     return ways[0] if len(ways) == 1 and not isinstance(ways[0], Unresolved) else None
+
+
+def _within_set(value: Node, module: Scope) -> Node:
+    """The display in `frozenset({1, 2})`; any other expression as it is."""
+    is_call = value.type == "call" and text_of(field(value, "function")) == "frozenset"
+    given = named(field(value, "arguments")) if is_call and "frozenset" not in module.names else []
+    is_shown = len(given) == 1 and given[0].type in ("set", "list", "tuple")
+    return given[0] if is_shown else value
 
 
 def _is_data(value: Node) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import field as with_default
+from typing import TypeAlias
 
 from tree_sitter import Node
 
@@ -13,7 +14,7 @@ from rebsync.reverse.python.generated.named_constants import NamedConstants
 from rebsync.reverse.python.generated.posts import Post
 from rebsync.reverse.python.generated.roles import PySends
 from rebsync.reverse.python.generated.slicing.silent import NOTHING, Silent
-from rebsync.reverse.syntax.py_index import Scope
+from rebsync.reverse.syntax.py_index import PyParameter, Scope
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +40,7 @@ class ModelNames:
     properties: frozenset[str] = frozenset()
     imported: Mapping[str, str] = with_default(default_factory=dict)
     helpers: Mapping[str, Helper] = with_default(default_factory=dict)
-    parameters: Mapping[str, tuple[str, ...]] = with_default(default_factory=dict)
+    parameters: Mapping[str, tuple[PyParameter, ...]] = with_default(default_factory=dict)
     fillings: Mapping[str, Filling] = with_default(default_factory=dict)
     posts: Mapping[int, Post] = with_default(default_factory=dict)
     silent: Silent = NOTHING
@@ -75,3 +76,15 @@ class Closure:
 
     parameters: tuple[tuple[str, m.Type | None], ...]
     body: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """One of two functions, as a condition says."""
+
+    asked: m.Expression
+    then: Callee
+    otherwise: Callee
+
+
+Callee: TypeAlias = "str | Chosen"

@@ -20,7 +20,6 @@ from rebsync.reverse.python.generated.expression_reader import ModelExpressionRe
 from rebsync.reverse.python.generated.py_types import class_name, type_of
 from rebsync.reverse.python.generated.roles import PyRoles, PySends
 from rebsync.reverse.syntax.py_index import Scope
-from rebsync.reverse.syntax.py_tree import field, named
 from rebsync.static.types import is_floating, is_integer
 
 
@@ -39,7 +38,7 @@ def resolved(served: Served, owner: Scope, sends: PySends, function: Scope) -> P
 
     With the types of what it takes, and those that other servers of the name take.
     """
-    given = named(field(function.node, "parameters"))[1:]
+    given = function.parameter_nodes[1:]
     said = plain([type_of(p.child_by_field_name("type")) for p in given])
     types = said[sends.known is None :][: sends.arguments]
     message, _, key = sends.server.partition(" ")

@@ -1,29 +1,31 @@
-"""Methods of generated Python that give several values at once, which the model has no type for.
+"""Functions of generated Python that give what the model has no type for: several values, texts.
 
-Where one is called, what it gives stands in its place: attributes of the object, and numbers.
+Where a method is called that gives several values at once, these stand in its place: attributes of
+the object, and numbers.
 """
 
 from __future__ import annotations
 
 from tree_sitter import Node
 
-from rebsync.reverse.python.generated.py_types import is_text
+from rebsync.reverse.python.generated.module_variables import imported_as
+from rebsync.reverse.python.generated.py_types import is_text, type_of
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
 
 _PLAIN = frozenset({"attribute", "subscript", "integer", "true", "false", "identifier"})
+_TEXTS = frozenset({"string", "concatenated_string"})
 _TUPLES = (["expression_list"], ["tuple"])
 
 
-def values_given(code: PyCode, function: Scope) -> list[Node]:
+def values_given(function: Scope) -> list[Node]:
     """The values of `return self._x, self._y`, if a method does no more; empty for any other."""
     body = [s for s in body_of(function) if not is_text(s)]
-    is_alone = len(code.methods.get(function.name, ())) == 1 and not function.decorators
     given = named(body[0]) if len(body) == 1 and body[0].type == "return_statement" else []
     takes = [p.name for p in function.parameters]
-    if not is_alone or takes != ["self"] or [g.type for g in given] not in _TUPLES:
+    if takes != ["self"] or [g.type for g in given] not in _TUPLES:
         return []
     values = named(given[0])
     inside = [n for v in values for n in nodes_in(v) if n.is_named]
@@ -37,3 +39,36 @@ def values_given(code: PyCode, function: Scope) -> list[Node]:
         if n.type == "identifier" and not is_label(n)
     }
     return values if is_plain and names <= {"self"} else []
+
+
+def is_alone(code: PyCode, function: Scope) -> bool:
+    """Whether a method, or property, is the only one of its name, by which alone it runs."""
+    is_written = [*function.decorators] in ([], ["property"])
+    is_written = is_written or is_context(function.module, function)
+    is_called = is_written and function.name[:2] != "__"
+    return is_called and len(code.methods.get(function.name, ())) == 1
+
+
+def is_context(module: Scope, function: Scope) -> bool:
+    """Whether a function only makes contexts: `@contextmanager`."""
+    whole = [imported_as(module, each) for each in function.decorators]
+    return whole == ["contextlib.contextmanager"]
+
+
+def is_beside(function: Scope) -> bool:
+    """Whether a function gives what no variable of a model holds, such as a text: none has it.
+
+    What it does where it is called is asked of the form.
+    """
+    said = function.node.child_by_field_name("return_type")
+    if said is not None:
+        return type_of(said) is None
+    values = [v for r in function.returns for v in named(r)]
+    return bool(values) and all(map(_is_text, values))
+
+
+def _is_text(node: Node) -> bool:
+    if node.type == "conditional_expression":
+        then, _, otherwise = named(node)
+        return _is_text(then) and _is_text(otherwise)
+    return node.type in _TEXTS

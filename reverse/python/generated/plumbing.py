@@ -28,6 +28,7 @@ from rebsync.reverse.python.generated.py_types import (
     is_unset,
     literal_type,
     passed_on,
+    stored_into,
     type_made,
     type_of,
     without_parentheses,
@@ -115,6 +116,8 @@ class Plumbing:
 
     def _is_plain(self, function: Scope, decorator: str) -> bool:
         """Whether the model knows what a function is with it: what is called is no property."""
+        if function.name in self.roles.describing:
+            return True  # what it does is asked where it is used
         if decorator != "property":
             return decorator in DECORATORS
         roles, name = self.roles, function.name
@@ -184,7 +187,9 @@ class Plumbing:
                 continue
             if is_passed(statement, self.roles.env, self.numbers):
                 continue
-            is_late = is_constructed and not is_logger(expression_in(statement))
+            inner = expression_in(statement)
+            is_idle = stored_into(inner).removeprefix("self.") in self.silent.ticking
+            is_late = is_constructed and not (is_idle or is_logger(inner))
             if is_late or not self._sets_up(function, statement):
                 yield statement, _BEGUN if is_constructed else _WHY
             called, _ = call_parts(expression_in(statement)) or ("", [])

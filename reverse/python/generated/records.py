@@ -6,19 +6,18 @@ A tuple, whose fields are numbered, does not change: it is only bound once.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.python.generated.module_variables import hidden_names, imported_as
-from rebsync.reverse.python.generated.py_types import type_of
+from rebsync.records import dataclass
+from rebsync.reverse.python.generated.record_classes import fields_of, given_to, is_tuple
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
-from rebsync.reverse.python.values.py_worth import Class
+from rebsync.reverse.python.generated.stored import declaration
+from rebsync.reverse.python.generated.tuples import parts
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_index import Scope, has_splat
 from rebsync.reverse.syntax.py_tree import SCOPES, field, is_label, named, text_of
 
 _TARGETS = frozenset(
@@ -29,7 +28,6 @@ _TARGETS = frozenset(
         *("expression_list", "list_splat", "list_splat_pattern", "dictionary_splat"),
     }
 )
-_DATACLASS = re.compile(r"([\w.]+)(?:\((?:\s*(?:frozen|order|eq)\s*=\s*(?:True|False)\s*,?)*\))?\Z")
 
 
 def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m.Statement] | None:
@@ -39,55 +37,59 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
     if value is None or field(inner, "left").type != "identifier":
         return None
     name = text_of(field(inner, "left"))
-    if value.type == "tuple":
-        fields: Sequence[str] = [*map(str, range(len(named(value))))]
-        given: list[tuple[str, Node]] | None = [*zip(fields, named(value), strict=True)]
-    else:
-        is_call = value.type == "call"
-        fields = _fields_of(reader, text_of(field(value, "function"))) or () if is_call else ()
-        given = _given(value, fields) if fields else []
-    if not given or not _is_only_read(inner, name, fields):
+    made, own = _made_of(reader, value), reader.expressions
+    if made is None or not _is_only_read(inner, name, made.labels):
         return None
-    if any(f"{name}_{f}" in reader.expressions.locals for f in fields):
+    if any(f"{name}_{f}" in own.locals for f, _ in made.given):
         return None
-    found: list[m.Statement] = [reader.implied_local(f"{name}_{f}", v, node) for f, v in given]
-    own = reader.expressions
-    local = [own.value(m.Name(reader.local(f"{name}_{f}"))) for f, _ in given]
-    with own.standing_for([f"{name}.{f}" for f, _ in given], local):
+    found: list[m.Statement] = [_local(reader, f"{name}_{f}", v, node) for f, v in made.given]
+    local = [own.value(m.Name(reader.local(f"{name}_{f}"))) for f in made.fields]
+    with own.standing_for([f"{name}.{label}" for label in made.labels], local * made.ways):
         return [*found, *reader.block(rest, node).statements]
 
 
-def _fields_of(reader: ModelStatementReader, name: str) -> Sequence[str] | None:
-    """The fields of a data class whose objects only hold what they are made of; none has a default.
+@dataclass(frozen=True, slots=True)
+class _Made:
+    """A record: its fields, what they are given in the order of evaluation, and what reads them.
 
-    None: a name is not that of one, or of something else too.
+    Those of a named tuple are read by their numbers as well.
     """
-    names = reader.expressions.names
-    if name in hidden_names(names.constants.code.code, names.constants.module):
-        return None
-    match names.constants.code.of(names.constants.module, name):
-        case Class(owner) if _is_record(owner):
-            return _fields(owner) or None
-        case _:
-            return None
+
+    fields: Sequence[str]
+    given: Sequence[tuple[str, Node | m.Expression]]
+    labels: Sequence[str]
+
+    @property
+    def ways(self) -> int:
+        return len(self.labels) // len(self.fields)
 
 
-def _is_record(owner: Scope) -> bool:
-    heads = [_DATACLASS.match(d) for d in owner.decorators]
-    whole = [imported_as(owner.module, head[1]) if head else "" for head in heads]
-    return whole == ["dataclasses.dataclass"]
+def _made_of(reader: ModelStatementReader, value: Node) -> _Made | None:
+    called = text_of(field(value, "function")) if value.type == "call" else ""
+    if fields := fields_of(reader.expressions, called):
+        given = given_to(value, fields)
+        numbers = [*map(str, range(len(fields)))] if is_tuple(reader.expressions, called) else []
+        return _Made(fields, given, [*fields, *numbers]) if given else None
+    values = named(value) if value.type == "tuple" else _chosen(reader, value)
+    numbers = [*map(str, range(len(values or ())))]
+    return _Made(numbers, [*zip(numbers, values, strict=True)], numbers) if values else None
 
 
-def _given(call: Node, fields: Sequence[str]) -> list[tuple[str, Node]] | None:
-    """What each field is made of, in the order of evaluation; None where that fails."""
-    found = []
-    for index, argument in enumerate(named(field(call, "arguments"))):
-        if argument.type == "keyword_argument":
-            found.append((text_of(field(argument, "name")), field(argument, "value")))
-        elif index < len(fields):
-            found.append((fields[index], argument))
-    is_whole = sorted(f for f, _ in found) == sorted(fields) and not has_splat(call)
-    return found if is_whole and len(found) == len(named(field(call, "arguments"))) else None
+def _chosen(reader: ModelStatementReader, value: Node) -> Sequence[Node | m.Expression] | None:
+    """The elements of a tuple that a condition or a table chooses."""
+    is_one = value.type in ("conditional_expression", "call", "subscript")
+    return parts(reader.expressions, value, arrays=False) if is_one else None
+
+
+def _local(
+    reader: ModelStatementReader, name: str, value: Node | m.Expression, node: Node
+) -> m.Local:
+    if isinstance(value, Node):
+        return reader.implied_local(name, value, node)
+    type_ = reader.expressions.kind(value)
+    if type_ is None:
+        raise reader.expressions.unread(node, "say these values one by one")
+    return declaration(reader, name, type_, value, node)
 
 
 def _is_only_read(assignment: Node, name: str, fields: Sequence[str]) -> bool:
@@ -109,7 +111,7 @@ def _is_read(use: Node, function: Node, fields: Sequence[str]) -> bool:
         if above is None or text_of(above.child_by_field_name("attribute") or use) not in fields:
             return False
         node, above = above, above.parent
-    elif above is not None and above.type == "subscript":
+    elif above is not None and above.type in ("subscript", "attribute"):
         node, above = above, above.parent
     is_target = above is None or above.type in _TARGETS
     if above is not None and above.type in _STORING:
@@ -124,34 +126,3 @@ _STORING = frozenset(
         "named_expression",
     }
 )
-
-
-def _fields(scope: Scope) -> tuple[str, ...]:
-    """The fields of a data class; none where its objects may do more than to hold them."""
-    if scope.node.child_by_field_name("superclasses") is not None:
-        return ()
-    found = []
-    for statement in named(field(scope.node, "body")):
-        if statement.type == "function_definition":
-            if not _is_idle(statement):
-                return ()
-        elif (name := _declared(statement)) is not None:
-            found.append(name)
-        elif not (named(statement) and named(statement)[0].type == "string"):
-            return ()
-    return tuple(found)
-
-
-def _declared(statement: Node) -> str | None:
-    """The field that `x: int` declares."""
-    inner = named(statement)[0] if statement.type == "expression_statement" else statement
-    if inner.type != "assignment" or inner.child_by_field_name("right") is not None:
-        return None
-    said = field(inner, "type")
-    return text_of(field(inner, "left")) if type_of(said) or text_of(said) == "str" else None
-
-
-def _is_idle(function: Node) -> bool:
-    """Whether a method runs only where it is called by its name."""
-    name = text_of(field(function, "name"))
-    return not (name.startswith("__") and name.endswith("__"))

@@ -23,7 +23,7 @@ from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
 from rebsync.reverse.generated.receivers import Receivers, add_receiver
 from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.python.generated.descriptors import servers_of
-from rebsync.reverse.python.generated.pair_methods import values_given
+from rebsync.reverse.python.generated.pair_methods import is_alone, is_beside, values_given
 from rebsync.reverse.python.generated.parameters import (
     ParameterRead,
     declared_by,
@@ -52,15 +52,13 @@ from rebsync.reverse.python.generated.slicing.services import asked_back
 from rebsync.reverse.python.generated.slicing.timers import called_back, only_logs_by_words
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
+from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, PyParameter, Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 _RUNTIME = {"_mailbox", "_drive", "_state_pub"}
 # What offers a server, and how many arguments that takes.
-OFFERING = {
-    **dict.fromkeys(("offer", "offer_on_bridge"), (6,)),
-    **dict.fromkeys(("offer_action", "offer_action_on_bridge"), (6, 8)),
-}
+OFFERING: dict[str, tuple[int, ...]] = dict.fromkeys(("offer", "offer_on_bridge"), (6,))
+OFFERING |= dict.fromkeys(("offer_action", "offer_action_on_bridge"), (6, 8))
 _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox", *TEXTS}
 
 
@@ -68,14 +66,14 @@ _PLUMBING = {"__init__", "_wire", "_publish_state", "mailbox", *TEXTS}
 class PySends:
     """A function that sends: `known` as in the model, "self", or None for any rebec of a class.
 
-    `parameters` are the names of all that it is given, the time among them. `types` are those of
+    `parameters` are all that it is given, the time among them. `types` are those of
     the arguments, `rivals` the types that other servers of the name take.
     """
 
     known: str | None
     server: str
     arguments: int
-    parameters: tuple[str, ...] = ()
+    parameters: tuple[PyParameter, ...] = ()
     types: Signature = ()
     rivals: frozenset[Signature] = frozenset()
 
@@ -115,6 +113,7 @@ class PyRoles:
     shims: set[str] = with_default(default_factory=set)
     ticking: set[str] = with_default(default_factory=set)
     pairs: dict[str, list[Node]] = with_default(default_factory=dict)  # what methods give at once
+    describing: set[str] = with_default(default_factory=set)  # what no variable holds
     arguments: dict[str, str] = with_default(default_factory=dict)
     own: dict[str, tuple[OwnParameter, Node]] = with_default(default_factory=dict)
     told: list[OwnParameter] = with_default(default_factory=list)  # that people are told of
@@ -148,8 +147,8 @@ class PyRoles:
 
     def is_plumbing(self, name: str) -> bool:
         """Whether a function is none of the model's."""
-        others = (_PLUMBING, self.shims, self.sends, self.ticking, self.pairs)
-        return any(name in of for of in others)
+        added = self.ticking, self.pairs, self.describing
+        return any(name in of for of in (_PLUMBING, self.shims, self.sends, *added))
 
     @property
     def is_executable(self) -> bool:
@@ -169,8 +168,7 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
         if name in roles.functions:
             _wired(roles, roles.functions[name])
     own = only_once((name, own) for name, (own, _) in roles.own.items())
-    once = {name for name in own if roles.stored[name] == 1}
-    roles.own = {name: told for name, told in roles.own.items() if name in once}
+    roles.own = {n: t for n, t in roles.own.items() if n in own and roles.stored[n] == 1}
     servers = servers_of(owner.module)
     for function in roles.functions.values():
         if function.name not in _PLUMBING:
@@ -182,7 +180,9 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
         handed += filter(None, map(own_method, nodes_in(roles.functions["_publish_state"].node)))
     roles.ticking.update(n for n in handed if is_people_own(roles, n))
     added = (f for n, f in roles.functions.items() if is_people_own(roles, n))
-    roles.pairs = {f.name: given for f in added if (given := values_given(code, f))}
+    alone = [f for f in added if is_alone(code, f)]
+    roles.pairs = {f.name: given for f in alone if (given := values_given(f))}
+    roles.describing = {f.name for f in alone if is_beside(f)} - roles.pairs.keys()
     return roles
 
 
@@ -324,17 +324,18 @@ def variable_name(attribute: str, markers: Collection[str]) -> str:
 def _does(
     roles: PyRoles, function: Scope, servers: dict[str, tuple[str, tuple[m.Annotation, ...]]]
 ) -> None:
+    passed = tuple(function.parameters[1:])
+    is_timed = "when" in {p.name for p in passed}
     body = (raising_again(s) or ([s], []) for s in body_of(function))
     for statement in (s for inner, _ in body for s in inner):
         inner = named(statement)[0] if statement.type == "expression_statement" else None
         called, arguments = call_parts(inner) or ("", [])
-        passed = [p.name for p in function.parameters[1:]]
         if called == "self._mailbox.receive" and len(arguments) == 5 and function.parameters:
             _received(roles, function, arguments, servers)
-        elif called == "self._mailbox.post" and arguments and "when" in passed:
-            server = servers.get(text_of(arguments[0]), ("", ()))[0]
-            roles.sends[function.name] = PySends("self", server, len(passed) - 1, tuple(passed))
-        elif called == "self._mailbox.publish" and len(arguments) == 3 and "when" in passed:
+        elif called == "self._mailbox.post" and arguments and is_timed:
+            server, _ = servers.get(text_of(arguments[0]), ("", ()))
+            roles.sends[function.name] = PySends("self", server, len(passed) - 1, passed)
+        elif called == "self._mailbox.publish" and len(arguments) == 3 and is_timed:
             _published(roles, function, arguments[0], passed)
 
 
@@ -371,14 +372,14 @@ def _received(
             roles.orders.append((text_of(message), fields))
 
 
-def _published(roles: PyRoles, function: Scope, publisher: Node, passed: list[str]) -> None:
-    parts = call_parts(publisher)
-    member = parts[1][0] if parts is not None and parts[0] == "to" else publisher
+def _published(roles: PyRoles, function: Scope, by: Node, passed: tuple[PyParameter, ...]) -> None:
+    parts = call_parts(by)
+    member = parts[1][0] if parts is not None and parts[0] == "to" else by
     found = roles.publishers.get(text_of(member).removeprefix("self."))
     if found is not None:
         known, key, message = found
         count = len(passed) - 1 - (known is None)
-        roles.sends[function.name] = PySends(known, f"{message} {key}", count, tuple(passed))
+        roles.sends[function.name] = PySends(known, f"{message} {key}", count, passed)
 
 
 def plain_name(function: Scope) -> str:

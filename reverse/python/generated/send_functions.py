@@ -28,7 +28,7 @@ from rebsync.reverse.python.generated.py_types import (
 )
 from rebsync.reverse.python.generated.roles import PySends
 from rebsync.reverse.syntax.py_index import Scope
-from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.reverse.syntax.py_tree import text_of
 
 _SENDER = "self._mailbox.self()"
 _AT_ONCE = frozenset({"AT_ONCE", "When()"})
@@ -78,8 +78,7 @@ def _is_as_generated(
 
 def _types(function: Scope) -> Iterator[tuple[str, m.Type | None]]:
     """The parameters with the types that they are said to have."""
-    nodes = named(field(function.node, "parameters"))
-    for parameter, node in zip(function.parameters, nodes, strict=False):
+    for parameter, node in zip(function.parameters, function.parameter_nodes, strict=False):
         yield parameter.name, type_of(node.child_by_field_name("type"))
 
 

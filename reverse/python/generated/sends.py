@@ -9,12 +9,13 @@ from rebsync.names import original
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.python.generated import idioms
-from rebsync.reverse.python.generated.arrays import array_elements
+from rebsync.reverse.python.generated.arguments import in_order
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.overloads import told
 from rebsync.reverse.python.generated.pairs import values_in_place
 from rebsync.reverse.python.generated.py_types import string_value
 from rebsync.reverse.python.generated.roles import PySends
+from rebsync.reverse.python.generated.tuples import parts
 from rebsync.reverse.syntax.py_tree import named, text_of
 
 _CLOCK = names_in_model(Language.PYTHON)
@@ -71,7 +72,7 @@ def sent(
     """What a function that sends is given, as a send of the model."""
     span, is_to_any = reader.py.span(node), sends.known is None
     expected = sends.arguments + is_to_any
-    arguments = idioms.in_order(reader, node, arguments, sends.parameters)
+    arguments = in_order(reader, node, arguments, sends.parameters)
     rest = arguments[is_to_any:]
     values: list[m.Expression] = []
     target: m.Expression = m.Self(span)
@@ -80,7 +81,7 @@ def sent(
     elif sends.known is not None and sends.known != "self":
         target = m.Name(sends.known, span)
     while rest and len(values) < sends.arguments:
-        values += _unpacked(reader, rest.pop(0))
+        values += unpacked(reader, rest.pop(0))
     if len(values) != sends.arguments or len(rest) > 1 or len(arguments) < is_to_any:
         raise reader.unread(node, f"this sends with {expected} arguments")
     times = idioms.times(reader, rest[0]) if rest else {}
@@ -88,13 +89,13 @@ def sent(
     return m.Call(target, sends.server, given, times.get("after"), times.get("deadline"), span)
 
 
-def _unpacked(reader: ModelExpressionReader, node: Node) -> list[m.Expression]:
+def unpacked(reader: ModelExpressionReader, node: Node) -> list[m.Expression]:
     """One argument, or the elements of an array behind a star."""
     if node.type != "list_splat":
         return [reader.expression(node)]
     if values := values_in_place(reader, named(node)[0]):
         return [*map(reader.expression, values)]
-    elements = array_elements(reader, named(node)[0])
+    elements = parts(reader, named(node)[0])
     if elements is None:
         raise reader.unread(node, "nobody knows how many values this gives")
     return elements

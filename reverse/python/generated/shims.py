@@ -27,7 +27,7 @@ from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
-from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
+from rebsync.reverse.syntax.py_tree import calls_in, field, text_of
 from rebsync.static.types import PRIMITIVES
 
 RECEIVE = "self._mailbox.receive"
@@ -101,7 +101,7 @@ def _hands_fields_on(
     """Whether a handler gets the fields of a message, all of them in their order, as they are."""
     given = [field_read(value, message) for value in values]
     count = len(handler.parameters) - 1 if handler is not None else len(given)
-    nodes = named(field(handler.node, "parameters"))[-count:] if handler and count else []
+    nodes = handler.parameter_nodes[-count:] if handler and count else []
     types = [type_of(n.child_by_field_name("type")) for n in nodes] or [None] * len(given)
     if len(types) != len(given) or not all(map(_is_as_it_is, values, types)):
         return False

@@ -14,6 +14,7 @@ from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, cell
 from rebsync.reverse.python.generated import (
     aliases,
+    callees,
     counts,
     endings,
     going_on,
@@ -37,6 +38,7 @@ from rebsync.reverse.python.generated.py_types import (
     type_of,
     without_parentheses,
 )
+from rebsync.reverse.python.generated.sends import unpacked
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import field, named, text_of
@@ -170,13 +172,16 @@ class Statements(ModelStatementReader):
         called, arguments = call_parts(inner) or ("", [])
         if called in self.inner:
             return inner_functions.inline_call(self, inner, called, arguments)
-        if called == "self._drive.move" and len(arguments) == 2:
-            cells = tuple(map(self._cell, ("X", "Y"), arguments))
+        if called == "self._drive.move":
+            by = [(e, a) for a in arguments for e in unpacked(self.expressions, a)]
+            if len(by) != 2:
+                raise self.expressions.unread(inner, "this moves along x and along y")
+            cells = tuple(self._cell(axis, *each) for axis, each in zip("XY", by, strict=True))
             return [m.Empty((m.Annotation("Move", cells, span),), span)]
-        return [m.ExpressionStatement(self.expressions.expression(inner), span=span)]
+        return [callees.evaluated(self.expressions, inner)]
 
-    def _cell(self, axis: str, node: Node) -> m.Expression:
-        found = bare(self.expressions.expression(node))
+    def _cell(self, axis: str, by: m.Expression, node: Node) -> m.Expression:
+        found = bare(by)
         if isinstance(found, m.Unary) and node.type != "unary_operator":
             return m.Binary("+", m.Name(axis), found)
         return cell(axis, found)
@@ -199,8 +204,8 @@ class Statements(ModelStatementReader):
             return [self._declared(name, self.hoisted.pop(name), value, node)]
         if inner_functions.named_lambda(self, left, value):
             return []
-        if inner_functions.kept_send(self, left, value):
-            return []
+        if (sends := inner_functions.kept_send(self, left, value)) is not None:
+            return sends
         if inner_functions.kept_table(self, left, value):
             return []
         if (times := inner_functions.kept_moment(self, left, value)) is not None:

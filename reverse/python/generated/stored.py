@@ -67,14 +67,16 @@ def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     """
     lefts, right = named(field(node, "left")), field(node, "right")
     expressions = reader.expressions
-    elements = tuples.kept(expressions, right) or arrays.array_elements(expressions, right)
+    is_plain = right.type in ("expression_list", "tuple")
+    values = values_in_place(expressions, right)
+    elements = None if is_plain or values else tuples.parts(expressions, right)
     if elements is not None and len(elements) == len(lefts):
-        if text_of(right) in {idioms.base_of(left) for left in lefts}:
+        read = {n.name for e in elements for n in m.walk(e) if isinstance(n, m.Name | m.Member)}
+        if not read.isdisjoint(map(expressions.variable, map(idioms.base_of, lefts))):
             raise expressions.unread(node, _WHOLE)
         pairs = zip(lefts, elements, strict=True)
         return [s for left, e in pairs for s in _given(reader, left, e, node)]
-    values = values_in_place(expressions, right)
-    if not values and right.type in ("expression_list", "tuple"):
+    if not values and is_plain:
         values = named(right)
     lefts, values = _flat(lefts, values)
     if len(lefts) != len(values) or "list_splat" in {v.type for v in (*lefts, *values)}:
@@ -151,12 +153,13 @@ def _given(
     type_ = reader.expressions.kind(value)
     if type_ is None:
         raise reader.expressions.unread(node, f'say the type of "{name}" where it is first set')
-    return [_declaration(reader, name, type_, value, node)]
+    return [declaration(reader, name, type_, value, node)]
 
 
-def _declaration(
+def declaration(
     reader: ModelStatementReader, name: str, type_: m.Type, value: m.Expression | None, node: Node
 ) -> m.Local:
+    """A local with its type, which the block ends."""
     span = reader.expressions.py.span(node)
     plain = reader.local(name)
     reader.implied.add(name)
@@ -242,7 +245,7 @@ def declared_before(
         except Unread:
             continue  # it is listed where it stands
         if type_ is not None:
-            found.append(_declaration(reader, name, type_, None, node))
+            found.append(declaration(reader, name, type_, None, node))
     return found
 
 
@@ -295,11 +298,20 @@ def _of_all_branches(node: Node) -> dict[str, Node]:
         body = field(part, "body" if part.type == "else_clause" else "consequence")
         inner = [named(s)[0] for s in named(body) if s.type == "expression_statement" and named(s)]
         plain = [a for a in inner if a.type == "assignment" and a.child_by_field_name("right")]
-        stores = [a for a in plain if field(a, "left").type == "identifier"]
-        untyped = [a for a in stores if a.child_by_field_name("type") is None]
-        found.append({text_of(field(a, "left")): field(a, "right") for a in reversed(untyped)})
+        untyped = [a for a in plain if a.child_by_field_name("type") is None]
+        found.append({text_of(n): v for a in reversed(untyped) for n, v in _pairs(a)})
     first, *others = found
     return {k: v for k, v in first.items() if all(k in other for other in others)}
+
+
+def _pairs(assignment: Node) -> Iterator[tuple[Node, Node]]:
+    """The names that an assignment gives values, with these: `x = e`, `x, y = e, f`."""
+    left, right = field(assignment, "left"), field(assignment, "right")
+    is_many = left.type in ("pattern_list", "tuple_pattern")
+    is_many = is_many and right.type in ("expression_list", "tuple")
+    lefts, values = _flat(named(left), named(right)) if is_many else ([left], [right])
+    if len(lefts) == len(values):
+        yield from (p for p in zip(lefts, values, strict=True) if p[0].type == "identifier")
 
 
 def deleted(reader: ModelStatementReader, node: Node) -> list[m.Statement]:

@@ -1,4 +1,4 @@
-"""Comparisons of tuples and lists that are written out: lexicographical, element by element."""
+"""Tuples of generated Python, element by element: the model has none. They compare so, too."""
 
 from __future__ import annotations
 
@@ -8,13 +8,17 @@ from functools import partial, reduce
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.models.building import binary, is_calm
+from rebsync.reverse.models.building import binary, chosen, is_calm
+from rebsync.reverse.python.expressions.values import TRUTH, WHOLE
 from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.arrays import array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.failing import may_fail
 from rebsync.reverse.python.generated.kinds import is_floating
+from rebsync.reverse.python.generated.pairs import values_in_place
 from rebsync.reverse.python.generated.py_types import call_parts, without_parentheses
+from rebsync.reverse.python.generated.record_classes import fields_of, given_to, is_tuple
+from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 
@@ -24,6 +28,117 @@ def kept(reader: ModelExpressionReader, node: Node) -> list[m.Expression] | None
     while (each := reader.bound.get(f"{text_of(node)}.{len(found)}")) is not None:
         found.append(each)
     return found or None
+
+
+def parts(
+    reader: ModelExpressionReader, node: Node, *, arrays: bool = True
+) -> list[m.Expression] | None:
+    """The elements of a tuple that is written out, kept, constant, or chosen, or of an array.
+
+    None for anything else, and where to evaluate one may fail, or does something.
+    """
+    node, text = without_parentheses(node), text_of(node)
+    if node.type in ("identifier", "attribute"):
+        is_own = reader.hides_name(text.partition(".")[0])
+        found = kept(reader, node) or (not is_own and [*reader.names.constants.tuple_of(text)])
+        found = found or [*map(reader.expression, values_in_place(reader, node))]
+        return found or (array_elements(reader, node) if arrays else None)
+    if may_fail(reader, node):
+        return None
+    match node.type, named(node):
+        case "tuple", values:
+            return _calm([reader.expression(each) for each in values])
+        case "conditional_expression", [then, condition, otherwise]:
+            ways = [parts(reader, way, arrays=arrays) for way in (then, otherwise)]
+            return _chosen(reader.condition(condition), *ways) if all(ways) else None
+        case _ if given := values_in_place(reader, node):
+            return [*map(reader.expression, given)]
+        case "call", _ if is_tuple(reader, called := text_of(field(node, "function"))):
+            fields = fields_of(reader, called) or ()
+            of_fields = dict(given_to(node, fields) or ())
+            return _calm([reader.expression(of_fields[f]) for f in fields if f in of_fields])
+        case _:
+            return looked_up(reader, node)
+
+
+def _calm(found: list[m.Expression]) -> list[m.Expression] | None:
+    return found if found and all(map(is_calm, found)) else None
+
+
+def _chosen(
+    asked: m.Expression, then: list[m.Expression] | None, otherwise: list[m.Expression] | None
+) -> list[m.Expression] | None:
+    """The elements of one of two tuples of the same length."""
+    if not (then and otherwise) or len(then) != len(otherwise) or not is_calm(asked):
+        return None
+    pairs = zip(then, otherwise, strict=True)
+    return [one if one == other else chosen(asked, one, other) for one, other in pairs]
+
+
+def looked_up(
+    reader: ModelExpressionReader, node: Node, *, single: bool = False
+) -> list[m.Expression] | None:
+    """`TABLE.get(key, (a, b))`, and `TABLE[key]` of a truth value: a tuple, or a `single` value."""
+    row = _single if single else parts
+    called, arguments = call_parts(node) or ("", [])
+    found: list[m.Expression] | None = None
+    if called.endswith(".get") and len(arguments) == 2:
+        of, key, kind = field(field(node, "function"), "object"), arguments[0], WHOLE
+        found = row(reader, arguments[1])
+    elif node.type == "subscript":
+        of, key, kind = field(node, "value"), field(node, "subscript"), TRUTH
+    else:
+        return None
+    written = table(reader, of)
+    entries = [n for n in named(written) if n.type == "pair"] if written is not None else []
+    if written is None or len(entries) != len(named(written)) or (kind == WHOLE and not found):
+        return None
+    if kind == TRUTH and {text_of(field(n, "key")) for n in entries} != {"True", "False"}:
+        return None
+    asked = reader.read(key)
+    for number, entry in enumerate(entries):
+        known, values = reader.read(field(entry, "key")), row(reader, field(entry, "value"))
+        if not asked.kind == known.kind == kind:
+            return None
+        is_it = binary("==", asked.expression, known.expression)
+        found = _chosen(is_it, values, found) if number or kind == WHOLE else values
+    return found
+
+
+def looked_up_one(reader: ModelExpressionReader, node: Node) -> m.Expression:
+    """The same of a table of plain values. Unread: it may have no such key."""
+    found = looked_up(reader, node, single=True)
+    if found is None:
+        raise reader.unread(node, "say what there is for each value by `if`")
+    return found[0]
+
+
+def _single(reader: ModelExpressionReader, node: Node) -> list[m.Expression] | None:
+    return None if may_fail(reader, node) else _calm([reader.expression(node)])
+
+
+def table(reader: ModelExpressionReader, node: Node) -> Node | None:
+    """A table as it is written: in place, kept in a local, or a constant."""
+    if node.type == "dictionary":
+        return node
+    kept_ = reader.kept_tables.get(text_of(node))
+    return kept_ if kept_ is not None else _constant(reader, node, "dictionary")
+
+
+def members(reader: ModelExpressionReader, node: Node) -> list[m.Expression] | None:
+    """The elements of a constant set, in any order."""
+    found = _constant(reader, node, "set", "list", "tuple")
+    return None if found is None else _calm([reader.expression(each) for each in named(found)])
+
+
+def _constant(reader: ModelExpressionReader, node: Node, *types: str) -> Node | None:
+    """The display that a name always stands for, if what it says means the same here."""
+    text = text_of(node)
+    is_own = reader.hides_name(text.partition(".")[0])
+    found = None if is_own else reader.names.constants.container(text)
+    names = (n for n in nodes_in(found) if n.type == "identifier") if found is not None else ()
+    is_same = all(not reader.hides_name(text_of(n)) and "." not in text for n in names)
+    return found if found is not None and found.type in types and is_same else None
 
 
 def _elements(
@@ -37,7 +152,7 @@ def _elements(
     if called == "tuple" and reader.library(field(node, "function")) and len(arguments) == 1:
         found = array_elements(reader, arguments[0])
     else:
-        found = kept(reader, node)
+        found = parts(reader, node, arrays=False)
     return None if found is None else ("tuple", found)
 
 

@@ -57,6 +57,7 @@ _UNWANTED = frozenset(
         *("environment", "launch file", UNKNOWN, "parameters", PYTHON_SETTING),
     }
 )
+_ALONE = r"(?<![\w.]){}\b(?!\s+as\b)"
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
 
 
@@ -198,10 +199,10 @@ class Excuses:
         return is_own and is_met
 
     def _is_named(self, fact: Fact) -> bool:
-        """Whether the code of a class still has a name."""
+        """Whether the code of a class still has a name, alone and not as what another is for."""
         facts = chain.from_iterable(f for (_, of, _), f in self.today.items() if of == fact.owner)
         texts = {f.source.text for f in facts if not f.source.path.endswith(".msg")}
-        return not texts or any(re.search(rf"\b{fact.name}\b", text) for text in texts)
+        return not texts or any(map(re.compile(_ALONE.format(fact.name)).search, texts))
 
     def _is_of_a_topic(self, remap: Fact) -> bool:
         """Whether a remap has the last name of a topic of the package, where no more is known."""

@@ -77,16 +77,14 @@ class ToldEffects(Foreign):
         return not any(isinstance(n, e.Captured) for n in walk(body)) and self.is_closed(name)
 
     def gives_free(self, getter: str) -> bool:
-        """Whether a method of the object gives a free value, and does nothing else."""
+        """Whether a method of the object gives a free value for such, and does nothing else."""
         if getter not in self.giving:
             self.giving[getter] = False  # while it is looked at: none may call itself
             function = self.form.program.function(getter)
-            scope = ToldScope(self, function, ToldPlaces(locals=_locals_of(function)))
-            match function.body:
-                case (*before, s.Return(value)) if value is not None:
-                    is_free = scope.body(tuple(before)) and scope.is_free(value)
-                    is_free = is_free and self._acts_as_known(scope, function, function.place)
-                    self.giving[getter] = is_free
+            places = ToldPlaces(locals=_locals_of(function))
+            scope = ToldScope(self, function, places, gives=True)
+            is_free = scope.body(function.body)
+            self.giving[getter] = is_free and self._acts_as_known(scope, function, function.place)
         return self.giving[getter]
 
     def describes(self, owner: str) -> bool:
@@ -94,12 +92,14 @@ class ToldEffects(Foreign):
         found = {f for name in TEXTS for f in self.origins.methods(owner, name)}
         functions = map(self.form.program.function, found)
         return all(
-            self.gives_free(f.name)
-            and isinstance(last := f.body[-1], s.Return)
-            and last.value is not None
-            and self.form.kinds(f).types(last.value, frozenset()) == A_TEXT
+            self.gives_free(f.name) and isinstance(f.body[-1], s.Return) and self._gives_texts(f)
             for f in functions
         )
+
+    def _gives_texts(self, function: Function) -> bool:
+        given = [n.value for n in walk(function.body) if isinstance(n, s.Return)]
+        kinds = self.form.kinds(function)
+        return all(v is not None and kinds.types(v, frozenset()) == A_TEXT for v in given)
 
     def is_closed(self, name: str) -> bool:
         """The same of one that gets free values only from around it as well."""
@@ -111,7 +111,8 @@ class ToldEffects(Foreign):
 
 
 def _locals_of(function: Function) -> frozenset[str]:
-    """The locals of a function that are none of its parameters."""
+    """The locals of a function, its parameters among them, but for the object."""
     stored = (getattr(n, "target", None) for n in walk(function.body))
     names = {target.name for target in stored if isinstance(target, e.Local)}
-    return frozenset(names.difference(p.name for p in function.parameters))
+    names.update(p.name for p in function.parameters)
+    return frozenset(names.difference([function.receiver]))

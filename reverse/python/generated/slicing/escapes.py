@@ -81,7 +81,7 @@ class Foreign(ABC):
 
     @abstractmethod
     def gives_free(self, getter: str) -> bool:
-        """Whether a property of the object gives a free value, and does nothing else."""
+        """Whether a method of the object gives a free value for such, and does nothing else."""
 
     @abstractmethod
     def describes(self, owner: str) -> bool:
@@ -100,7 +100,7 @@ class ToldValues(ABC):
     temporaries that hold an array of the model, and so are only looked at; `loggers` those that
     hold a logger, `clocks` a clock or what one says, `publishing` a publisher, `fields` a message
     for people or its field, `whole` a whole number; `known` are the places of calls, by functions,
-    of which the rest of the form does not know what they do.
+    of which the rest of the form does not know what they do; `gives` says that a result is free.
     """
 
     effects: Foreign
@@ -116,6 +116,12 @@ class ToldValues(ABC):
     outside: ToldValues | None = None
     whole: set[e.Expression] = with_default(default_factory=set)
     loops: int = 0
+    gives: bool = False
+
+    @property
+    def depth(self) -> int:
+        """How many functions this one is looked at within."""
+        return 0 if self.outside is None else 1 + self.outside.depth
 
     @property
     def is_all_own(self) -> bool:

@@ -19,6 +19,7 @@ from rebsync.reverse.python.generated.slicing.log_words import ON_CLOCKS
 _LOG_LEVELS = frozenset({"debug", "info", "warn", "warning", "error", "fatal", "critical"})
 _SENDING, _ADDING = frozenset({"publish", "sendTransform"}), frozenset({"append", "extend"})
 _REPLACE = "dataclasses.replace"
+_DEEPEST = 4
 _SUPPRESS = "contextlib.suppress"
 _CONTEXTS = frozenset({LibraryOrigin(_SUPPRESS, True)})
 _ASKING = frozenset({"get", "items", "keys", "values", "index", "count"})  # of a constant table
@@ -66,7 +67,7 @@ class ToldScope(ToldValues):
             case s.Call() | s.Construct():
                 return self._called(node)
             case s.Return(value):
-                return self.is_all_own and self.is_free_or_none(value)
+                return (self.is_all_own or self.gives) and self.is_free_or_none(value)
             case s.Yield(target, value):
                 return self.is_all_own and target is None and self.is_free(value)
             case s.Break() | s.Continue():
@@ -168,15 +169,22 @@ class ToldScope(ToldValues):
     def _calls(self, node: s.Call) -> bool:
         match node.callee:
             case s.FunctionCallee(name):
-                return self._given(node) and self.effects.is_foreign(name)
+                is_free = self._given(node)
+                return self.effects.is_foreign(name) if is_free else self._runs(node, name)
             case s.LibraryCallee(name, None):
                 return self._calls_library(node, name)
             case s.ValueCallee(e.Closure(name)):
                 return self._runs(node, name)
             case s.ValueCallee(value):
                 held = self.effects.origins.of(value, self.function.name)
-                is_free = bool(held) and self._given(node) and all(map(self.enters, held))
-                return is_free and (
+                is_given = self._given(node)
+                does_nothing = (
+                    self.enters(o)
+                    if is_given
+                    else isinstance(o, FunctionOrigin) and self._runs(node, o.name)
+                    for o in held
+                )
+                return (bool(held) and all(does_nothing)) and (
                     self._is_defined(value, self.function.name) or self.has_keys(node)
                 )
             case s.MethodCallee(receiver, name, after=None):
@@ -197,8 +205,10 @@ class ToldScope(ToldValues):
                 return False
 
     def _runs(self, node: s.Call, name: str) -> bool:
-        """A generator that is written in place goes through what it gets: an array, perhaps."""
+        """A function, or a generator that is written in place, looks at an array that it gets."""
         function = self.effects.form.program.function(name)
+        if self.depth > _DEEPEST or any(a.stars or a.name for a in node.arguments):
+            return False
         inner = ToldScope(self.effects, function, self.places, outside=self)
         for parameter, argument in zip(function.parameters, node.arguments, strict=False):
             if self.is_table(argument.value):
@@ -287,6 +297,11 @@ class ToldScope(ToldValues):
             is_whole = len(node.arguments) == places.logging[name]
             by_position = all(not a.stars and a.name is None for a in node.arguments)
             return is_whole and by_position and self._given(node, seen=True)
+        found = self.effects.origins.methods(owner, name)
+        if found and all(map(self.effects.gives_free, found)):
+            for each in found:
+                self.known.update(self.effects.acting(each))
+            return self._given(node)
         if not places.logs or name not in asked_of_node() or node.arguments:
             return False
         self._know(node)

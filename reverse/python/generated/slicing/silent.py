@@ -63,7 +63,8 @@ class Silent:
     nobody hears. `locals` are what a function makes or measures for people, by the function's node,
     and `counters` variables of the module; `form` tells who may wait for a lock; `asked` are
     services and diagnostics; `exceptions` say what may fail of what is told, `effects` what else it
-    does. `plain` are texts that nothing goes through while they change.
+    does. `plain` are texts that nothing goes through while they change, `describing` methods that
+    give what no variable of the model holds.
     """
 
     texts: frozenset[str] = frozenset()
@@ -79,6 +80,7 @@ class Silent:
     exceptions: ToldExceptions = ToldExceptions()
     effects: ToldEffects | None = None
     plain: frozenset[str] = frozenset()
+    describing: frozenset[str] = frozenset()
 
     @property
     def looks(self) -> Looks:
@@ -148,7 +150,7 @@ class Silent:
         if self.effects is None or py is None:
             return False
         words = local | self.counters | self.looks.loggers
-        members = self.texts | self._publishers | self.timers.logging.keys()
+        members = self.texts | self._publishers | self.timers.logging.keys() | self.describing
         if not may_tell(node, words, members):
             return False
         places = ToldPlaces(
@@ -221,9 +223,11 @@ def silent_in(
         exceptions,
         ToldEffects(form, variables, {n for r in roles for n in (*r.known, *r.env)}, made_of),
         plain,
+        frozenset(name for r in roles for name in r.describing),
     )
     found = replace(found, texts=found.texts - found.rest)
     speaking = found.members | looks.loggers | looks.logging.keys() | found.counters
+    makers |= {f"self.{name}" for name in found.describing}
     found = replace(found, locals=candidate_locals(code, functions.values(), speaking, makers))
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)
