@@ -20,6 +20,10 @@ class Span:
         """The range from the start of this span to the end of `other`."""
         return Span(self.start, other.end)
 
+    def holds(self, inner: Span) -> bool:
+        """Whether another range lies in this one, or is the same."""
+        return self.start <= inner.start and inner.end <= self.end
+
 
 NOWHERE = Span(0, 0)
 

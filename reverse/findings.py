@@ -123,9 +123,7 @@ class Findings:
     def has_unreadable(self, source: Source, span: Span) -> bool:
         """Whether a place, or one around it, is listed as one that the model lacks."""
         return any(
-            f.grade is Grade.UNREADABLE
-            and f.source is source
-            and (f.span.start <= span.start and span.end <= f.span.end)
+            f.grade is Grade.UNREADABLE and f.source is source and f.span.holds(span)
             for f in self.all
         )
 

@@ -45,7 +45,7 @@ def failures(
         return
     found = list(form.looked_up(function.cpp, function.body))
     for lookup in found:
-        if any(lookup.start <= o.start and o.end <= lookup.end and o != lookup for o in found):
+        if any(lookup.holds(o) and o != lookup for o in found):
             continue  # what is in it says it
         root = _ROOT.match(function.cpp.source.text, lookup.start)
         is_told = any(s.start <= lookup.start < s.end for s in map(span, told))

@@ -73,7 +73,7 @@ def acting_in_blocks(
     """
     around = cpp.span(body)
     every = user_blocks(cpp.source.text)
-    blocks = [b for b in every if around.start <= b.start and b.end <= around.end]
+    blocks = [b for b in every if around.holds(b)]
     spans = [b for b in blocks if not any(b.start <= at.start <= b.end for at in listed)]
     if spans:
         yield from _SensorProgram(code).acting_in(body, spans)

@@ -71,6 +71,12 @@ class Function:
     noexcept: bool = False
 
 
+def innermost(functions: Iterable[Function], place: Span) -> Function | None:
+    """The function that a place is in, not around another one that it is in; None if there is none."""
+    around = (f for f in functions if f.place.holds(place))
+    return min(around, key=lambda f: f.place.end - f.place.start, default=None)
+
+
 @dataclass(frozen=True, slots=True)
 class Property:
     """An attribute that is computed: the functions that get, set and delete it."""

@@ -101,4 +101,4 @@ def _is_apart(part: m.Expression, whole: Span) -> bool:
     places = [n.span for n in made if n.span != NOWHERE]
     if whole == NOWHERE or not places:
         return not _may_act(part)
-    return not any(whole.start <= place.start and place.end <= whole.end for place in places)
+    return not any(map(whole.holds, places))

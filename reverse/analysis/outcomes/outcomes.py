@@ -126,7 +126,7 @@ class OutcomeAnalysis:
 
     def _raised_by(self, function: Function, span: Span) -> frozenset[Problem]:
         def is_own(p: Problem) -> bool:
-            return bool(p.raises) and p.function == function.name and _is_in(p.place, span)
+            return bool(p.raises) and p.function == function.name and span.holds(p.place)
 
         of_statements = self.of_statements(function, span)
         # Most statements raise nothing: then nobody looks at what else the function calls.
@@ -251,7 +251,7 @@ def _within(nested: Iterable[_Nested], span: Span) -> Iterator[s.Statement]:
     of that only the destruction is the local's own.
     """
     for node in nested:
-        is_there = _is_in(node.place, span)
+        is_there = span.holds(node.place)
         match node.statement:
             case s.Try(final=final) if any(isinstance(n, s.Destroy) for n in final):
                 ends = set(map(id, final))
@@ -262,13 +262,10 @@ def _within(nested: Iterable[_Nested], span: Span) -> Iterator[s.Statement]:
                 yield statement
             case statement:
                 yield from _within(node.inner, span)
-                is_around = node.place.start <= span.start and span.end <= node.place.end
-                if is_around and not any(_meets(inner.place, span) for inner in node.inner):
+                if node.place.holds(span) and not any(
+                    _meets(inner.place, span) for inner in node.inner
+                ):
                     yield from _head(statement)
-
-
-def _is_in(place: Span, span: Span) -> bool:
-    return span.start <= place.start and place.end <= span.end
 
 
 def _meets(place: Span, span: Span) -> bool:

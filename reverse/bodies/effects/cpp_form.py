@@ -239,7 +239,7 @@ class CppForm:
         owner = self._lowering.world.symbols.classes.get(symbol.owner or "")
         names = (symbol.name, *lambda_names(symbol, owner).values())
         found = {p.place for n in names for p in self._outcomes.own(n) if p.why == NOTHING_THERE}
-        inside_ = (p for p in found if span.start <= p.start and p.end <= span.end)
+        inside_ = (p for p in found if span.holds(p))
         return sorted(inside_, key=lambda p: (p.start, p.end))
 
     def raised_at_start(self, owner: CppClass, member: str) -> str | None:

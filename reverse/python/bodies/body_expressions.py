@@ -39,7 +39,6 @@ from rebsync.reverse.syntax.py_tree import (
     text_in,
     text_of,
 )
-from rebsync.source import Span
 
 _POSITIVE = Interval(1, INT32.high)
 _DIVISOR = "a divisor that may be 0 or negative"
@@ -59,7 +58,7 @@ class PyExpressions(BodyExpressionReader):
         except Unread:
             # The model has nothing of it: neither what was read before this was found.
             path, span = self.frame.py.source.path, self.span(node)
-            within = {p for p in self.reading.exact if p[0] == path and _is_in(p[1], span)}
+            within = {p for p in self.reading.exact if p[0] == path and span.holds(p[1])}
             self.reading.exact -= within
             raise
 
@@ -363,7 +362,3 @@ def _is_float(value: Value) -> bool:
 def short(node: Node) -> str:
     text = " ".join(text_of(node).split())
     return text if len(text) <= 40 else f"{text[:37]}..."
-
-
-def _is_in(place: Span, span: Span) -> bool:
-    return span.start <= place.start and place.end <= span.end

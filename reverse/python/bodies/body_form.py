@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 
 from tree_sitter import Node
@@ -18,7 +18,7 @@ from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.build.message_types import MessageTypes
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.program import Function, Program
+from rebsync.reverse.ir.program import Function, Program, innermost
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries import python
@@ -102,15 +102,14 @@ class PyForm:
 
     def raised(self, py: Py, place: Span) -> Iterator[tuple[Problem, Scope]]:
         """The exceptions that leave a function from a place in it, each with where it is raised."""
-        around = [f for f in self._bodies(py) if _is_in(place, f.place)]
-        if not around:
+        function = innermost(self._bodies(py), place)
+        if function is None:
             return
-        function = min(around, key=lambda f: f.place.end - f.place.start)
         elsewhere = []
         for problem, scope in self._leaving(function.name):
             if problem.function != function.name:
                 elsewhere.append((problem, scope))
-            elif _is_in(problem.place, place):
+            elif place.holds(problem.place):
                 yield problem, scope
         if elsewhere:
             called = self._outcomes.raised_by(function, place)
@@ -123,11 +122,8 @@ class PyForm:
 
     def statements(self, py: Py, place: Span) -> tuple[Function | None, s.Body]:
         """The function around a place, and its statements there."""
-        around = [f for f in self._bodies(py) if _is_in(place, f.place)]
-        if not around:
-            return None, ()
-        function = min(around, key=lambda f: f.place.end - f.place.start)
-        return function, self._outcomes.statements(function, place)
+        function = innermost(self._bodies(py), place)
+        return function, self._outcomes.statements(function, place) if function is not None else ()
 
     def kinds(self, function: Function) -> OperandKinds:
         """Of which types the values of a function are."""
@@ -139,23 +135,19 @@ class PyForm:
 
     def raising(self, py: Py, place: Span) -> Iterator[tuple[Problem, Scope]]:
         """The exceptions of statements at a place, handled around it or not."""
-        around = [f for f in self._bodies(py) if _is_in(place, f.place)]
-        if around:
-            function = min(around, key=lambda f: f.place.end - f.place.start)
-            found = (p for p in self._outcomes.of_statements(function, place) if p.raises)
-            yield from (
-                (p, self._scope_of[p.function]) for p in found if p.function in self._scope_of
-            )
+        if (function := innermost(self._bodies(py), place)) is not None:
+            yield from self._placed(self._outcomes.of_statements(function, place))
+
+    def _placed(self, problems: Iterable[Problem]) -> Iterator[tuple[Problem, Scope]]:
+        """The exceptions among some problems, each with where it is raised."""
+        scopes = ((p, self._scope_of.get(p.function)) for p in problems if p.raises)
+        return ((p, scope) for p, scope in scopes if scope is not None)
 
     def _leaving(self, name: str) -> list[tuple[Problem, Scope]]:
         """The exceptions that leave a function, where each is raised."""
         if name not in self._left:
-            found = (p for p in self._outcomes.of(name) if p.raises)
-            placed = (
-                (p, self._scope_of[p.function]) for p in found if p.function in self._scope_of
-            )
-            order = sorted(placed, key=lambda each: (each[0].place.start, each[0].why))
-            self._left[name] = order
+            placed = self._placed(self._outcomes.of(name))
+            self._left[name] = sorted(placed, key=lambda each: (each[0].place.start, each[0].why))
         return self._left[name]
 
     @cached_property
@@ -176,15 +168,14 @@ class PyForm:
     def _scope_of(self) -> dict[str, Scope]:
         """The functions of the files, by their names in the form."""
         scopes = (*self._code.scopes.values(), *self._code.modules.values())
-        by_place = {(id(s.py), s.py.span(s.node)): s for s in scopes}
+        places = [(s.py.span(s.node), s) for s in scopes]
         found = {}
         for name, py in self._file_of.items():
             place = self.program.function(name).place
-            of_file = {at: s for (of, at), s in by_place.items() if of == id(py)}
             # A generator expression, which is no scope there, is of what it stands in.
-            around = [at for at in of_file if at == place or _is_in(place, at)]
+            around = [(at, s) for at, s in places if s.py is py and at.holds(place)]
             if around:
-                found[name] = of_file[min(around, key=lambda at: at.end - at.start)]
+                found[name] = min(around, key=lambda each: each[0].end - each[0].start)[1]
         return found
 
     @cached_property
@@ -324,9 +315,9 @@ class PyForm:
         place, is_read = py.span(statement), False
         for name in self._functions(py):
             withs = (n for n in walk(self.program.function(name).body) if isinstance(n, s.With))
-            if any(_is_in(n.place, place) for n in withs):
+            if any(place.holds(n.place) for n in withs):
                 is_read = True
-                if any(_is_in(problem.place, place) for problem in self._locks.of(name)):
+                if any(place.holds(problem.place) for problem in self._locks.of(name)):
                     return True
         return not is_read
 
@@ -335,10 +326,6 @@ class PyForm:
         paths = [path for path, module in self._code.modules.items() if module.py is py]
         names = self.program.functions
         return [n for n in names for path in paths if n == path or n.startswith(f"{path}:")]
-
-
-def _is_in(place: Span, around: Span) -> bool:
-    return around.start <= place.start and place.end <= around.end
 
 
 def _fills_itself(loop: s.ForEach) -> bool:

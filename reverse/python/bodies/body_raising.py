@@ -83,7 +83,7 @@ def _statement_at(function: Scope, body: Node, place: Span) -> Node | None:
         node = waiting.pop()
         for child in named(node):
             span = function.py.span(child)
-            if span.start <= place.start and place.end <= span.end:
+            if span.holds(place):
                 found = child if node.type == "block" else found
                 waiting.append(child)
     return found

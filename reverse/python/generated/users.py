@@ -14,7 +14,7 @@ from tree_sitter import Node
 from rebsync.reverse.analysis.outcomes.outcomes import OutcomeAnalysis
 from rebsync.reverse.analysis.problems import Problem
 from rebsync.reverse.generated.user_blocks import user_blocks
-from rebsync.reverse.ir.program import Function
+from rebsync.reverse.ir.program import innermost
 from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
@@ -44,9 +44,7 @@ _FILES = "builtins.OSError"
 def is_users(reader: ModelExpressionReader, node: Node) -> bool:
     """Whether a statement stands between `rebsync: user NAME` and `rebsync: end`."""
     span = reader.py.span(node)
-    return any(
-        b.start < span.start and span.end <= b.end for b in user_blocks(reader.py.source.text)
-    )
+    return any(b.holds(span) for b in user_blocks(reader.py.source.text))
 
 
 def check(reader: ModelExpressionReader, node: Node) -> None:
@@ -145,11 +143,8 @@ class _UserEffects:
 
     def acting(self, span: Span) -> Iterator[Problem]:
         """What the statements at a place may do besides to compute."""
-        around = [f for f in map(self.program.function, self.program.functions) if _is_in(span, f)]
-        if not around:
-            return
-        function = min(around, key=lambda f: f.place.end - f.place.start)
-        found = self.analysis.of_statements(function, span)
+        function = innermost(map(self.program.function, self.program.functions), span)
+        found = self.analysis.of_statements(function, span) if function is not None else ()
         yield from sorted((p for p in found if p.raises != _FILES), key=str)
 
 
@@ -157,7 +152,3 @@ class _UserEffects:
 def _effects_of(py: Py, modelled: frozenset[str]) -> _UserEffects:
     """The effects of a module, read once."""
     return _UserEffects(py, modelled)
-
-
-def _is_in(span: Span, function: Function) -> bool:
-    return function.place.start <= span.start and span.end <= function.place.end

@@ -290,7 +290,7 @@ class Heads:
 
 
 def _is_in(statement: m.Statement, loop: m.For) -> bool:
-    return loop.span.start <= statement.span.start and statement.span.end <= loop.span.end
+    return loop.span.holds(statement.span)
 
 
 def _only(block: m.Statement) -> m.Statement:
