@@ -52,7 +52,7 @@ class CompiledSearch:
 
     Of `persistent` one rebec acts alone when it can. With `hash_compaction` only 64 bits of each
     state are remembered; with a `symmetry` only canonical states are. With two `threads` one makes
-    steps and the other stores states, unless only 64 bits are remembered or the model time is bounded.
+    steps and the other stores states, if there are no `hash_compaction` and no bound of model time.
 
     Raises Unavailable when it cannot be built, or `build` is false and it has not been built
     before, or is not `wanted` any more meanwhile.

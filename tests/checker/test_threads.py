@@ -1,4 +1,4 @@
-"""Two threads find what one finds, number for number: drawn systems, bounds, long steps, little memory."""
+"""Two threads find what one finds, number for number: drawn systems, bounds, long steps."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from tests.checker.draw_systems import DRIVEN, EQUAL, TIMED, UNTIMED, Drawn, sys
 from tests.checker.test_compiled import _walkers
 
 _COMPILERS = tuple(filter(None, map(shutil.which, ("cc", "gcc", "clang"))))
-# Rounds of a few states, portions of three steps, numbers that outgrow their fields again and again.
+# Rounds of a few states, portions of three steps, numbers that outgrow their fields.
 _LITTLE_ROOM = {"CC": f"{os.environ.get('CC') or (*_COMPILERS, 'cc')[0]} -DLITTLE_ROOM"}
 _DRAWN: tuple[tuple[st.SearchStrategy[Drawn], Semantics], ...] = (
     (systems(TIMED), "tts"),
