@@ -55,13 +55,16 @@ struct pipeline {
     _Atomic int given_up; /* nothing is stored any more */
 };
 
+/* Turns for a moment; then naps that grow longer, but much less so than the ring lasts. */
 static void wait_a_little(uint32_t *turns)
 {
-    enum { SPINS = 64, NAP = 100000 }; /* nanoseconds: much less than the ring lasts */
-    if (++*turns > SPINS)
-        nanosleep(&(struct timespec){0, NAP}, NULL);
+    enum { SPINS = 64, NAP = 10000, DOUBLED = 5 };
+    uint32_t naps = ++*turns < SPINS ? 0 : *turns - SPINS;
+    if (*turns >= SPINS)
+        nanosleep(&(struct timespec){0, NAP << (naps < DOUBLED ? naps : DOUBLED)}, NULL);
 #if defined(__x86_64__) || defined(__i386__)
-    __builtin_ia32_pause();
+    else
+        __builtin_ia32_pause();
 #endif
 }
 
