@@ -14,8 +14,11 @@ from hypothesis import strategies as st
 
 from rebsync.checker.compiled import CompiledSearch
 from rebsync.checker.exploration import Exploration, Faults, Limits, Progress
+from rebsync.checker.lowering import lower
 from rebsync.checker.reduction import persistent_sets
 from rebsync.checker.steps import Semantics
+from rebsync.model import Member, Name
+from rebsync.properties import Measure
 from tests.checker.comparing import System
 from tests.checker.draw_networks import networks
 from tests.checker.draw_systems import DRIVEN, EQUAL, TIMED, UNTIMED, Drawn, systems
@@ -108,3 +111,15 @@ def test_the_bound_of_time_holds_within_a_step_of_a_round() -> None:
     assert found.reason == "the bound of 1 seconds was reached"
     assert {(each.states, each.depth) for each in seen} == {(4, 1)}
     assert search.run(Limits()).reason, "what was ended in the middle does not go on"
+
+
+def test_what_is_taken_back_is_not_measured() -> None:
+    """The counter grows with each state, beyond the bound too, which ends a search in a round."""
+    system = System.of(_LONG.replace("1000000000", "0").replace("?(1", "x + ?(1"))
+    measures = (Measure("a.x", Member(Name("a"), "x")),)
+    program = lower(system.analysis, system.properties, measures=measures)[0]
+    with mock.patch.dict(os.environ, _LITTLE_ROOM):
+        for states in range(5, 30):
+            one, two = (CompiledSearch(program, "ftts", threads=threads) for threads in (1, 2))
+            found = two.run(Limits(states=states))
+            assert _figures(found) == _figures(one.run(Limits(states=states)))
