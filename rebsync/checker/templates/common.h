@@ -57,8 +57,8 @@ static void *room_for(struct escape *out, struct vector *v, size_t count, size_t
     if (count > v->room) {
         size_t room = count + count / 2 + 64;
         char *moved = realloc(v->data, room * size);
-        if (!moved) {
-            room = count;
+        if (!moved) { /* little more: each attempt is dear when memory is short */
+            room = count + count / 128;
             moved = realloc(v->data, room * size);
         }
         if (!moved)
