@@ -8,6 +8,7 @@ machine that has other work to do makes all figures worse, so its load is printe
 family   cost of a state from 10^4 to 10^7 states of models that grow with one parameter
 engines  the compiled engine and the interpreter on the same searches
 prints   whole states and fingerprints on the same searches
+threads  one and two threads on the same searches, by the clock
 temporal formulas of LTL and TCTL, in Python and in C
 spin     an untimed model against SPIN on its twin (needs spin and gcc)
 first    whole commands on the models of the thesis: nothing is compiled
@@ -38,11 +39,12 @@ FAMILIES = (
 
 @dataclass(frozen=True, slots=True)
 class Searched:
-    """A search alone, without the start of Python: `cpu` in seconds, `growth` in bytes."""
+    """A search alone, without the start of Python, in seconds; `growth` is in bytes."""
 
     states: int
     transitions: int
     cpu: float
+    clock: float
     growth: int
 
     @property
@@ -113,6 +115,33 @@ def prints() -> None:
         print(
             f"{name + ', ' + constant:20}{exact.states:12,}{exact.growth / exact.states:15.1f}"
             f"{exact.cost:6.2f}{compacted.growth / compacted.states:15.1f}{compacted.cost:6.2f}"
+        )
+    print()
+
+
+PAIRED = (
+    ("laps", "timed", "laps=4"),
+    ("laps", "timed", "laps=6"),
+    ("carts", "timed"),
+    ("untimed", "core", "laps=1"),
+    ("crowd", "timed", "longest=20"),
+    ("ttc", "timed", "rounds=11"),
+)
+
+
+def threads() -> None:
+    """Two threads against one, three times in turns: seconds by the clock, and of processors."""
+    print("model                     states   one: clock, cpu   two: clock, cpu   faster")
+    for name, language, *constants in PAIRED:
+        model, turns = MODELS / f"{name}.rebeca", ("compiled", "paired") * 3
+        found = [(engine, searched(engine, language, model, *constants)) for engine in turns]
+        one, two = (
+            min((it for engine, it in found if engine == wanted), key=lambda it: it.clock)
+            for wanted in turns[:2]
+        )
+        print(
+            f"{' '.join((name, *constants)):20}{one.states:12,}{one.clock:12.2f}{one.cpu:6.2f}"
+            f"{two.clock:12.2f}{two.cpu:6.2f}{one.clock / two.clock:9.2f}"
         )
     print()
 
@@ -192,6 +221,7 @@ def reduced() -> None:
 PARTS: dict[str, Callable[[], object]] = {
     "engines": engines,
     "prints": prints,
+    "threads": threads,
     "temporal": temporal,
     "spin": spin,
     "first": first,

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from subprocess import Popen
 
 _TEMPLATES = Path(__file__).parent / "templates"
-_FLAGS = ("-std=gnu11", "-fPIC", "-shared", "-ffp-contract=off", "-w")
+_FLAGS = ("-std=gnu11", "-fPIC", "-shared", "-pthread", "-ffp-contract=off", "-w")
 _KEPT = 100  # libraries in the cache
 _PATIENCE = 120  # seconds that one compilation may take
 _GLANCE = 0.1  # seconds between two looks whether it is still wanted

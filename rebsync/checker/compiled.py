@@ -51,7 +51,8 @@ class CompiledSearch:
     """A search of a program made native. `invariants` are the predicates whose failure is an event.
 
     Of `persistent` one rebec acts alone when it can. With `hash_compaction` only 64 bits of each
-    state are remembered; with a `symmetry` only canonical states are.
+    state are remembered; with a `symmetry` only canonical states are. With two `threads` one makes
+    steps and the other stores states, if there are no `hash_compaction` and no bound of model time.
 
     Raises Unavailable when it cannot be built, or `build` is false and it has not been built
     before, or is not `wanted` any more meanwhile.
@@ -66,6 +67,7 @@ class CompiledSearch:
         symmetry: Symmetry | None = None,
         *,
         hash_compaction: bool = False,
+        threads: int = 1,
         build: bool = True,
         wanted: Callable[[], bool] = always,
     ) -> None:
@@ -93,6 +95,8 @@ class CompiledSearch:
         )
         if not self._engine or not self._reduce():
             raise Unavailable("there is no memory for a search, or no place for its temporary file")
+        if threads > 1 and not hash_compaction:
+            self._library.rebsync_two_threads(self._engine)
         self.build_seconds = time.perf_counter() - started
 
     def __del__(self) -> None:

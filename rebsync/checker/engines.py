@@ -82,6 +82,7 @@ def _compiled(
         persistent,
         symmetry,
         hash_compaction=options.hash_compaction,
+        threads=options.threads,
         build=build,
         wanted=wanted,
     )

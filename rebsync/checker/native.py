@@ -33,6 +33,7 @@ PARTS = (
     "visited.h",
     "frontier.h",
     "storing.h",
+    "pipeline.h",
     "graph.h",
     "standstill.h",
 )
@@ -174,6 +175,8 @@ def declare(library: ctypes.CDLL) -> None:
     library.rebsync_new.argtypes = [pointer, number, number, pointer, number, pointer, number]
     library.rebsync_symmetry.restype = number
     library.rebsync_symmetry.argtypes = [pointer, Symmetries, *[pointer] * 5]
+    library.rebsync_two_threads.restype = None
+    library.rebsync_two_threads.argtypes = [pointer]
     library.rebsync_free.restype = None
     library.rebsync_free.argtypes = [pointer]
     library.rebsync_search.restype = number

@@ -119,6 +119,7 @@ class Options:
     fairness: Fairness = "none"
     allowed: frozenset[str] = frozenset()
     hash_compaction: bool = False
+    threads: int = 1
     reduce: bool = False
     symmetry: bool = False
     auto_reduce: bool = False

@@ -109,6 +109,13 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     help="Keep 64 bits for each state: less memory, and a small risk of missing states.",
 )
 @click.option(
+    "--threads",
+    type=click.IntRange(1, 2),
+    default=1,
+    metavar="1|2",
+    help="With 2 one thread makes steps, and another stores what they lead to.",
+)
+@click.option(
     "--reduce/--no-reduce",
     default=None,
     help="Leave out orders of steps that cannot matter to the verdict, or nothing at all (default: "
@@ -321,6 +328,7 @@ def _options(given: dict[str, Any], model: str) -> Options:
         fairness=given["fairness"],
         allowed=frozenset({*given["allow"], *_allowed(model)}),
         hash_compaction=given["hash_compaction"],
+        threads=given["threads"],
         reduce=bool(given["reduce"]),
         symmetry=given["symmetry"],
         auto_reduce=given["reduce"] is None and not any(given[o] for o in _SHOW_STATES),

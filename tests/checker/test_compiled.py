@@ -169,7 +169,7 @@ from pathlib import Path
 from rebsync.checker.compiled import CompiledSearch
 from rebsync.checker.exploration import Limits
 from tests.checker.test_compiled import _walkers
-search = CompiledSearch(_walkers(4, 400).program, "ftts", (0,))
+search = CompiledSearch(_walkers(4, 400).program, "ftts", (0,), threads=int(sys.argv[2]))
 search.run(Limits(states=100))
 paths = [search.path(state) for state in range(100)]
 held = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
@@ -187,8 +187,9 @@ assert len(search.path(found.states - 1)) > found.depth
 
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is bounded as Linux does")
 @pytest.mark.parametrize("more", [20, 30, 40])  # so that it ends in different places
-def test_without_memory_it_tells_what_it_has_found(more: int) -> None:
-    command = [sys.executable, "-c", _LITTLE_MEMORY, str(more)]
+@pytest.mark.parametrize("threads", [1, 2])
+def test_without_memory_it_tells_what_it_has_found(more: int, threads: int) -> None:
+    command = [sys.executable, "-c", _LITTLE_MEMORY, str(more), str(threads)]
     subprocess.run(command, cwd=Path(__file__).parents[2], check=True, timeout=60)
 
 

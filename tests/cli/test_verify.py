@@ -260,6 +260,15 @@ def test_properties_are_no_model(tmp_path: Path) -> None:
     assert "--property" in refused.err
 
 
+def test_two_threads_tell_what_one_tells(tmp_path: Path) -> None:
+    laps = (ROOT / "bench" / "models" / "laps.rebeca").read_text().replace("laps = 3", "laps = 2")
+    known = "--engine", "auto", "--no-reduce", "--threads"
+    one, two = (verified(tmp_path, laps, *known, threads) for threads in ("1", "2"))
+    differs = {key for key in one if one[key] != two[key]}
+    assert all("second" in key or "memory" in key for key in differs)
+    assert one["states"] == 115_030
+
+
 def test_without_a_compiler(tmp_path: Path) -> None:
     (tmp_path / "m.rebeca").write_text(ENDLESS)
     nothing = {"PATH": str(tmp_path), "REBSYNC_CACHE": str(tmp_path / "cache"), "CC": ""}

@@ -18,11 +18,13 @@
 #ifdef LITTLE_ROOM
 enum { BATCH = 3, OBSERVED = 2, MEMO = 2, MEMO_AT_MOST = 8, MEMO_BESIDE = 4, TABLE = 8, SLOTS = 8, TURNS = 2 };
 enum { STEP = 1, STRETCH = 3, LEAST = 500, BESIDE = 8 };
+enum { PORTION = 3, PORTIONS = 2, ROUND = 64, ROUND_AT_LEAST = 2 };
 #else
 enum { BATCH = 64, OBSERVED = 1024, TABLE = 256 };
 enum { MEMO = 1024, MEMO_AT_MOST = 1 << 18, MEMO_BESIDE = 1 << 16 };
 enum { SLOTS = 1 << 14, TURNS = 256 };
 enum { STEP = 64, STRETCH = 4096, LEAST = 1 << 21, BESIDE = 8 };
+enum { PORTION = 512, PORTIONS = 64, ROUND = 1 << 17, ROUND_AT_LEAST = 2048 };
 #endif
 
 #define NEVER INT64_MAX
@@ -55,8 +57,8 @@ static void *room_for(struct escape *out, struct vector *v, size_t count, size_t
     if (count > v->room) {
         size_t room = count + count / 2 + 64;
         char *moved = realloc(v->data, room * size);
-        if (!moved) {
-            room = count;
+        if (!moved) { /* little more: each attempt is dear when memory is short */
+            room = count + count / 128;
             moved = realloc(v->data, room * size);
         }
         if (!moved)

@@ -301,6 +301,20 @@ void kernel_covered(const struct kernel *k, unsigned char *served, unsigned char
         largest[r] = k->actors[r].largest;
 }
 
+void kernel_forget(struct kernel *k, const unsigned char *served, const unsigned char *covered,
+                   const uint32_t *largest)
+{
+    memcpy(k->served, served, (size_t)k->model->servers);
+    memcpy(k->covered, covered, 2 * (size_t)k->model->branches);
+    for (uint32_t r = 0; r < k->rebecs; r++) {
+        k->actors[r].largest = largest[r];
+        empty(&k->actors[r].received);
+        for (uint32_t id = 0; id < kernel_locals(k, r); id++)
+            component(k, r, id)->outcomes = NONE;
+    }
+    forget_outcomes(k);
+}
+
 size_t kernel_size(const struct kernel *k)
 {
     return size_of_locals(k);

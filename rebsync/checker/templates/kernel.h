@@ -136,6 +136,10 @@ struct cut kernel_cut(const struct kernel *k);
 void kernel_covered(const struct kernel *k, unsigned char *served, unsigned char *covered,
                     uint32_t *largest);
 
+/* Lets what ran be that again, and forgets what else ran: it will run again. */
+void kernel_forget(struct kernel *k, const unsigned char *served, const unsigned char *covered,
+                   const uint32_t *largest);
+
 /* Bytes that local states take, and what is known of them. */
 size_t kernel_size(const struct kernel *k);
 

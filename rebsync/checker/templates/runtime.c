@@ -1,7 +1,7 @@
 /* The breadth-first search. */
 #include "graph.h"
+#include "pipeline.h"
 #include "standstill.h"
-#include "storing.h"
 
 /* Why a slice of the search ends. */
 enum end { FINISHED, SLICE, STATES, CUT, MEMORY, STOPPED, AT_FIRST };
@@ -38,6 +38,7 @@ void rebsync_free(struct search *s)
     free_prints(&s->prints);
     free_trail(&s->trail);
     free_frontier(&s->frontier);
+    free_pipeline(s->pipeline);
     kernel_free(s->kernel);
     free(s);
 }
@@ -53,6 +54,7 @@ struct search *rebsync_new(const struct model *model, int semantics, int compact
     s->rebecs = (uint32_t)model->rebecs;
     s->compact = compact;
     s->until = NEVER;
+    s->escape = &s->outermost;
     if (setjmp(s->escape->to)) {
         rebsync_free(s);
         return NULL;
@@ -69,6 +71,17 @@ struct search *rebsync_new(const struct model *model, int semantics, int compact
     s->measured = zeroed(s->escape, (size_t)model->measures, sizeof *s->measured);
     measure_nothing(s);
     return s;
+}
+
+/* Lets two threads search from now on, if there is memory for that. */
+void rebsync_two_threads(struct search *s)
+{
+    if (!setjmp(s->escape->to)) {
+        make_pipeline(s);
+        return;
+    }
+    free_pipeline(s->pipeline);
+    s->pipeline = NULL;
 }
 
 /* Lets the search reduce states to canonical ones, with the tables of orbits.h; 0 without memory. */
@@ -126,9 +139,18 @@ static int go_deeper(struct search *s)
     return 1;
 }
 
-static int search_on(struct search *s, uint64_t states, int64_t due)
+static enum answer expand_one(struct search *s)
 {
     size_t made;
+    unpack(s, front(s), s->ids);
+    enum answer answer = kernel_successors(s->kernel, s->ids, 1, &made, store, s);
+    s->expanded += made;
+    s->frontier.head.expanded += made;
+    return answer;
+}
+
+static int search_on(struct search *s, uint64_t states, int64_t due)
+{
     for (uint64_t turn = 1;; turn++) {
         if (s->expanded == s->level_end && !go_deeper(s))
             return FINISHED;
@@ -137,22 +159,18 @@ static int search_on(struct search *s, uint64_t states, int64_t due)
             if (s->count >= states)
                 return STATES;
         }
-        if (turn % TURNS == 0 && clock_now() >= due)
+        int two = is_for_two(s);
+        if ((two || turn % TURNS == 0) && clock_now() >= due)
             return SLICE;
-        unpack(s, front(s), s->ids);
-        enum answer answer = kernel_successors(s->kernel, s->ids, 1, &made, store, s);
+        enum answer answer = two ? search_round(s, states) : expand_one(s);
         if (answer == UNENDING) {
             flush(s);
             return CUT;
         }
         expect(s, answer);
-        s->expanded++;
-        if (s->compact) {
-            s->frontier.head.expanded++;
-            if (turn % TURNS == 0) {
-                flush(s);
-                tidy(s);
-            }
+        if (s->compact && turn % TURNS == 0) {
+            flush(s);
+            tidy(s);
         }
     }
 }
@@ -181,6 +199,7 @@ static void stop(struct search *s)
 /* What is asked now and then, by searches and by what is done afterwards; NULL asks nobody. */
 void rebsync_watch(struct search *s, void (*look)(int *goes_on))
 {
+    s->look = look;
     kernel_watch(s->kernel, look);
 }
 

@@ -94,7 +94,10 @@ struct search {
     int32_t *faults;
     uint32_t fault_count;
     int deadlock_is_fault, violated;
-    struct escape escape[1];
+    int judged_later; /* what predicates say of states that are stored */
+    void (*look)(int *goes_on);
+    struct pipeline *pipeline; /* NULL: one thread searches */
+    struct escape *escape, outermost;
 };
 
 /* Leaves the search if the kernel could not do all. */

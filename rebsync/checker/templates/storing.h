@@ -66,7 +66,8 @@ static void judge_invariant(struct search *s, int32_t predicate, int64_t state)
         note(s, (struct event){PREDICATE, predicate, 0, state, -1});
 }
 
-static void judge(struct search *s, uint64_t state, const uint64_t *words, int deadlock)
+/* What predicates and measures say of a state. */
+static void judge_values(struct search *s, uint64_t state, const uint64_t *words)
 {
     if (s->invariant_count || s->model->measures) {
         unpack(s, words, s->unpacked);
@@ -76,6 +77,12 @@ static void judge(struct search *s, uint64_t state, const uint64_t *words, int d
         judge_invariant(s, s->invariants[i], (int64_t)state);
     for (int32_t i = 0; i < s->model->measures; i++)
         measure(s, i, (int64_t)state);
+}
+
+static void judge(struct search *s, uint64_t state, const uint64_t *words, int deadlock)
+{
+    if (!s->judged_later)
+        judge_values(s, state, words);
     if (deadlock)
         note(s, (struct event){DEADLOCK, 0, 0, (int64_t)state, -1});
 }
