@@ -188,7 +188,7 @@ class FormPlaces:
 
 def _is_known(value: e.Expression) -> bool:
     """Whether the type of an operand is known, or it is a part of a message: no enumeration."""
-    is_of_message = any(isinstance(getattr(n, "type", None), t.RosMessage) for n in walk((value,)))
+    is_of_message = any(isinstance(getattr(n, "type", None), t.RosMessage) for n in walk(value))
     return is_of_message or getattr(value, "type", t.UNKNOWN) != t.UNKNOWN
 
 

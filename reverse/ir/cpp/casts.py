@@ -186,7 +186,7 @@ def _allocates(context: Context, name: str, type_: t.Type, place: Span) -> None:
     """What the program itself does to get memory, or to free it ([class.free], [new.delete])."""
     owner = class_of(context, type_)
     own = methods_named(context.world, owner.name, name) if owner is not None else []
-    for function in own or context.world.symbols.overloads.get(name, ()):
+    for function in own or context.world.symbols.overloads.get(name, []):
         context.emit(s.Call(None, callee_of(function), (), place))
 
 
