@@ -87,9 +87,9 @@ def _fields(reader: CppStatementReader, type_: Node) -> list[tuple[str, Node]] |
         names = _PAIR if found[1] == "pair" else tuple(map(str, range(len(given))))
         return list(zip(names, given, strict=False)) if len(names) == len(given) else None
     form = reader.scope.form
-    if form is None or not form.unread_calls.objects.is_aggregate(text):
+    if form is None or not form.objects.is_aggregate(text):
         return None
-    return [(f.name, f.type) for f in form.unread_calls.objects.fields_of(text)]
+    return [(f.name, f.type) for f in form.objects.fields_of(text)]
 
 
 def declared(

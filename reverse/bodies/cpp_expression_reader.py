@@ -20,7 +20,7 @@ from rebsync.reverse.bodies.scope import (
     Variable,
 )
 from rebsync.reverse.findings import Findings, Unread
-from rebsync.reverse.syntax.cpp_tree import Cpp, named
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 from rebsync.source import Span
 
 
@@ -74,8 +74,9 @@ class CppExpressionReader(ABC):
     def check_operator(self, node: Node) -> None:
         """Raises `Unread` where an operator is the program's, of an enumeration: a function."""
         form = self.scope.form
-        why = form.unread_calls.of_enums.why(self.cpp, node) if form is not None else None
-        if why is not None:
+        if form is not None and form.places.operates(self.cpp, node):
+            sign = text_of(node.child_by_field_name("operator") or node.children[0])
+            why = f'the program has an "operator{sign}" of its own for an enumeration'
             raise self.unread(node, why)
 
     def only(self, node: Node) -> Node:

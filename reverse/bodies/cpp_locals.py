@@ -25,7 +25,7 @@ from rebsync.reverse.bodies.cpp_references import is_made, is_made_pointer, mess
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import seconds_of
 from rebsync.reverse.bodies.effects import cpp_captures
-from rebsync.reverse.bodies.effects.cpp_call_effects import check_object
+from rebsync.reverse.bodies.effects.cpp_call_effects import check_read
 from rebsync.reverse.bodies.effects.cpp_effects import Effects, is_bound
 from rebsync.reverse.bodies.effects.cpp_roots import specifiers_of
 from rebsync.reverse.bodies.effects.cpp_unset_locals import SCALARS, UNSET, may_be_unset
@@ -125,7 +125,7 @@ def _outside(reader: CppStatementReader, declared: DeclaratorParts, unread: Unre
     try:
         effects = Effects(reader.cpp, reader.scope, frozenset(reader.own))
         if declared.kind not in _REFERS:
-            check_object(effects, declared.node, declared.type, declared.value)
+            check_read(effects, declared.node)
         if declared.value is not None:
             _check_value(reader, effects, declared)
             reader.demote(effects.written, unread)
@@ -329,7 +329,7 @@ def _inferred(
         return
     whole = INT if of in (BYTE, SHORT) else of
     form = reader.scope.form
-    if of.dimensions and (form is None or form.unread_calls.objects.is_pointer(reader.cpp, value)):
+    if of.dimensions and (form is None or form.objects.is_pointer(reader.cpp, value)):
         raise reader.unread(declared.node, "the model has no pointers and references")
     wide = wide_of(reader.expressions, value)
     if wide and not reader.scope.open:

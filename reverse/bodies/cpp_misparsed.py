@@ -12,7 +12,6 @@ from tree_sitter import Node
 
 from rebsync.reverse.bodies.effects.cpp_call_effects import is_calm
 from rebsync.reverse.bodies.effects.cpp_effect_reader import EffectReader
-from rebsync.reverse.bodies.effects.cpp_undefined import is_library
 from rebsync.reverse.bodies.scope import Called, Ignored, Inline, meant_by
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
@@ -50,9 +49,9 @@ def _is_harmless(effects: EffectReader, type_: Node, calls: Sequence[Node]) -> b
     What a function gives may be called as well: what that does is not known.
     """
     scope, name, form = effects.scope, unscoped(type_), effects.scope.form
-    if form is None or form.unread_calls.is_type(name):
+    if form is None or form.objects.is_type(name):
         return True
-    if form.unread_calls.implicit.may_convert or len(calls) > 1:
+    if form.places.may_convert or len(calls) > 1:
         return False
     match scope.functions.get(name):
         case Called() | Inline() as known:
@@ -67,7 +66,7 @@ def _is_harmless(effects: EffectReader, type_: Node, calls: Sequence[Node]) -> b
             )
         case None if type_.type == "qualified_identifier":
             known_so = _outcomes().function("".join(text_of(type_).split()))
-            return is_library(text_of(type_)) and not (known_so.raises or known_so.acts)
+            return libraries.is_library(text_of(type_)) and not (known_so.raises or known_so.acts)
         case None | Ignored():
             return name in libraries.looking()
         case _:

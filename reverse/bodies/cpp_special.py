@@ -23,7 +23,7 @@ from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_time import pause, units
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
-from rebsync.reverse.bodies.effects.cpp_call_effects import check_operator
+from rebsync.reverse.bodies.effects.cpp_call_effects import check_read
 from rebsync.reverse.bodies.effects.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.effects.cpp_kinds import SHORT_CIRCUIT
 from rebsync.reverse.bodies.effects.touches import Touches
@@ -61,7 +61,7 @@ def read(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None
     """The statements that stand for an expression; None for one that stands for itself."""
     match node.type:
         case "comma_expression" if reader.scope.open:
-            check_operator(Effects(reader.cpp, reader.scope), node)
+            check_read(Effects(reader.cpp, reader.scope), node)
             return _each(reader, node)
         case "conditional_expression" if reader.scope.open:
             return _either(reader, node)

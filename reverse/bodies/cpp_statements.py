@@ -44,7 +44,6 @@ from rebsync.reverse.bodies.types.wide_locals import broken_locals
 from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import cell, is_calm, is_effect
-from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import Cpp, markers_in, named, part, text_of
 from rebsync.statements import UNREADABLE
 
@@ -291,11 +290,12 @@ class CppStatements(CppStatementReader):
         if isinstance(function, Exchange):
             cpp_sequencing.check_place(self, node)
             return cpp_exchange.exchanged(self, node, function)
-        call = call_of(node) if node.type == "call_expression" else None
         form = self.scope.form
-        why = form.unread_calls.implicit.of_call(self.cpp, call) if form and call else None
+        call = self.scope.call(node) if node.type == "call_expression" else None
+        name = call.name.rpartition("::")[2] if call is not None else ""
+        why = form.places.unread(self.cpp, node, name) if form is not None else None
         if why is not None:
-            raise self.unread(node, f'what "{text_of(node)}" runs is not known: {why}')
+            raise self.unread(node, why)
         return cpp_inline.inlined(self, node, function, arguments)
 
     def inside(self, cpp: Cpp, scope: Scope, own: set[str] | frozenset[str]) -> CppStatements:

@@ -133,7 +133,8 @@ class Program:
     """All that was read, by names; a body is lowered when it is first asked for, and kept.
 
     `lower` gives the function of a name that is among `functions`. `modules` are pairs of the name
-    of a module and the function that is its body.
+    of a module and the function that is its body. `undefined` are the functions that files declare
+    and none defines, of which the `pure` ones need not be; so are the classes that are `forward`.
     """
 
     def __init__(
@@ -143,11 +144,17 @@ class Program:
         lower: Callable[[str], Function],
         modules: Iterable[tuple[str, str]] = (),
         globals_: Iterable[Global] = (),
+        undefined: Iterable[str] = (),
+        pure: Iterable[str] = (),
+        forward: Iterable[str] = (),
     ) -> None:
         self.functions: tuple[str, ...] = tuple(functions)
         self.classes: Mapping[str, Class] = {c.name: c for c in classes}
         self.modules: Mapping[str, str] = dict(modules)
         self.globals: tuple[Global, ...] = tuple(globals_)
+        self.undefined = frozenset(undefined)
+        self.pure = frozenset(pure)
+        self.forward = frozenset(forward)
         self._names = frozenset(self.functions)
         self._lower = lower
         self._bodies: dict[str, Function] = {}

@@ -13,7 +13,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.outcomes.outcomes import RECURSES
 from rebsync.reverse.bodies.effects.calm import Calm
-from rebsync.reverse.bodies.effects.cpp_call_effects import check_object
+from rebsync.reverse.bodies.effects.cpp_call_effects import check_read
 from rebsync.reverse.bodies.effects.cpp_effects import Effects
 from rebsync.reverse.bodies.effects.cpp_roots import is_modelled, root
 from rebsync.reverse.bodies.effects.known_functions import may_change
@@ -65,7 +65,7 @@ def note_bound(bodies: Bodies) -> None:
             scope = bodies.scope(member.cpp, None)
             if isinstance(scope.members.get(member.name), Outside) and not _refers(member):
                 try:
-                    check_object(Effects(member.cpp, scope), member.node, member.type)
+                    check_read(Effects(member.cpp, scope), member.node)
                 except Touches as touches:
                     bodies.findings.unreadable(member.cpp.source, touches, bodies.unit.name)
             _note_making(bodies, owner, member, scope)
@@ -106,7 +106,7 @@ def note_statics(bodies: Bodies) -> None:
         if is_near and is_made and not _refers(variable):
             try:
                 effects = Effects(variable.cpp, bodies.scope(variable.cpp, None))
-                check_object(effects, variable.node, variable.type)
+                check_read(effects, variable.node)
             except Touches as touches:
                 bodies.findings.unreadable(variable.cpp.source, touches, bodies.unit.name)
             form = effects.scope.form if _is_made(bodies.code, variable) else None

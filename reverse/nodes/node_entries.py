@@ -96,9 +96,9 @@ def _stores(bodies: Bodies, body: Node, scope: Scope) -> Iterator[Node]:
 
 def _acts(cpp: Cpp, scope: Scope, call: CppCall, is_before: bool) -> Iterator[str]:
     form = scope.form
-    why = form.unread_calls.of_call(cpp, call) if form is not None and not is_before else None
+    why = form.places.unread(cpp, call.node, None) if form is not None and not is_before else None
     if why is not None:
-        yield f'what "{_function(call.node)}" does is not known: {why}'
+        yield why
     elif (
         call.target is None
         and isinstance(scope.functions.get(call.name), Called | Inline)

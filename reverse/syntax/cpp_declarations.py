@@ -261,6 +261,15 @@ def declared_name(declarator: Node) -> Node | None:
     return declarator if declarator.type in ("identifier", "field_identifier") else None
 
 
+def variable_name(declarator: Node) -> Node | None:
+    """The same of pointers and references to functions too: `(*f)(int)`."""
+    inner = declarator.child_by_field_name("declarator")
+    if declarator.type != "function_declarator" or inner is None:
+        return declared_name(declarator)
+    is_led = inner.type == "parenthesized_declarator" and inner.named_children
+    return declared_name(inner) if is_led and inner.named_children[-1].type in _REFERRING else None
+
+
 def members_of(body: Node) -> Iterator[Node]:
     """The members of a class, those between preprocessor lines and of templates too."""
     for member in named(body):

@@ -41,7 +41,6 @@ _DIVIDING = frozenset(
 )
 _INDEXING = ("__getitem__", "__class_getitem__")
 _SEQUENCES = ("list", "tuple", "deque", "str")
-_MODULO = (Operator.FLOOR_MODULO, Operator.TRUNCATING_REMAINDER)
 
 
 class OutcomeExpressions:

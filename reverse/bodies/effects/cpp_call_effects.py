@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
 
@@ -38,7 +37,7 @@ from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
 from rebsync.reverse.syntax.cpp_calls import CppCall
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.reverse.syntax.macros import hides
 
 RENAMED = "the object itself gets another name here"
@@ -72,7 +71,6 @@ def check_call(effects: EffectReader, node: Node) -> None:
     else:
         _method(effects, call, name, of, meaning)
         known = _takes_copies(effects, call)
-    _check_defaults(effects, call)
     does = known_functions.acts(effects.cpp, call, has_mailbox(effects.scope))
     if does is not None:
         raise effects.touches(node, f'"{text_of(part(node, "function"))}" {does}')
@@ -90,18 +88,9 @@ def check_call(effects: EffectReader, node: Node) -> None:
     effects.arguments(call.arguments)
 
 
-def _check_read(effects: EffectReader, call: CppCall) -> None:
-    """Raises `Touches` where a call may run what was not read: that may do anything."""
-    form = effects.scope.form
-    why = form.unread_calls.of_call(effects.cpp, call) if form is not None else None
-    if why is not None:
-        what = text_of(part(call.node, "function"))
-        raise effects.touches(call.node, f'what "{what}" does is not known: {why}')
-
-
 def _is_constant(effects: EffectReader, node: Node) -> bool:
     form = effects.scope.form
-    return form is not None and form.unread_calls.objects.is_constant(effects.cpp, node)
+    return form is not None and form.objects.is_constant(effects.cpp, node)
 
 
 def _is_calm_helper(effects: EffectReader, call: CppCall) -> bool:
@@ -109,7 +98,7 @@ def _is_calm_helper(effects: EffectReader, call: CppCall) -> bool:
     form = effects.scope.form
     if form is None or call.name in effects.inner or effects.scope.meaning(call.name) is not None:
         return False
-    helper = form.unread_calls.objects.free_function(call)
+    helper = form.objects.free_function(call)
     if helper is None or any(known_functions.may_change(p) for p in helper.parameters):
         return False
     return is_calm(effects, helper)
@@ -118,7 +107,7 @@ def _is_calm_helper(effects: EffectReader, call: CppCall) -> bool:
 def _takes_copies(effects: EffectReader, call: CppCall) -> bool:
     """Whether a method of an object of the files gets values, and changes that object alone."""
     form = effects.scope.form
-    meant = form.unread_calls.objects.methods_meant(effects.cpp, call) if form is not None else ()
+    meant = form.objects.methods_meant(effects.cpp, call) if form is not None else ()
     if any(known_functions.may_change(p) for f in meant for p in f.parameters):
         return False
     near = all(f.cpp is effects.cpp or _is_in_class(f) for f in meant)
@@ -144,86 +133,26 @@ def check_macro(effects: EffectReader, node: Node) -> None:
             raise effects.touches(node, touches.why) from None
 
 
-def check_implicit(effects: EffectReader, node: Node) -> None:
-    """Raises `Touches` where an expression may run what was not read, with no call of it."""
-    form = effects.scope.form
-    why = form.unread_calls.implicit.of(effects.cpp, node) if form is not None else None
-    if why is not None:
-        raise effects.touches(node, f'what "{text_of(node)}" runs is not known: {why}')
-    if node.type == "user_defined_literal":
-        _check_free(effects, node)
+def check_read(effects: EffectReader, node: Node) -> None:
+    """Raises `Touches` where a piece of code may run what was not read: that may do anything.
 
-
-def _check_free(effects: EffectReader, node: Node) -> None:
-    """Raises `Touches` where a function outside of classes may that an operator runs."""
-    form = effects.scope.form
-    functions = form.unread_calls.implicit.free_functions(effects.cpp, node) if form else []
-    for function in functions:
-        if not is_calm(effects, function):
-            why = f'"{function.name}" may change what the model has'
-            raise effects.touches(node, why)
-
-
-def _check_defaults(effects: EffectReader, call: CppCall) -> None:
-    """Raises `Touches` where what a call evaluates for missing arguments may touch the model."""
-    form = effects.scope.form
-    if form is not None:
-        _check_values(effects, call.node, form.unread_calls.implicit.defaults(effects.cpp, call))
-
-
-def _check_values(effects: EffectReader, node: Node, values: Iterable[tuple[Cpp, Node]]) -> None:
-    """Raises `Touches` where values that stand elsewhere may touch what the model has."""
-    for cpp, value in values:
-        try:
-            effects.anew(cpp, effects.scope, ()).check(value)
-        except Touches as touches:
-            raise effects.touches(node, touches.why) from None
-
-
-def check_operator(effects: EffectReader, node: Node) -> None:
-    """Raises `Touches` where an operator may run what was not read."""
-    form = effects.scope.form
-    why = form.unread_calls.of_operator(effects.cpp, node) if form is not None else None
-    if why is not None:
-        raise effects.touches(node, f'what "{text_of(node)}" does is not known: {why}')
-    _check_free(effects, node)
-
-
-def check_object(
-    effects: EffectReader, node: Node, type_: Node | None, value: Node | None = None
-) -> None:
-    """Raises `Touches` where to make an object, or to end it, may run what was not read.
-
-    Its type is that of a `value` where `auto` stands for it.
+    What runs though no call of it stands there must only look.
     """
     form = effects.scope.form
-    if form is None or type_ is None:
+    if form is None:
         return
-    is_found_out = value is not None and type_.type == "placeholder_type_specifier"
-    told = value if value is not None and is_found_out else type_
-    calls = form.unread_calls
-    why = (calls.of_copied if is_found_out else calls.of_type)(effects.cpp, told)
-    if why is not None:
-        raise effects.touches(node, f'what "{text_of(told)}" does is not known: {why}')
-    _check_values(effects, node, calls.made_with(effects.cpp, told, is_found_out))
-
-
-def check_handed(effects: EffectReader, argument: Node) -> None:
-    """Raises `Touches` where a function is handed on that was not read: it may be called."""
-    form = effects.scope.form
-    why = form.unread_calls.of_handed(effects.cpp, argument) if form is not None else None
-    if why is not None:
-        raise effects.touches(argument, f'what "{text_of(argument)}" does is not known: {why}')
+    if (why := form.places.unread(effects.cpp, node)) is not None:
+        raise effects.touches(node, why)
+    for function in form.places.unwritten(effects.cpp, node):
+        if not is_calm(effects, function):
+            raise effects.touches(node, f'"{function.name}" may change what the model has')
 
 
 def check_deleted(effects: EffectReader, node: Node) -> None:
-    """Raises `Touches` where to end an object may run what was not read, or others still use it."""
-    form, pointer = effects.scope.form, named(node)[-1]
+    """Raises `Touches` where what is ended something may still use."""
+    pointer = named(node)[-1]
     if has_mailbox(effects.scope) or gives_itself(pointer):
         raise effects.touches(node, "this ends an object that something may still use")
-    why = form.unread_calls.of_deleted(effects.cpp, pointer) if form is not None else None
-    if why is not None:
-        raise effects.touches(node, f'what "{text_of(node)}" does is not known: {why}')
     effects.check(pointer)
 
 
@@ -242,10 +171,8 @@ def _function(effects: EffectReader, call: CppCall, name: str) -> bool:
                 return True
             if is_unknown_function(effects.scope, effects.inner, call):
                 raise effects.touches(call.node, f'nobody here knows what "{call.name}" does')
-            _check_read(effects, call)
             return False
         case Called() | Inline() as known:
-            _check_read(effects, call)  # of several by a name one may have no body
             meant = meant_by(known, call.name, len(call.arguments))
     if not meant or not all(is_calm(effects, f) for f in meant):
         raise effects.touches(call.node, f'"{name}" may change what the model has')
@@ -315,7 +242,6 @@ def _method(
                 meaning is not None or not of or of in effects.inner
             ):
                 raise effects.touches(call.node, "what is published here is not known")
-            _check_read(effects, call)
         case Outside():
             raise effects.touches(call.node, f'"{text_of(target)}" may act on the node')
         case Publishes(targets):
@@ -331,8 +257,6 @@ def _method(
         case Record() | Variable():
             if name not in (libraries.looking() | OF_TEXTS) and is_modelled(target, meaning):
                 effects.changes(call.node, of, f'this may change "{of}"')
-            elif not is_modelled(target, meaning):
-                _check_read(effects, call)
         case Runtime() | Lambda() | Itself() if name not in libraries.looking():
             raise effects.touches(call.node, f'"{of}" acts on the node')
         case _:

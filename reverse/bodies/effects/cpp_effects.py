@@ -15,16 +15,12 @@ from rebsync.reverse.bodies.effects.cpp_call_effects import (
     RENAMED,
     check_call,
     check_deleted,
-    check_handed,
-    check_implicit,
     check_macro,
-    check_object,
-    check_operator,
+    check_read,
     gives_itself,
 )
 from rebsync.reverse.bodies.effects.cpp_effect_reader import EffectReader
 from rebsync.reverse.bodies.effects.cpp_endings import ENDLESS, ends
-from rebsync.reverse.bodies.effects.cpp_implicit_calls import IMPLICIT, OPERATORS
 from rebsync.reverse.bodies.effects.cpp_kinds import LEAVES, LOOPS, PLAIN, REPEATED
 from rebsync.reverse.bodies.effects.cpp_roots import declared_in, is_modelled, is_number
 from rebsync.reverse.bodies.effects.touches import Touches
@@ -47,14 +43,22 @@ class Effects(EffectReader):
     """Looks through pieces of one body."""
 
     _around: tuple[str, ...] = ()  # the types of the loops and switches
+    _is_inside: bool = False  # a piece that is being looked through
 
     def check(self, node: Node) -> None:
         """Raises `Touches` where a piece of code may touch what the model has."""
-        if (type_ := node.type) in OPERATORS:
-            check_operator(self, node)
-        if type_ in IMPLICIT:
-            check_implicit(self, node)
-        if type_ in _PLACES:
+        if self._is_inside:
+            self._check(node)
+            return
+        self._is_inside = True
+        try:
+            check_read(self, node)
+            self._check(node)
+        finally:
+            self._is_inside = False
+
+    def _check(self, node: Node) -> None:
+        if (type_ := node.type) in _PLACES:
             self._decays(node)
         if type_ == "identifier":
             check_macro(self, node)
@@ -71,7 +75,7 @@ class Effects(EffectReader):
         if not isinstance(meaning, Variable) or not _is_array(node, meaning):
             return
         form = self.scope.form
-        if form is None or form.unread_calls.objects.is_pointer(self.cpp, node):
+        if form is None or form.objects.is_pointer(self.cpp, node):
             self.changes(node, name, f'elements of "{text_of(node)}" may change by another name')
 
     def _pointer(self, node: Node) -> None:
@@ -122,8 +126,6 @@ class Effects(EffectReader):
         form = self.scope.form
         if name not in self.inner and form is not None and name in form.naming_macros:
             raise self.touches(node, f'"{name}" is a macro: what it names is changed')
-        if node.type in OPERATORS:
-            check_operator(self, node)
         if not is_modelled(node, meaning):
             self._found_out(node, name)
             return
@@ -193,8 +195,6 @@ class Effects(EffectReader):
             self.check(tested)
         for declarator in node.children_by_field_name("declarator"):
             value = declarator.child_by_field_name("value")
-            if not any(each in text_of(declarator).partition("=")[0] for each in "&*"):
-                check_object(self, declarator, written, value)
             inner = declarator.child_by_field_name("declarator")
             target = inner if declarator.type == "init_declarator" and inner else declarator
             if value is not None and gives_itself(value):
@@ -230,11 +230,10 @@ class Effects(EffectReader):
         if known_functions.type_takes_values(text) or type_.type.startswith("placeholder"):
             return True
         form = self.scope.form
-        is_aggregate = form is not None and form.unread_calls.objects.is_aggregate(text)
+        is_aggregate = form is not None and form.objects.is_aggregate(text)
         return is_aggregate or self.scope.carried(type_) is not None
 
     def _new(self, node: Node) -> None:
-        check_object(self, node, part(node, "type"))
         self.arguments(named(node))
 
     def _made_from_names(self, declarator: Node) -> None:
@@ -268,7 +267,6 @@ class Effects(EffectReader):
             if argument.type == "lambda_expression":
                 self._handed(argument)
                 continue
-            check_handed(self, argument)
             name, meaning = self.root_of(argument)
             is_value = argument.type == "call_expression" and not cpp_roots.is_element(argument)
             if is_value or not is_modelled(argument, meaning):
@@ -290,11 +288,7 @@ class Effects(EffectReader):
             above = above.parent
         type_ = above.child_by_field_name("type") if above is not None else None
         form = self.scope.form
-        if (
-            type_ is None
-            or form is None
-            or not form.unread_calls.objects.is_aggregate(text_of(type_))
-        ):
+        if type_ is None or form is None or not form.objects.is_aggregate(text_of(type_)):
             self.arguments(named(node))
             return
         for element in named(node):

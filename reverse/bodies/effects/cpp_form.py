@@ -12,7 +12,9 @@ from rebsync.reverse.analysis.outcomes.held_locks import HeldLocks
 from rebsync.reverse.analysis.outcomes.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes.outcomes import RECURSES, OutcomeAnalysis
 from rebsync.reverse.analysis.problems import NOTHING_THERE, UNSAID, Problem
-from rebsync.reverse.bodies.effects.cpp_unread_calls import UnreadCalls
+from rebsync.reverse.analysis.unread_code import UnreadCode
+from rebsync.reverse.bodies.effects.cpp_form_places import FormPlaces
+from rebsync.reverse.bodies.effects.cpp_known_objects import KnownObjects
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.cpp.functions import lambda_names
@@ -23,7 +25,6 @@ from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Kind, Language
-from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside
@@ -47,7 +48,6 @@ _ACTING = ("call_expression", "assignment_expression", "update_expression", "new
 _UNKNOWN = "what this locks is not known"
 # Headers of messages of ROS 1, which are named as these are.
 _MESSAGE = re.compile(rb"#\s*include\s*[<\"](\w+)/([A-Z]\w*)\.h[>\"]")
-_FUNCTIONS = frozenset({"function_definition", "lambda_expression"})
 
 
 class CppForm:
@@ -77,9 +77,15 @@ class CppForm:
         return frozenset(n for n, v in texts if any(inside(v, "identifier", "this")))
 
     @cached_property
-    def unread_calls(self) -> UnreadCalls:
-        """Which calls may run what no file has."""
-        return UnreadCalls(self._code)
+    def objects(self) -> KnownObjects:
+        """Which objects are known by their declarations."""
+        return KnownObjects(self._code, self.places)
+
+    @cached_property
+    def places(self) -> FormPlaces:
+        """What stands at places of the trees."""
+        unread = UnreadCode(self._outcomes.origins)
+        return FormPlaces(self._lowering, self._program, unread)
 
     @cached_property
     def _lowering(self) -> CppLowering:
@@ -106,15 +112,11 @@ class CppForm:
         return self._outcomes.locks
 
     @cached_property
-    def _functions(self) -> dict[int, FunctionSymbol]:
-        """The functions that have a body, by their nodes."""
-        symbols = self._lowering.world.symbols.functions.values()
-        return {f.code.node.id: f for f in symbols if f.code.body is not None}
-
-    @cached_property
     def _of_known(self) -> frozenset[str]:
         """The functions of known files: the times that they ask for are of one clock."""
-        return frozenset(f.name for f in self._functions.values() if f.code.cpp in self._known)
+        return frozenset(
+            f.name for f in self.places.functions.values() if f.code.cpp in self._known
+        )
 
     @cached_property
     def _guards(self) -> frozenset[bytes]:
@@ -128,7 +130,7 @@ class CppForm:
         files = [cpp for cpp in self._code.files if cpp not in self._known]
         if not any(_LOCKS.search(cpp.data) for cpp in files):
             return frozenset()
-        read = (f for f in self._functions.values() if f.code.cpp not in self._known)
+        read = (f for f in self.places.functions.values() if f.code.cpp not in self._known)
         texts = [(f, self._text(f)) for f in read]
         waiting = [(f, frozenset(_WORD.findall(text))) for f, text in texts]
         asked = [w for w, (_, text) in zip(waiting, texts, strict=True) if _LOCKS.search(text)]
@@ -150,7 +152,7 @@ class CppForm:
     @cached_property
     def _unclear(self) -> frozenset[bytes]:
         """The names of guards whose constructors lock something in a way that has no form."""
-        every = [f for f in self._functions.values() if self._is_constructor(f)]
+        every = [f for f in self.places.functions.values() if self._is_constructor(f)]
         unread = (f for f in every if f.is_template and _LOCKS.search(self._text(f)))
         otherwise = (f for f in every if _OTHERWISE.search(f.code.node.text or b""))
         found = self._guards | self._inheriting
@@ -173,7 +175,7 @@ class CppForm:
     def _holding(self) -> frozenset[bytes]:
         """The functions that give a guard that is a variable of theirs."""
         found = set[bytes]()
-        for function in self._functions.values():
+        for function in self.places.functions.values():
             result = function.code.result
             if result is None or not _GUARD.search(result.text or b""):
                 continue
@@ -187,7 +189,7 @@ class CppForm:
         if self._holding.isdisjoint(words):
             return False
         others = [w for w in words if w not in self._holding]
-        lockers = {f.simple.encode() for f in self._functions.values() if self._says_lock(f)}
+        lockers = {f.simple.encode() for f in self.places.functions.values() if self._says_lock(f)}
         is_again = len(words) - len(others) > 1
         return is_again or not lockers.isdisjoint(others) or any(map(_LOCKS.search, others))
 
@@ -208,7 +210,7 @@ class CppForm:
 
     def ends(self, cpp: Cpp, loop: Node) -> bool:
         """Whether a loop in a function ends, if what stands in it does."""
-        name = self._around(loop)
+        name = self.places.around(loop)
         return name is not None and self._loops.ends(name, cpp.span(loop))
 
     def raises(self, cpp: Cpp, statement: Node) -> str | None:
@@ -220,7 +222,7 @@ class CppForm:
 
         Periods of timers are facts of the graph, which says of each whether it is known.
         """
-        name = self._around(statement)
+        name = self.places.around(statement)
         if name is None:
             return frozenset()
         function = self._program.function(name)
@@ -233,7 +235,7 @@ class CppForm:
 
     def looked_up(self, cpp: Cpp, place: Node) -> list[Span]:
         """What code looks up at a place that may not be there, by how the language has it."""
-        symbol, span = self._symbol_around(place), cpp.span(place)
+        symbol, span = self.places.symbol_around(place), cpp.span(place)
         if symbol is None:
             return []
         owner = self._lowering.world.symbols.classes.get(symbol.owner or "")
@@ -266,13 +268,13 @@ class CppForm:
 
     def unsaid(self, cpp: Cpp, statement: Node) -> list[Problem]:
         """What in a statement itself may throw, of which models say nothing."""
-        name = self._around(statement)
+        name = self.places.around(statement)
         found = (p for p in self.raised(cpp, statement) if p.function == name)
         return sorted((p for p in found if p.why in UNSAID), key=lambda p: p.place.start)
 
     def recurses(self, function: CppFunction) -> bool:
         """Whether a function may call itself, perhaps by others."""
-        symbol = self._functions.get(function.node.id)
+        symbol = self.places.functions.get(function.node.id)
         name = symbol.name if symbol is not None else ""
         return any(p.why == RECURSES and p.function == name for p in self._problems(function))
 
@@ -281,24 +283,8 @@ class CppForm:
         return any(p.raises for p in self._problems(function))
 
     def _problems(self, function: CppFunction) -> frozenset[Problem]:
-        symbol = self._functions.get(function.node.id)
+        symbol = self.places.functions.get(function.node.id)
         return self._outcomes.of(symbol.name) if symbol is not None else frozenset()
-
-    def _around(self, node: Node) -> str | None:
-        """The name of the function or lambda that a node stands in; None if it is in none."""
-        around = [n for n in ancestors(node) if n.type in _FUNCTIONS]
-        symbol = self._symbol_around(node)
-        if symbol is None:
-            return None
-        if around[0].type == "function_definition":
-            return symbol.name
-        owner = self._lowering.world.symbols.classes.get(symbol.owner or "")
-        return lambda_names(symbol, owner).get(around[0].id)
-
-    def _symbol_around(self, node: Node) -> FunctionSymbol | None:
-        """The function with a name that a node stands in."""
-        found = (self._functions.get(n.id) for n in ancestors(node))
-        return next((f for f in found if f is not None), None)
 
     def odd_locks(self, functions: Iterable[CppFunction]) -> Iterator[tuple[Cpp, Span, str]]:
         """The places in functions where a thread may wait for itself, for ever."""
@@ -308,7 +294,7 @@ class CppForm:
             if _OTHERWISE.search(text) or is_unclear or self._may_hold_twice(text):
                 yield function.cpp, function.cpp.span(function.node), _UNKNOWN
         for function in (f for f, text in found_in if self._may_lock(text)):
-            symbol = self._functions.get(function.node.id)
+            symbol = self.places.functions.get(function.node.id)
             if symbol is None:
                 yield function.cpp, function.cpp.span(function.node), _UNKNOWN
                 continue
@@ -322,11 +308,11 @@ class CppForm:
     def run_by(self, functions: Iterable[CppFunction]) -> list[CppFunction]:
         """The functions besides some that these may run, where they may lock something."""
         own = {function.node.id for function in functions}
-        others = [f for i, f in self._functions.items() if i not in own]
+        others = [f for i, f in self.places.functions.items() if i not in own]
         locking = {f.name: f.code for f in others if self._may_lock(f.code.node.text or b"")}
         if not locking:
             return []
-        roots = [self._functions[i].name for i in own if i in self._functions]
+        roots = [self.places.functions[i].name for i in own if i in self.places.functions]
         body_of = self._program.function
         found = {
             n for root in roots for n, _ in self._outcomes.origins.runs(body_of(root).body, root)

@@ -10,7 +10,7 @@ from tree_sitter import Node
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.classes import ends_silently
+from rebsync.reverse.ir.cpp.classes import ends_silently, methods_named
 from rebsync.reverse.ir.cpp.context import (
     Context,
     Unlowered,
@@ -20,6 +20,7 @@ from rebsync.reverse.ir.cpp.context import (
     unsupported,
 )
 from rebsync.reverse.ir.cpp.conversions import converted
+from rebsync.reverse.ir.cpp.functions_called import callee_of
 from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
 from rebsync.reverse.ir.cpp.objects import (
     UNKNOWN_CONSTRUCTOR,
@@ -152,6 +153,7 @@ def _new_array(context: Context, length: Node, type_: t.Type, place: Span) -> Va
     counts = named(length)
     if len(counts) != 1 or class_of(context, type_) is not None or type_ == t.UNKNOWN:
         raise Unlowered("an array of new objects")
+    _allocates(context, "operator new[]", type_, place)
     count = implicitly(context, lower_value(context, counts[0]), SIZE, place).expression
     pointer = t.Reference(type_, may_be_null=True)
     target = context.temporary(pointer, place)
@@ -163,6 +165,7 @@ def created(
     context: Context, type_: t.Type, pointer: t.Reference, nodes: Sequence[Node], place: Span
 ) -> Value:
     """A new object with the pointer to it; `nodes` is the list of arguments, or empty."""
+    _allocates(context, "operator new", type_, place)
     if class_of(context, type_) is None:
         return _created_value(context, type_, pointer, nodes, place)
     target = context.temporary(pointer, place)
@@ -177,6 +180,14 @@ def created(
     ):
         return Value(target, pointer)
     raise Unlowered("a new object that is made in parts")
+
+
+def _allocates(context: Context, name: str, type_: t.Type, place: Span) -> None:
+    """What the program itself does to get memory, or to free it ([class.free], [new.delete])."""
+    owner = class_of(context, type_)
+    own = methods_named(context.world, owner.name, name) if owner is not None else []
+    for function in own or context.world.symbols.overloads.get(name, []):
+        context.emit(s.Call(None, callee_of(function), (), place))
 
 
 def _created_value(
@@ -205,7 +216,11 @@ def delete(context: Context, node: Node) -> Value:
     if any(child.type == "[" for child in node.children):
         of = value.type.to if isinstance(value.type, t.Reference) else t.UNKNOWN
         if not ends_silently(context.world, of):
+            element = e.Dereference(value.expression, of, True, place)
+            name = of.name if isinstance(of, t.Record) else None
+            context.emit(s.Destroy(element, name, place))
             return _ends_somehow(context, node, "an array of objects that end")
+        _allocates(context, "operator delete[]", of, place)
         argument = s.CallArgument(value.expression)
         context.emit(s.Call(None, s.LibraryCallee("delete[]"), (argument,), place))
         return nothing
@@ -216,6 +231,7 @@ def delete(context: Context, node: Node) -> Value:
     name = value.type.to.name if isinstance(value.type.to, t.Record) else None
     test = e.Convert(Conversion.TRUTH, pointer, t.TRUTH, False, place)
     context.emit(s.If(test, (s.Destroy(object_, name, place),), (), False, place))
+    _allocates(context, "operator delete", value.type.to, place)
     return nothing
 
 

@@ -21,11 +21,11 @@ from rebsync.reverse.ir.cpp.symbols import (
 from rebsync.reverse.syntax.cpp_declarations import (
     CppFunction,
     conversion_function,
-    declared_name,
     function_of,
+    variable_name,
     with_values,
 )
-from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
 _CLASSES = frozenset({"class_specifier", "struct_specifier", "union_specifier"})
 _WRAPPERS = frozenset(
@@ -62,6 +62,7 @@ class Collected:
     names: dict[str, dict[str, str]] = field(default_factory=dict)  # using declarations by path
     spaces: dict[str, str] = field(default_factory=dict)  # namespaces by other names, of all files
     own_spaces: set[str] = field(default_factory=set)
+    forward: list[str] = field(default_factory=list)  # classes that are declared without members
 
     def add(self, cpp: Cpp) -> None:
         """The declarations of one more file."""
@@ -122,9 +123,13 @@ class Collected:
             self.functions.append(function)
         elif node.type == "declaration" and owner is None:
             self.variables += _variables(cpp, node, scope)
+        elif node.type == "expression_statement" and owner is None:
+            self.variables += _pointers(cpp, node, scope)
 
     def _class(self, cpp: Cpp, node: Node, scope: str, is_template: bool) -> None:
         name, body = node.child_by_field_name("name"), node.child_by_field_name("body")
+        if name is not None and body is None:
+            self.forward.append(joined(scope, text_of(name)))
         if name is None or body is None:
             return
         full = joined(scope, "".join(text_of(name).split()).partition("<")[0])
@@ -186,7 +191,7 @@ def _fields(cpp: Cpp, member: Node) -> Iterator[FieldSymbol]:
         c.type == "storage_class_specifier" and text_of(c) == "static" for c in member.children
     )
     for declarator, value in with_values(member):
-        name = declared_name(declarator)
+        name = variable_name(declarator)
         if name is not None:
             bits = _bits(member, declarator)
             yield FieldSymbol(text_of(name), type_, declarator, value, cpp, is_static, bits)
@@ -218,17 +223,27 @@ def _variables(cpp: Cpp, node: Node, scope: str) -> Iterator[VariableSymbol]:
             declarator = declarator.child_by_field_name("declarator") or declarator
         inner: Node | None = declarator
         if declarator.type != "qualified_identifier":
-            inner = declared_name(declarator)
+            inner = variable_name(declarator)
         if inner is not None:
             full = joined(scope, "".join(text_of(inner).split()))
             yield VariableSymbol(full, type_, declarator, value, cpp, scope)
+
+
+def _pointers(cpp: Cpp, node: Node, scope: str) -> Iterator[VariableSymbol]:
+    """`void (*f)(int);` outside of functions, which the grammar takes for a call."""
+    for call in inside(node, "call_expression"):
+        type_, list_ = part(call, "function"), named(part(call, "arguments"))
+        if type_.type == "primitive_type" and [n.type for n in list_] == ["pointer_expression"]:
+            name = part(list_[0], "argument")
+            full = joined(scope, text_of(name))
+            yield VariableSymbol(full, type_, list_[0], None, cpp, scope)
 
 
 def _function(
     cpp: Cpp, node: Node, scope: str, owner: str | None, is_template: bool
 ) -> Declaration | None:
     found = function_of(cpp, node, owner or "")
-    if found is None:
+    if found is None or found.name.startswith("("):  # that is a pointer to a function
         return None
     qualifier = _qualifier(node)
     is_conversion = conversion_function(cpp, node, "") is not None

@@ -105,12 +105,13 @@ class Context:
     returned: list[t.Type] = field(default_factory=list)
     temporaries: int = 0
     expanding: set[str] = field(default_factory=set)  # macros whose text is being lowered
+    used_at: Span | None = None  # where what stands elsewhere is used
 
     # --- places and emission --------------------------------------------------------------------
 
     def place(self, node: Node) -> Span:
-        """The place of a node."""
-        return self.cpp.span(node)
+        """The place of a node; of what stands elsewhere the place that uses it."""
+        return self.cpp.span(node) if self.used_at is None else self.used_at
 
     def emit(self, *statements: s.Statement) -> None:
         """Statements that run next."""
@@ -159,14 +160,15 @@ class Context:
         return target
 
     @contextmanager
-    def reading(self, cpp: Cpp, scope: str) -> Iterator[None]:
+    def reading(self, cpp: Cpp, scope: str, place: Span | None = None) -> Iterator[None]:
         """What is lowered stands elsewhere: locals are not seen from there."""
-        before = self.cpp, self.scope, self.locals, self.captures
+        before = self.cpp, self.scope, self.locals, self.captures, self.used_at
         self.cpp, self.scope, self.locals, self.captures = cpp, scope, [{}], None
+        self.used_at = self.used_at or place
         try:
             yield
         finally:
-            self.cpp, self.scope, self.locals, self.captures = before
+            self.cpp, self.scope, self.locals, self.captures, self.used_at = before
 
     # --- full-expressions -----------------------------------------------------------------------
 

@@ -32,7 +32,7 @@ from rebsync.reverse.ir.cpp.objects import (
 )
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.ir.operators import Conversion, Operator
-from rebsync.reverse.syntax.cpp_declarations import declared_name
+from rebsync.reverse.syntax.cpp_declarations import variable_name
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 
@@ -84,7 +84,7 @@ def declare(context: Context, node: Node, declarator: Node) -> None:
     if "structured_binding" in declarator.type or _binding_in(declarator) is not None:
         _bindings(context, declarator, value)
         return
-    name = declared_name(declarator)
+    name = variable_name(declarator)
     is_class = type_node.type in ("class_specifier", "struct_specifier")
     if name is None or (is_class and type_node.child_by_field_name("body") is not None):
         _no_variable(context, node, declarator)
@@ -104,6 +104,11 @@ def _no_variable(context: Context, node: Node, declarator: Node) -> None:
     type_ = context.world.types.declared(context.cpp, context.scope, part(node, "type"), None).type
     local = e.Local(context.unique(name), type_, place)
     mark = len(context.out)
+    if all(_is_type(context, each.child_by_field_name("type")) for each in list_):
+        # It declares a function, of which a call is one of what is not known.
+        found = Value(e.Local(context.unique(name), t.FunctionType(), place), t.FunctionType())
+        context.bind(name, found)
+        return
     try:
         nodes = [_argument(context, each) for each in list_]
         with context.full_expression():
@@ -120,14 +125,18 @@ def _no_variable(context: Context, node: Node, declarator: Node) -> None:
 def _argument(context: Context, node: Node) -> Node:
     """What looks like a parameter without a name, and is an argument: no type has its name."""
     type_ = node.child_by_field_name("type")
-    if type_ is None or node.child_by_field_name("declarator") is not None:
-        raise Unlowered("a declaration of a function in a body")
-    text = text_of(type_)
-    is_name = type_.type in ("type_identifier", "qualified_identifier")
-    path = context.cpp.source.path
-    if not is_name or context.world.symbols.type_named(text, context.scope, path) is not None:
+    is_called = node.child_by_field_name("declarator") is not None
+    if type_ is None or is_called or _is_type(context, type_):
         raise Unlowered("a declaration of a function in a body")
     return type_
+
+
+def _is_type(context: Context, node: Node | None) -> bool:
+    """Whether what looks like the type of a parameter surely is one."""
+    if node is None or node.type not in ("type_identifier", "qualified_identifier"):
+        return node is not None
+    path = context.cpp.source.path
+    return context.world.symbols.type_named(text_of(node), context.scope, path) is not None
 
 
 def _looks_called(node: Node) -> bool:
@@ -348,7 +357,7 @@ def _static_local(
     context: Context, node: Node, type_node: Node, declarator: Node, value: Node | None
 ) -> None:
     """A variable that is initialised when the declaration is first passed."""
-    name, place = declared_name(declarator), context.place(node)
+    name, place = variable_name(declarator), context.place(node)
     declared = context.world.types.declared(context.cpp, context.scope, type_node, declarator)
     is_auto = "auto" in text_of(type_node).split()
     if name is None or declared.reference is not ReferenceKind.NONE:

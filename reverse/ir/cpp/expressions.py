@@ -196,11 +196,9 @@ def unary_expression(context: Context, node: Node) -> Value:
     """A sign before an operand."""
     sign, place = context.cpp.operator(node), context.place(node)
     value = lower_value(context, part(node, "argument"))
-    if sign not in ("!", "not") or class_of(context, value.type) is not None:
-        called = context.world.operator(context, f"operator{sign}", [value], place)
-        if called is not None:
-            return called
-    return unary(context, sign, value, place)
+    name = "operator!" if sign == "not" else f"operator{sign}"
+    called = context.world.operator(context, name, [value], place)
+    return unary(context, sign, value, place) if called is None else called
 
 
 @lowers_expression("pointer_expression")
@@ -250,17 +248,21 @@ def _method_value(context: Context, owner: ClassSymbol, name: str, place: Span) 
 
 @lowers_expression("comma_expression")
 def comma(context: Context, node: Node) -> Value:
-    """The left operand for what it does, then the right one."""
-    discarded(context, part(node, "left"))
-    return lower_value(context, part(node, "right"))
+    """The left operand for what it does, then the right one; or the operator of a class."""
+    left = discarded(context, part(node, "left"))
+    right = lower_value(context, part(node, "right"))
+    found = context.world.operator(context, "operator,", [left, right], context.place(node))
+    return right if found is None else found
 
 
-def discarded(context: Context, node: Node) -> None:
+def discarded(context: Context, node: Node) -> Value:
     """An expression for what it does ([expr.context])."""
-    found = lower_value(context, node).expression
+    value = lower_value(context, node)
+    found = value.expression
     is_silent = isinstance(found, e.Literal | e.Lvalue) and not _may_run(found)
     if not is_silent:
         context.emit(s.Evaluate(found, context.place(node)))
+    return value
 
 
 def _may_run(expression: e.Expression) -> bool:

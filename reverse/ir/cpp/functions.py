@@ -269,7 +269,8 @@ def _member(
     if node is not None:
         _initialise(context, declared, target, node)
     else:
-        default_constructed(context, target, declared.type, NOWHERE)
+        place = member.symbol.cpp.span(member.symbol.declarator)
+        default_constructed(context, target, declared.type, place)
 
 
 def _initialise(context: Context, declared: Declared, target: e.Lvalue, node: Node) -> None:

@@ -101,7 +101,7 @@ def default_arguments(
         if parameter.default is None:
             raise Unlowered("a call with too few arguments")
         cpp, node = parameter.default
-        with context.reading(cpp, function.scope):
+        with context.reading(cpp, function.scope, place):
             found.append(_operand(context, parameter, node, place)().expression)
     return found
 
@@ -131,9 +131,7 @@ def call(
         raise Unlowered("a call of a deleted function")
     taken = tuple(s.CallArgument(a) for a in arguments)
     result = signature(context.world, function).result
-    callee: s.Callee = s.FunctionCallee(function.name)
-    if function.code.body is None:  # it is declared here, and defined in a library
-        callee = s.LibraryCallee(function.name)
+    callee: s.Callee = callee_of(function)
     if function.owner is not None and not function.is_static:
         if receiver is None:
             raise Unlowered("a call of a member function without an object")
@@ -146,6 +144,12 @@ def call(
         elif isinstance(callee, s.FunctionCallee):
             taken = (s.CallArgument(receiver.expression), *taken)
     return stored_result(context, callee, taken, result, place)
+
+
+def callee_of(function: FunctionSymbol) -> s.FunctionCallee | s.LibraryCallee:
+    """A function that is called without an object; one without a body is of a library."""
+    is_here = function.code.body is not None
+    return s.FunctionCallee(function.name) if is_here else s.LibraryCallee(function.name)
 
 
 def stored_result(

@@ -304,7 +304,7 @@ def _own_value(context: Context, owner: ClassSymbol, field: DataMember, place: S
     """What a field is where no element is given for it."""
     type_, node = field.declared.type, field.symbol.value
     if node is not None:
-        with context.reading(field.symbol.cpp, owner.name):
+        with context.reading(field.symbol.cpp, owner.name, place):
             return Value(element_value(context, type_, node), type_)
     value = default_value(context, type_, place)
     if value is not None:

@@ -36,12 +36,14 @@ from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
 from rebsync.reverse.ir.cpp.types import ReferenceKind, TypeReader
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
 from rebsync.reverse.ir.program import Class, Field, Function, FunctionKind, Program
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_index import Code
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, text_of
 
 # Modules that register lowerings of nodes.
 REGISTERED = (calls, jumps, lambdas, loops)
 DESTRUCTOR = "~"
+_CLASSES = ("class_specifier", "struct_specifier")
 _OPERATORS: dict[str, Operator | ImplicitCall] = {
     **{f"operator{o.value}": o for o in Operator if not o.value[0].isalpha()},
     **{"operator/": Operator.TRUNCATING_DIVIDE, "operator%": Operator.TRUNCATING_REMAINDER},
@@ -102,7 +104,10 @@ class CppLowering:
         names = [*self._defined(), *self._lambdas, *self._implicit, *self._modules]
         classes = [class_of_program(self.world, c) for c in self.world.symbols.classes.values()]
         modules = [(path, path) for path in self._modules]
-        return Program(names, classes, self._lower, modules, self._globals())
+        open_ = undefined(self.world.symbols)
+        pure = [f.name for f in self.world.symbols.functions.values() if f.code.pure]
+        forward = self.world.symbols.forward - self.world.symbols.classes.keys()
+        return Program(names, classes, self._lower, modules, self._globals(), open_, pure, forward)
 
     def _defined(self) -> dict[str, FunctionSymbol]:
         symbols = self.world.symbols.functions
@@ -136,6 +141,20 @@ class CppLowering:
 def _unsupported(name: str) -> Function:
     statement = s.Unsupported("a lambda in what has no lowering")
     return Function(name, (), (statement,))
+
+
+def undefined(symbols: SymbolTable) -> Iterator[str]:
+    """The functions that no file defines: more of a name than have a body elsewhere."""
+    groups: dict[tuple[str | None, str, int], list[FunctionSymbol]] = {}
+    for function in symbols.functions.values():
+        key = function.owner or function.scope, function.simple, len(function.code.parameters)
+        groups.setdefault(key, []).append(function)
+    for group in groups.values():
+        open_ = [f for f in group if not (f.code.body or f.is_default or f.is_deleted)]
+        alone = [f for f in group if f.code.body and f.declarations == (f.code,) and f.owner]
+        apart = [f for f in alone if not climb(f.code.node, lambda n: n.type in _CLASSES)]
+        if len(open_) > len(apart):
+            yield from (f.name for f in open_)
 
 
 def _has_implicit(world: World, owner: ClassSymbol) -> bool:

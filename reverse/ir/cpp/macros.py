@@ -36,7 +36,7 @@ def expanded(context: Context, name: str, nodes: Sequence[Node], place: Span) ->
                 parameters = [text_of(p) for p in named(part(defined, "parameters"))]
                 for parameter, value in zip(parameters, given, strict=False):
                     context.bind(parameter, value)
-                _text(context, defined, target)
+                _text(context, defined, target, place)
             bodies.append(tuple(body))
     finally:
         context.expanding.discard(name)
@@ -46,24 +46,25 @@ def expanded(context: Context, name: str, nodes: Sequence[Node], place: Span) ->
     return Value(target, t.UNKNOWN)
 
 
-def _text(context: Context, defined: Node, target: e.Lvalue) -> None:
+def _text(context: Context, defined: Node, target: e.Lvalue, place: Span) -> None:
     """The text of a macro: an expression, whose value it has, or statements."""
     value = defined.child_by_field_name("value")
     text = _CONTINUED.sub(" ", text_of(value)) if value is not None else ""
     if "#" in text:
         raise Unlowered("a macro that joins or writes what it gets")
-    before = context.cpp
+    before = context.cpp, context.used_at
     try:
-        context.cpp, statements = _parsed(before, text)
+        context.cpp, statements = _parsed(context.cpp, text)
+        context.used_at = context.used_at or place
         is_value = [n.type for n in statements] == ["return_statement"]
         if is_value:
             found = lower_value(context, named(statements[0])[0])
-            context.emit(s.Assign(target, found.expression, context.cpp.span(statements[0])))
+            context.emit(s.Assign(target, found.expression, place))
         else:
             for node in statements:
                 lower_statement(context, node)
     finally:
-        context.cpp = before
+        context.cpp, context.used_at = before
 
 
 def _parsed(around: Cpp, text: str) -> tuple[Cpp, list[Node]]:

@@ -232,7 +232,7 @@ def _macro(context: Context, node: Node, macro: tuple[Cpp, Node]) -> Value:
     is_text = cpp.source.text.startswith("const auto x =")
     if is_text and value.type in _OPERATIONS and around in _OPERATIONS:
         raise Unlowered("a macro whose text may bind otherwise than it looks")
-    with context.reading(cpp, context.scope):
+    with context.reading(cpp, context.scope, context.place(node)):
         return lower_value(context, value)
 
 

@@ -40,6 +40,7 @@ class SymbolTable:
         self.names = collected.names
         self.spaces = collected.spaces
         self.own_spaces = collected.own_spaces
+        self.forward = frozenset(collected.forward)
         self.classes: dict[str, ClassSymbol] = {}
         self.types: dict[str, TypeSymbol | None] = {}
         declared: list[TypeSymbol] = [*collected.classes, *collected.enums, *collected.aliases]

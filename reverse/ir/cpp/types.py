@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from enum import Enum
 from typing import TypeAlias
 
@@ -11,10 +11,15 @@ from tree_sitter import Node
 
 from rebsync.records import dataclass
 from rebsync.reverse.ir import types as t
+from rebsync.reverse.ir.cpp.declarators import (
+    has_const,
+    inner_declarator,
+    is_pointer_to_function,
+    is_template_parameter,
+)
 from rebsync.reverse.ir.cpp.symbol_table import SymbolTable
 from rebsync.reverse.ir.cpp.symbols import AliasSymbol, ClassSymbol, EnumSymbol
 from rebsync.reverse.ir.dump_types import dump_type
-from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 
 INT = t.Integer(32)
@@ -89,7 +94,7 @@ class TypeReader:
 
     def declared(self, cpp: Cpp, scope: str, type_: Node, declarator: Node | None) -> Declared:
         """The type of what a declarator declares; `const` stands beside the type."""
-        is_constant = _is_constant(type_)
+        is_constant = has_const(type_)
         type_read = self.of(cpp, scope, type_)
         return self._wrapped(cpp, scope, type_read, declarator, is_constant)
 
@@ -110,15 +115,17 @@ class TypeReader:
                 case "array_declarator" | "abstract_array_declarator":
                     return self._array(cpp, scope, of, node, is_constant)
                 case "function_declarator" | "abstract_function_declarator":
-                    if not _is_pointer_to_function(node):
+                    if not is_pointer_to_function(node):
                         break  # what is around the declarator of a function is its result
+                    return Declared(t.FunctionType(), reference, is_constant)
+                case "pointer_expression":  # which the grammar takes a pointer to a function for
                     return Declared(t.FunctionType(), reference, is_constant)
                 case "parenthesized_declarator" | "abstract_parenthesized_declarator":
                     pass
                 case _:
                     break
             inner = node.child_by_field_name("declarator")
-            node = inner if inner is not None else _last(node)
+            node = inner if inner is not None else inner_declarator(node)
         return Declared(of, reference, is_constant)
 
     def _array(self, cpp: Cpp, scope: str, of: t.Type, node: Node, is_constant: bool) -> Declared:
@@ -147,7 +154,7 @@ class TypeReader:
     def of(self, cpp: Cpp, scope: str, node: Node) -> t.Type:
         """The type that a node names."""
         match node.type:
-            case "type_identifier" if _is_template_parameter(cpp, node):
+            case "type_identifier" if is_template_parameter(cpp, node):
                 return t.UNKNOWN
             case "primitive_type" | "type_identifier" | "namespace_identifier" | "identifier":
                 return self.named(cpp, scope, text_of(node))
@@ -179,6 +186,12 @@ class TypeReader:
                 return t.Enumeration(symbol.name, self.underlying(symbol))
             case AliasSymbol():
                 return self.declared(symbol.cpp, symbol.scope, symbol.type, symbol.declarator).type
+        for full in self.symbols.candidates(name, scope, cpp.source.path):
+            if full in self.symbols.forward and full not in self.symbols.classes:
+                return t.Record(full)
+        outer, _, last = name.rpartition("::")
+        if last in _POINTER_ALIASES and isinstance(of := self.named(cpp, scope, outer), t.Record):
+            return t.Reference(of, True, _POINTER_ALIASES[last])
         return self._of_library(cpp, self.without_alias(cpp, scope, name))
 
     def without_alias(self, cpp: Cpp, scope: str, name: str) -> str:
@@ -272,7 +285,9 @@ class TypeReader:
         space, _, name = full.rpartition("::")
         if space not in ("std", "boost"):
             known = self.symbols.type_named(full, scope, cpp.source.path)
-            return t.UNKNOWN if known is not None or not space else t.Record(full)
+            if known is not None or not space:
+                return t.UNKNOWN
+            return self._of_classes(full, [self.descriptor(cpp, scope, a).form for a in arguments])
         if name == "bitset":
             return t.Record(full)
         if name == "array":
@@ -290,6 +305,8 @@ class TypeReader:
                 return t.Container(t.ContainerKind.SEQUENCE, inner[:1])
             case name if name in _SETS:
                 return t.Container(t.ContainerKind.SET, inner[:1])
+            case name if self._are_own(inner[2:]):
+                return self._of_classes(full, inner)
             case name if name in _MAPS:
                 return t.Container(t.ContainerKind.MAPPING, inner[:2])
             case "queue":
@@ -307,7 +324,16 @@ class TypeReader:
             case "tuple":
                 return self.record_of("std::tuple", tuple(map(str, range(len(inner)))), inner)
             case _:
-                return t.Record(full)
+                return self._of_classes(full, inner)
+
+    def _of_classes(self, full: str, inner: Sequence[t.Type]) -> t.Record:
+        """A class of a library, with the arguments of the template if a class of the program is."""
+        if not self._are_own(inner):
+            return t.Record(full)
+        return t.Record(f"{full}<{', '.join(map(dump_type, inner))}>")
+
+    def _are_own(self, types: Iterable[t.Type]) -> bool:
+        return any(isinstance(x, t.Record) and x.name in self.symbols.classes for x in types)
 
     def record_of(self, name: str, fields: tuple[str, ...], types: tuple[t.Type, ...]) -> t.Record:
         """`std::pair<A, B>` and `std::tuple`: records whose fields have these types."""
@@ -356,38 +382,3 @@ def _kind_of(is_double: bool, is_constant: bool) -> ReferenceKind:
     if is_double:
         return ReferenceKind.RVALUE
     return ReferenceKind.CONSTANT if is_constant else ReferenceKind.LVALUE
-
-
-def _is_constant(type_: Node) -> bool:
-    """Whether `const` stands beside the type, within the same declaration."""
-    parent = type_.parent
-    return parent is not None and any(
-        c.type == "type_qualifier" and text_of(c) in ("const", "constexpr")
-        for c in parent.named_children
-    )
-
-
-def _is_template_parameter(cpp: Cpp, node: Node) -> bool:
-    """Whether a name is that of a parameter of a template around, which any type may be."""
-    if b"template" not in cpp.words:
-        return False
-    templates = (n for n in ancestors(node) if n.type == "template_declaration")
-    lists = (n.child_by_field_name("parameters") for n in templates)
-    parameters = (p for list_ in lists if list_ is not None for p in named(list_))
-    names = (c for p in parameters for c in named(p) if c.type == "type_identifier")
-    return any(name.text == node.text for name in names)
-
-
-def _is_pointer_to_function(node: Node) -> bool:
-    """Whether it is `(*f)(int)`."""
-    inner = node.child_by_field_name("declarator")
-    return inner is None or inner.type in (
-        "parenthesized_declarator",
-        "abstract_parenthesized_declarator",
-    )
-
-
-def _last(node: Node) -> Node | None:
-    """The inner declarator of a reference, which the grammar has in no field."""
-    inner = [c for c in named(node) if c.type != "type_qualifier"]
-    return inner[-1] if inner else None

@@ -108,23 +108,6 @@ CONTAINERS = (
     ),
     Rule(Effect.NONE, "at count find substr"),
 )
-# Functions of C's library that do nothing but to what they get.
-OF_C = frozenset(
-    {"memset", "memcpy", "memmove", "memcmp", "strlen", "strcmp", "strncmp", "strcpy", "strncpy"}
-    | {
-        "strcat",
-        "strstr",
-        "strchr",
-        "strtol",
-        "strtod",
-        "snprintf",
-        "sprintf",
-        "sscanf",
-        "vsnprintf",
-    }
-    | {"malloc", "calloc", "realloc", "free", "getenv", "time", "clock", "srand", "perror"}
-    | {"isdigit", "isalpha", "isspace", "tolower", "toupper", "fopen", "fread", "fwrite", "fflush"}
-)
 # How the names of Python's functions and methods begin, of which nothing is known but that they
 # wait, end the node, or lead to its callbacks; as patterns.
 ACTING_WORDS = (

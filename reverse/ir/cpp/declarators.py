@@ -1,0 +1,43 @@
+"""What stands around the names and types of declarations ([dcl.decl])."""
+
+from __future__ import annotations
+
+from tree_sitter import Node
+
+from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+
+
+def has_const(type_: Node) -> bool:
+    """Whether `const` stands beside the type, within the same declaration."""
+    parent = type_.parent
+    return parent is not None and any(
+        c.type == "type_qualifier" and text_of(c) in ("const", "constexpr")
+        for c in parent.named_children
+    )
+
+
+def is_template_parameter(cpp: Cpp, node: Node) -> bool:
+    """Whether a name is that of a parameter of a template around, which any type may be."""
+    if b"template" not in cpp.words:
+        return False
+    templates = (n for n in ancestors(node) if n.type == "template_declaration")
+    lists = (n.child_by_field_name("parameters") for n in templates)
+    parameters = (p for list_ in lists if list_ is not None for p in named(list_))
+    names = (c for p in parameters for c in named(p) if c.type == "type_identifier")
+    return any(name.text == node.text for name in names)
+
+
+def is_pointer_to_function(node: Node) -> bool:
+    """Whether it is `(*f)(int)`."""
+    inner = node.child_by_field_name("declarator")
+    return inner is None or inner.type in (
+        "parenthesized_declarator",
+        "abstract_parenthesized_declarator",
+    )
+
+
+def inner_declarator(node: Node) -> Node | None:
+    """The inner declarator of a reference, which the grammar has in no field."""
+    inner = [c for c in named(node) if c.type != "type_qualifier"]
+    return inner[-1] if inner else None
