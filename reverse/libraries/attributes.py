@@ -10,6 +10,8 @@ import importlib
 import queue
 import threading
 from collections.abc import Mapping
+from importlib.util import find_spec
+from types import ModuleType
 
 from rebsync.reverse.libraries import python
 from rebsync.reverse.libraries.registry import derived
@@ -101,6 +103,25 @@ _ATTRIBUTES: Mapping[str, str] = {
         )
     },
 }
+_COUNTS = ("get_subscription_count", "get_publisher_count")
+# Modules that turn angles into quaternions and back: tuples and arrays of numbers.
+_TURNING = (
+    *("tf.transformations", "tf_transformations", "transformations", "tf_conversions"),
+    *("tf_conversions.transformations", "transforms3d.euler", "transforms3d.quaternions"),
+)
+_OF_TURNS = """
+    euler_from_quaternion quaternion_from_euler quaternion_multiply quaternion_inverse
+    quaternion_conjugate euler_from_matrix translation_from_matrix quaternion_from_matrix euler2quat
+    quat2euler qmult"""
+# Functions of numpy that give a number for numbers.
+OF_NUMBERS_ALONE = frozenset(
+    f"numpy.{name}"
+    for name in """
+    sin cos tan arcsin arccos arctan arctan2 sinh cosh tanh sqrt cbrt abs absolute fabs sign hypot
+    deg2rad rad2deg radians degrees exp log log2 log10 floor ceil round rint trunc clip minimum
+    maximum mod fmod power isnan isinf isfinite square float32 float64 int32 int64
+    """.split()
+)
 # By the full name of a function or method the class of what it gives.
 _GIVES: Mapping[str, str] = {
     "rclpy.create_node": _NODE,
@@ -130,10 +151,26 @@ _GIVES: Mapping[str, str] = {
     "datetime.datetime.date": "datetime.date",
     "datetime.datetime.time": "datetime.time",
     **dict.fromkeys(("os.getcwd", "platform.node", "socket.gethostname"), "str"),
+    **dict.fromkeys(("rospy.resolve_name", "rospy.remap_name"), "str"),
+    "rospy.Publisher.get_num_connections": "number",
+    **dict.fromkeys(
+        (
+            f"rclpy.publisher.Publisher.{_COUNTS[0]}",
+            f"rclpy.subscription.Subscription.{_COUNTS[1]}",
+        ),
+        "number",
+    ),
+    "rclpy.time.Time.from_msg": "rclpy.time.Time",
+    "rclpy.duration.Duration.from_msg": "rclpy.duration.Duration",
+    "rclpy.parameter.Parameter.get_parameter_value": "rcl_interfaces/ParameterValue",
+    **{f"{of}.{name}": "numbers" for of in _TURNING for name in _OF_TURNS.split()},
+    **dict.fromkeys(("builtins.pow", "numpy.linalg.norm"), "number"),
 }
 # By the full name of an attribute the class of its value.
 _HOLDS: Mapping[str, str] = {
     **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
+    **{f"numpy.{name}": "number" for name in ("pi", "e", "inf", "nan")},
+    "sys.argv": "texts",
     **{f"{of}.{name}": "number" for of in _TIMES for name in ("secs", "nsecs")},
     **{f"datetime.timedelta.{name}": "number" for name in ("days", "seconds", "microseconds")},
     **{
@@ -212,7 +249,10 @@ _OWN_MODULES = frozenset(
         *("abc", "bisect", "collections", "contextlib", "copy", "dataclasses", "datetime"),
         *("decimal", "enum", "functools", "heapq", "itertools", "json", "math", "operator"),
         *("queue", "random", "re", "statistics", "string", "struct", "sys", "threading"),
-        *("time", "typing", "uuid"),
+        *("time", "typing", "uuid", "argparse", "array", "base64", "csv", "errno", "fractions"),
+        *("glob", "hashlib", "io", "locale", "logging", "numbers", "os", "pathlib", "pickle"),
+        *("platform", "select", "shutil", "signal", "socket", "subprocess", "tempfile"),
+        *("textwrap", "traceback", "types", "warnings", "zlib"),
     }
 )
 # Constants of messages are written in capitals; the rest are what generators add.
@@ -268,17 +308,41 @@ def takes_nothing(name: str) -> bool:
 
 
 def held_in(name: str) -> str:
-    """The class of the value of an attribute; empty if that is not known."""
-    return _HOLDS.get(name, "")
+    """The class of the value of an attribute, or of a constant; empty if that is not known."""
+    return _HOLDS.get(name) or _CONSTANTS.get(type(_in_python(name)), "")
+
+
+_MISSING = object()  # what a module of Python's own does not have
+_CONSTANTS = {int: "number", float: "number", bool: "number", str: "str", bytes: "bytes"}
 
 
 @derived
-def has_name(module: str, name: str) -> bool:
-    """Whether a module may have a name; the modules of Python's own have what they have here."""
+def _in_python(name: str) -> object:
+    """What Python's own library has here under a full name; None where that is not known."""
+    first, *rest = name.split(".")
+    if first not in _OWN_MODULES or not rest:
+        return None
+    found: object = importlib.import_module(first)
+    for part in rest:
+        inner = getattr(found, part, _MISSING)
+        is_package = hasattr(found, "__path__") and isinstance(found, ModuleType)
+        if inner is _MISSING and is_package and find_spec(f"{found.__name__}.{part}") is not None:
+            return None  # a module of which nothing was asked here
+        found = inner
+        if found is _MISSING:
+            return found
+    return found
+
+
+@derived
+def has_name(name: str) -> bool:
+    """Whether there may be a full name; the modules of Python's own have what they have here."""
+    module, _, rest = name.partition(".")
     known = _MODULES.get(module)
-    if known is None and module in _OWN_MODULES:
-        return hasattr(importlib.import_module(module), name)
-    return known is None or name in known.split() or name.startswith("_")
+    if known is None:
+        return _in_python(name) is not _MISSING
+    first = rest.partition(".")[0]
+    return first in known.split() or first.startswith("_")
 
 
 def may_be_of_messages(name: str) -> bool:

@@ -6,17 +6,23 @@ Calls of which it is not known what they reach give nothing here: more may come.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 
-from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin, Origins
-from rebsync.reverse.analysis.python.call_binding import bound
+from rebsync.reverse.analysis.origins import (
+    ClassOrigin,
+    FunctionOrigin,
+    LibraryOrigin,
+    Origin,
+    Origins,
+)
+from rebsync.reverse.analysis.python.call_binding import KEEPING, bound
 from rebsync.reverse.analysis.python.message_values import (
     callback_functions,
     first_parameter,
     own_parameters,
 )
-from rebsync.reverse.analysis.stores import ElementOf, Source
+from rebsync.reverse.analysis.stores import ElementOf, Member, Source
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function
@@ -58,6 +64,49 @@ class ArgumentTypes:
         return self._subscribed.get((function, parameter), [])
 
     @cached_property
+    def escaping(self) -> frozenset[str]:
+        """The functions that are named otherwise than to be called: what they get is not known.
+
+        What subscriptions and services give is known, and so is what Python's own give for each
+        element.
+        """
+        last = {name.rpartition(".")[2].rpartition(":")[2] for name in self._program.functions}
+        found = set[str]()
+        for name in self._program.functions:
+            around = self._program.function(name)
+            known = {id(each) for node in walk(around) for each in self._known_uses(node)}
+            for node in walk(around):
+                match node:
+                    case e.Attribute(name=named) | e.Global(name=named) if named in last:
+                        pass
+                    case e.Closure() | e.Local() | e.Captured() | e.FunctionReference():
+                        pass
+                    case _:
+                        continue
+                if id(node) not in known:
+                    found |= self._graph.value(node, around).functions
+        return frozenset(found)
+
+    def _known_uses(self, node: object) -> Iterator[e.Expression]:
+        """The values in a node that name functions of which it is known what they get there."""
+        match node:
+            case s.Assign(target, e.Closure() as value):  # which defines it
+                yield from (target, value)
+            case s.Assign(target):
+                yield target
+            case s.Call(_, s.ValueCallee(value)):
+                yield value
+            case s.Call(_, s.LibraryCallee(name), arguments) if name in KEEPING | _FOR_EACH:
+                yield from (a.value for a in arguments)
+            case _:
+                pass
+        if isinstance(node, s.Call):
+            yield from [node.target] if node.target is not None else []
+            yield from (a.value for a in node.arguments if a.name == "key")
+            for kind in (Kind.SUBSCRIPTION, Kind.SERVICE):
+                yield from (callback for _, callback in _asked(node, kind))
+
+    @cached_property
     def _given(self) -> dict[tuple[str, str], list[Source]]:
         found: dict[tuple[str, str], list[Source]] = {}
         for name in self._program.functions:
@@ -65,7 +114,7 @@ class ArgumentTypes:
             for node in walk(around):
                 match node:
                     case s.Call():
-                        for called in self._called(node, around):
+                        for called in self.called(node, around):
                             given = bound(node, self._program.function(called))
                             for parameter, value in given.items():
                                 found.setdefault((called, parameter), []).append((name, value))
@@ -80,26 +129,54 @@ class ArgumentTypes:
                         pass
         return found
 
-    def _called(self, call: s.Call, around: Function) -> frozenset[str]:
+    def called(self, call: s.Call, around: Function) -> frozenset[str]:
         """The functions of the program that a call reaches, as far as that is known."""
         match call.callee:
             case s.FunctionCallee(name):
                 return frozenset({name})
             case s.ValueCallee(value):
                 held = self._origins.of(value, around.name)  # decorated ones too
-                names = (o.name for o in held if isinstance(o, FunctionOrigin))
-                return self._graph.value(value, around).functions.union(names)
-            case s.MethodCallee(e.Local() as receiver, _, None, None) as callee if (
-                self._graph.class_of(receiver, around) is not None
-            ):
-                return self._graph.callee(callee, around).functions
+                return self._graph.value(value, around).functions | self._run_by(held)
+            case s.MethodCallee(_, name, _, str() as after):
+                return self._nearest(self._graph.bases(after), name)
+            case s.MethodCallee(e.Local() as receiver, name, None, None) as callee if (
+                owner := self._graph.class_of(receiver, around)
+            ) is not None:
+                found = self._graph.callee(callee, around).functions
+                return found if self._origins.methods(owner, name) else found | self._kept(name)
             case s.MethodCallee(receiver, name, None, None):
                 held = self._origins.of(receiver, around.name)
-                classes = (o.name for o in held if isinstance(o, ClassOrigin))
-                found = (self._origins.methods(each, name) for each in classes)
-                return frozenset[str]().union(*found)
+                classes = [o.name for o in held if isinstance(o, ClassOrigin)]
+                methods = (self._origins.methods(each, name) for each in classes)
+                found = frozenset[str]().union(*methods)
+                return found if found or not classes else self._kept(name)
             case _:
                 return frozenset()
+
+    def _run_by(self, held: Iterable[Origin]) -> frozenset[str]:
+        """The functions that calls of some values run: of classes the constructors."""
+        found = frozenset[str]()
+        for origin in held:
+            match origin:
+                case FunctionOrigin(name):
+                    found |= {name}
+                case ClassOrigin(name, of_object):
+                    method = "__call__" if of_object else "__init__"
+                    found |= self._nearest([name, *self._graph.bases(name)], method)
+                case _:
+                    pass
+        return found
+
+    def _nearest(self, line: Iterable[str], method: str) -> frozenset[str]:
+        """The function that the first of some classes that has it has for a method."""
+        classes = (self._program.classes.get(name) for name in line)
+        methods = (dict(c.methods) for c in classes if c is not None)
+        return frozenset(next(({m[method]} for m in methods if method in m), ()))
+
+    def _kept(self, name: str) -> frozenset[str]:
+        """The functions that are stored under the name of an attribute."""
+        stored = self._graph.stores.of(Member(name))
+        return frozenset[str]().union(*(self._run_by(self._origins.of_stored(v)) for v in stored))
 
     def _called_for_each(self, call: s.Call, around: Function) -> Iterator[tuple[str, ElementOf]]:
         """The functions that one of Python's calls for each element of a container."""

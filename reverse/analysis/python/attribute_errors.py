@@ -131,8 +131,7 @@ class AttributeErrors:
 
     def of_library(self, node: s.Statement | e.Expression, name: str) -> None:
         """Notes a full name in a library of which a table has all names, and not this one."""
-        module, _, rest = name.partition(".")
-        if rest and not has_name(module, rest.partition(".")[0]):
+        if "." in name and not has_name(name):
             self._notes.fails(node, _LACKS)
         if isinstance(node, s.Call) and node.arguments and takes_nothing(name):
             self._notes.fails(node, _REFUSED)

@@ -101,6 +101,8 @@ class AttributeTypes:
             case MessageType(of):
                 fields = self._origins.table.fields(of) or {}
                 return self.field(fields[name]) if name in fields else ANY_TYPE
+            case LibraryType(_, holds) if holds and name == "value":
+                return holds
             case LibraryType(of):
                 return self.of_class(held_in(f"{of}.{name}"))
             case InstanceType(of) if name in ("value", "_value_") and self._has_members(type_):
@@ -136,6 +138,10 @@ class AttributeTypes:
 
     def of_class(self, name: str) -> ValueTypes:
         """The types of an object of a library's class, of a message, or of one of Python's own."""
+        if name == "texts":
+            return sequence(OwnType.LIST, A_TEXT)
+        if name == "numbers":
+            return sequence(OwnType.ARRAY, A_NUMBER)
         if name in _OWN:
             own = _OWN[name]
             return frozenset((own,)) if own in (OwnType.NUMBER, OwnType.TEXT) else _any_of(own)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origins
+from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin, Origins
+from rebsync.reverse.analysis.python.argument_types import ArgumentTypes
 from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
 from rebsync.reverse.analysis.python.type_queries import TypeQueries
 from rebsync.reverse.analysis.python.value_types import (
@@ -22,9 +23,10 @@ from rebsync.reverse.analysis.python.value_types import (
     union,
     values_of,
 )
+from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.libraries.attributes import result_of
+from rebsync.reverse.libraries.attributes import OF_NUMBERS_ALONE, result_of
 
 _LIST, _QUEUE, _SET = OwnType.LIST, OwnType.QUEUE, OwnType.SET
 # Functions that give a container of the elements of their first argument, or go through it.
@@ -59,10 +61,17 @@ _OF_TEXTS = {
 class GivenTypes:
     """The calls of one program; `types` are those of the values in it."""
 
-    def __init__(self, origins: Origins, types: TypeQueries, attributes: AttributeTypes) -> None:
+    def __init__(
+        self,
+        origins: Origins,
+        types: TypeQueries,
+        attributes: AttributeTypes,
+        arguments: ArgumentTypes,
+    ) -> None:
         self._origins = origins
         self._graph = origins.graph
         self._types = types
+        self._arguments = arguments
         self._attributes = attributes
 
     def of(self, call: s.Call, function: str) -> ValueTypes:
@@ -89,13 +98,31 @@ class GivenTypes:
                     found |= self._attributes.of_class(name)
                 case _:
                     found |= ANY_TYPE
-        if None not in found:
+        if found and None not in found:
             return found
         around = self._graph.program.function(function)
         targets = self._graph.callee(call.callee, around)
-        if targets.unknown or targets.libraries or not targets.functions:
-            return found
-        return union(map(self._types.result, targets.functions))
+        functions = targets.functions
+        if targets.unknown or targets.libraries or not functions:
+            functions = self._of_known(call, function)
+        return union(map(self._types.result, functions)) if functions else ANY_TYPE
+
+    def _of_known(self, call: s.Call, function: str) -> frozenset[str]:
+        """The functions that a call runs, if it is known of which objects; none otherwise."""
+        match call.callee:
+            case s.MethodCallee(_, _, _, str()):
+                pass
+            case s.MethodCallee(receiver):
+                types = self._types.of(receiver, function)
+                if not types or not all(isinstance(t, InstanceType) for t in types):
+                    return frozenset()
+            case s.ValueCallee(value):
+                held = self._origins.of(value, function)
+                if not all(isinstance(o, ClassOrigin | FunctionOrigin) for o in held):
+                    return frozenset()
+            case _:
+                return frozenset()
+        return self._arguments.called(call, self._graph.program.function(function))
 
     # --- functions of libraries ------------------------------------------------------------------
 
@@ -121,6 +148,18 @@ class GivenTypes:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, A_NUMBER),))
             case "builtins.sum" if len(given) > 1:
                 return ANY_TYPE
+            case "builtins.divmod" if given == [A_NUMBER, A_NUMBER]:
+                return pair(A_NUMBER, A_NUMBER)
+            case "random.choice" | "copy.copy" | "copy.deepcopy" if given:
+                return given[0] if name.startswith("copy") else elements_of(given[0])
+            case "functools.reduce" if given:
+                return union([self._mapped(plain[0], function), *given[2:]])
+            case "os.getenv" | "os.environ.get" if given:
+                return union([A_TEXT, *given[1:]])
+            case "rospy.get_param" | "rospy.get_param_cached" if len(given) > 1:
+                return given[1] or ANY_TYPE  # a parameter is of the type of its default
+            case _ if name in OF_NUMBERS_ALONE and given and union(given) == A_NUMBER:
+                return A_NUMBER
             case "builtins.max" | "builtins.min" if given:
                 defaults = [a.value for a in call.arguments if a.name == "default"]
                 found = union(given) if len(given) > 1 else elements_of(given[0])
@@ -188,7 +227,7 @@ class GivenTypes:
 
     def _of_instance(self, of: str, name: str, call: s.Call, function: str) -> ValueTypes:
         """A method of an object of the program's: its own, or one of a base in a library."""
-        if self._origins.methods(of, name):
+        if self._origins.methods(of, name) or self._graph.stores.of(Member(name)):
             return self._of_program(call, function)
         found = (result_of(f"{base}.{name}") for base in self._graph.bases(of))
         return self._attributes.of_class(next(filter(None, found), ""))

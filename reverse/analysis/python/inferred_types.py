@@ -57,8 +57,9 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import COMPARISONS, Operator
-from rebsync.reverse.ir.program import FunctionKind, Parameter
+from rebsync.reverse.ir.program import FunctionKind, Parameter, ParameterKind
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.attributes import held_in
 
 _CONTAINERS = {
     t.ContainerKind.SEQUENCE: OwnType.LIST,
@@ -83,7 +84,7 @@ class InferredTypes:
         self._containers = ContainerStores(origins.graph)
         own = proxy(self)  # they are parts of this: no circle keeps the trees of a program
         self.attributes = AttributeTypes(origins, own)
-        self._calls = GivenTypes(origins, own, self.attributes)
+        self._calls = GivenTypes(origins, own, self.attributes, arguments)
         self._rounds = Rounds[Node, ValueTypes](self._found, NO_TYPES)
 
     def of(self, value: e.Expression, function: str) -> ValueTypes:
@@ -118,6 +119,8 @@ class InferredTypes:
                 return declared
             case e.Attribute(of, name):
                 return self.attributes.of(self.of(of, function), of, name, function)
+            case e.LibraryReference(name):
+                return self.attributes.of_class(held_in(name))
             case e.Local() | e.Temporary() | e.Captured() | e.Global():
                 if owner := self.attributes.receiver(value, function):
                     return frozenset((InstanceType(owner),))
@@ -217,6 +220,12 @@ class InferredTypes:
             return NO_TYPES
         if declared := of_declared(own.type):
             return declared
+        if own.kind is ParameterKind.REST:
+            return sequence(OwnType.TUPLE, ANY_TYPE)
+        if own.kind is ParameterKind.NAMED_REST:
+            return frozenset((ContainerType(OwnType.MAPPING, A_TEXT, ANY_TYPE),))
+        if key.function in self._arguments.escaping:
+            return ANY_TYPE
         given = self._arguments.arguments(key.function, key.name)
         messages = self._arguments.messages(key.function, key.name)
         found = union(map(self.of_stored, given))
@@ -240,6 +249,8 @@ class InferredTypes:
                 return elements_of(self.of(container, function))
             case PartOf(of, at):
                 return at_index(self.of(of, function), at)
+            case ClassValue(name) if self._origins.enumerations.of(name):
+                return sequence(None, frozenset((InstanceType(name),)))
             case AnyValue() | ClassValue():
                 return ANY_TYPE
             case _:

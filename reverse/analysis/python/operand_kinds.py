@@ -7,13 +7,13 @@ Attributes are told apart by names, and by their class where a function asks its
 from __future__ import annotations
 
 from collections import Counter, OrderedDict, defaultdict, deque
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import TypeAlias
 
 from rebsync.reverse.analysis.facts import Facts, Holds, IsBound, IsOf
 from rebsync.reverse.analysis.held_values import is_of_other
-from rebsync.reverse.analysis.origins import ClassOrigin
+from rebsync.reverse.analysis.origins import ANYTHING, ClassOrigin, LibraryOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.inferred_types import computed
 from rebsync.reverse.analysis.python.value_types import (
@@ -56,6 +56,7 @@ _IN_TEXTS = frozenset(
 )
 _ASKING = frozenset(f"builtins.{n}" for n in ("isinstance", "type", "hasattr", "callable"))
 _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
+_CLASSES = dict.fromkeys(("int", "float", "bool"), "number")
 Kinds: TypeAlias = "frozenset[OwnType | None]"
 
 
@@ -75,9 +76,9 @@ class OperandKinds:
     def types(self, value: e.Expression, facts: Facts) -> ValueTypes:
         """The types of what a value may be where some facts are known."""
         known = [fact.types for fact in facts if isinstance(fact, IsOf) and fact.value == value]
-        if known:  # what a test says is not told apart, and is any type
-            declared = self._declared(value) if ANY_TYPE in known else NO_TYPES
-            types = declared or (ANY_TYPE if ANY_TYPE in known else known[0])
+        if known:
+            told = sorted((types for types in known if None not in types), key=len)
+            types = told[0] if told else self._declared(value) or ANY_TYPE
             key = key_of(value, self._name)
             return types if key is None else self._types.with_puts(key, types)
         if declared := self._declared(value):
@@ -98,6 +99,24 @@ class OperandKinds:
                 return self._named(value, facts)
             case _:
                 return self._types.of(value, self._name)
+
+    def of_classes(self, classes: Iterable[e.Expression | e.Spread]) -> ValueTypes:
+        """The types of objects of some classes."""
+        found = NO_TYPES
+        for value in classes:
+            held = ANYTHING
+            if not isinstance(value, e.Spread):
+                held = self._notes.origins.of(value, self._name)
+            for origin in held:
+                match origin:
+                    case ClassOrigin(name, False):
+                        found |= {InstanceType(name)}
+                    case LibraryOrigin(name, False):
+                        plain = name.removeprefix("builtins.")
+                        found |= self._types.attributes.of_class(_CLASSES.get(plain, plain))
+                    case _:
+                        found |= ANY_TYPE
+        return found
 
     def asked(self, value: e.Expression, facts: Facts) -> Kinds:
         """The types of Python's own that an operator or a text must take; None for any other.

@@ -44,9 +44,13 @@ class ContainerType:
 
 @dataclass(frozen=True, slots=True)
 class LibraryType:
-    """An object of a library's class of which a table has the attributes, by its full name."""
+    """An object of a library's class of which a table has the attributes, by its full name.
+
+    A parameter of a node is declared with a value of the types that it `holds`.
+    """
 
     name: str
+    holds: ValueTypes = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

@@ -85,7 +85,7 @@ class PyForm:
             Language.PYTHON,
             trusts_others=True,
             # What generated code declares is known; people's code has types that nobody wrote.
-            trusts_types=not self._without_runtime,
+            trusts_types=False,
             fields=self._fields,
         )
         return OutcomeAnalysis(self.program, table, lambda name: False)
