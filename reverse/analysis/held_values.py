@@ -62,10 +62,15 @@ def is_of_other(
     """
     if not (isinstance(key, Member) and isinstance(value, e.Attribute)):
         return False
-    there = graph.program.function(function)
     if not (isinstance(value.object, e.Local) and value.object.name == here.receiver):
         return False
-    if here.owner is None or there.owner is None or there.owner in graph.family(here.owner):
+    return here.owner is not None and is_of_other_class(graph, here.owner, key, function)
+
+
+def is_of_other_class(graph: CallGraph, owner: str, key: Member, function: str) -> bool:
+    """Whether what a function stores is an attribute of its own object, and not of a class."""
+    there = graph.program.function(function)
+    if there.owner is None or there.owner in graph.family(owner):
         return False
     targets = [n.target for n in walk(there) if isinstance(n, s.Assign | s.Call | s.Declare)]
     own = e.Local(there.receiver or "")

@@ -92,6 +92,10 @@ _ATTRIBUTES: Mapping[str, str] = {
     "rospy.Publisher": f"publish {_OF_TOPICS}",
     "rospy.Subscriber": f"callback callback_args {_OF_TOPICS}",
     "rospy.Timer": f"shutdown {_THREAD}",
+    "rospy.timer.TimerEvent": "current_expected current_real last_duration last_expected last_real",
+    "rclpy.task.Future": """
+        add_done_callback cancel cancelled done exception remove_pending_request result
+        set_exception set_result""",
     "rospy.Rate": "last_time remaining sleep sleep_dur",
     **dict.fromkeys(_TIMES, _TIME),
     **{
@@ -113,15 +117,12 @@ _OF_TURNS = """
     euler_from_quaternion quaternion_from_euler quaternion_multiply quaternion_inverse
     quaternion_conjugate euler_from_matrix translation_from_matrix quaternion_from_matrix euler2quat
     quat2euler qmult"""
-# Functions of numpy that give a number for numbers.
-OF_NUMBERS_ALONE = frozenset(
-    f"numpy.{name}"
-    for name in """
+_OF_NUMBERS = """
     sin cos tan arcsin arccos arctan arctan2 sinh cosh tanh sqrt cbrt abs absolute fabs sign hypot
     deg2rad rad2deg radians degrees exp log log2 log10 floor ceil round rint trunc clip minimum
-    maximum mod fmod power isnan isinf isfinite square float32 float64 int32 int64
-    """.split()
-)
+    maximum mod fmod power isnan isinf isfinite square float32 float64 int32 int64"""
+# Functions of numpy that give a number for numbers.
+OF_NUMBERS_ALONE = frozenset(f"numpy.{name}" for name in _OF_NUMBERS.split())
 # By the full name of a function or method the class of what it gives.
 _GIVES: Mapping[str, str] = {
     "rclpy.create_node": _NODE,
@@ -171,6 +172,11 @@ _HOLDS: Mapping[str, str] = {
     **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
     **{f"numpy.{name}": "number" for name in ("pi", "e", "inf", "nan")},
     "sys.argv": "texts",
+    **{
+        f"rospy.timer.TimerEvent.{when}_{which}": "rospy.Time"
+        for when in ("current", "last")
+        for which in ("real", "expected")
+    },
     **{f"{of}.{name}": "number" for of in _TIMES for name in ("secs", "nsecs")},
     **{f"datetime.timedelta.{name}": "number" for name in ("days", "seconds", "microseconds")},
     **{

@@ -31,6 +31,9 @@ from rebsync.reverse.libraries import python
 from rebsync.reverse.libraries.routines import Kind, Routine
 
 _FOR_EACH = frozenset({"builtins.map", "builtins.filter"})
+# Functions of Python that call what they get with elements alone, or never.
+_KNOWN_USERS = KEEPING | _FOR_EACH | {"builtins.super", "builtins.isinstance", "functools.reduce"}
+_TIMER, _EVENT = "rospy.Timer", "rospy.timer.TimerEvent"
 _MESSAGE = re.compile(r"(\w+)\.(?:msg|srv)(?:\._\w+)?\.(\w+?)(?:\.?(Request|Response))?")
 _PARTS = ("Request", "Response")  # what the callback of a service gets, in this order
 
@@ -64,6 +67,24 @@ class ArgumentTypes:
         return self._subscribed.get((function, parameter), [])
 
     @cached_property
+    def declared(self) -> dict[str, list[tuple[str, e.Expression]]]:
+        """By each parameter of nodes its defaults, with the functions that declare them."""
+        found: dict[str, list[tuple[str, e.Expression]]] = {}
+        for name in self._program.functions:
+            for node in walk(self._program.function(name)):
+                match node:
+                    case s.Call(_, s.MethodCallee(_, "declare_parameter"), arguments):
+                        match [a.value for a in arguments if a.name in (None, "value")]:
+                            case [e.Literal(str() as parameter), *default]:
+                                value = default[0] if default else e.Literal(None)
+                                found.setdefault(parameter, []).append((name, value))
+                            case _:
+                                pass
+                    case _:
+                        pass
+        return found
+
+    @cached_property
     def escaping(self) -> frozenset[str]:
         """The functions that are named otherwise than to be called: what they get is not known.
 
@@ -79,7 +100,7 @@ class ArgumentTypes:
                 match node:
                     case e.Attribute(name=named) | e.Global(name=named) if named in last:
                         pass
-                    case e.Closure() | e.Local() | e.Captured() | e.FunctionReference():
+                    case e.Closure() | e.Local() | e.Captured() | e.Temporary():
                         pass
                     case _:
                         continue
@@ -90,19 +111,22 @@ class ArgumentTypes:
     def _known_uses(self, node: object) -> Iterator[e.Expression]:
         """The values in a node that name functions of which it is known what they get there."""
         match node:
-            case s.Assign(target, e.Closure() as value):  # which defines it
-                yield from (target, value)
-            case s.Assign(target):
-                yield target
+            case s.Assign(_, e.Closure() as value):  # which defines it
+                yield value
+            case s.Assign(e.Temporary(), value):
+                yield value
             case s.Call(_, s.ValueCallee(value)):
                 yield value
-            case s.Call(_, s.LibraryCallee(name), arguments) if name in KEEPING | _FOR_EACH:
+            case s.Call(_, s.LibraryCallee(name), arguments) if name in _KNOWN_USERS:
                 yield from (a.value for a in arguments)
             case _:
                 pass
+        target = getattr(node, "target", None)
+        yield from [] if target is None else [target]
         if isinstance(node, s.Call):
-            yield from [node.target] if node.target is not None else []
             yield from (a.value for a in node.arguments if a.name == "key")
+            if isinstance(node.callee, s.LibraryCallee) and node.callee.name == _TIMER:
+                yield from (a.value for a in node.arguments)
             for kind in (Kind.SUBSCRIPTION, Kind.SERVICE):
                 yield from (callback for _, callback in _asked(node, kind))
 
@@ -200,21 +224,36 @@ class ArgumentTypes:
                     for called in callback_functions(self._graph, callback, name):
                         for parameter in first_parameter(self._program.function(called)):
                             known = found.setdefault((called, parameter), [])
-                            known += self._messages(type_, name)
+                            known += self.messages_of(type_, name)
+                match node:
+                    case s.Call(_, s.LibraryCallee(timer), (_, callback, *_)) if timer == _TIMER:
+                        for called in callback_functions(self._graph, callback.value, name):
+                            for parameter in first_parameter(self._program.function(called)):
+                                found.setdefault((called, parameter), []).append(_EVENT)
+                    case _:
+                        pass
                 for type_, callback in _asked(node, Kind.SERVICE):
                     for called in callback_functions(self._graph, callback, name):
                         of_call = own_parameters(self._program.function(called))
                         for parameter, part in zip(of_call, _PARTS, strict=False):
                             known = found.setdefault((called, parameter), [])
-                            known += [f"{each}_{part}" for each in self._messages(type_, name)]
+                            known += [f"{each}_{part}" for each in self.messages_of(type_, name)]
         return found
 
-    def _messages(self, type_: e.Expression, function: str) -> Iterator[str]:
-        for origin in self._origins.of(type_, function):
-            if isinstance(origin, LibraryOrigin) and not origin.of_object:
-                name = message_name(origin.name)
-                if name is not None:
-                    yield name
+    def messages_of(self, type_: e.Expression, function: str) -> Iterator[str]:
+        """The messages, or services, that a value may be the class of."""
+        held = self._origins.of(type_, function)
+        names = [o.name for o in held if isinstance(o, LibraryOrigin) and not o.of_object]
+        if isinstance(type_, e.Global) and not names:
+            names = [f"{module}.{type_.name}" for module in self._imported_whole(type_.module)]
+        yield from filter(None, map(message_name, names))
+
+    def _imported_whole(self, module: str) -> Iterator[str]:
+        """The modules of libraries of which a module imports all names."""
+        body = self._program.modules.get(module)
+        for node in walk(self._program.function(body)) if body is not None else ():
+            if isinstance(node, s.Import) and node.name == "*" and not node.is_program:
+                yield node.module
 
 
 def _asked(node: object, kind: Kind) -> Iterator[tuple[e.Expression, e.Expression]]:

@@ -23,7 +23,6 @@ from rebsync.reverse.analysis.python.value_types import (
     sequence,
     union,
 )
-from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.libraries.attributes import attributes_of, held_in
@@ -58,7 +57,7 @@ class AttributeTypes:
             return found
         if not self.has_own(of, function):
             return found | ANY_TYPE
-        return found | self._types.of_name(Member(name))
+        return found | self._types.of_member(name, self.receiver(of, function))
 
     def declared(self, value: e.Expression, function: str) -> list[t.Type]:
         """The types that a parameter or attribute, or an element of it, is declared with."""
@@ -100,6 +99,8 @@ class AttributeTypes:
         match type_:
             case MessageType(of):
                 fields = self._origins.table.fields(of) or {}
+                if name == "_connection_header":
+                    return frozenset((ContainerType(OwnType.MAPPING, A_TEXT, A_TEXT),))
                 return self.field(fields[name]) if name in fields else ANY_TYPE
             case LibraryType(_, holds) if holds and name == "value":
                 return holds

@@ -196,6 +196,10 @@ class GivenTypes:
                 return frozenset((type_,))
             case ContainerType() if name in _NUMBERED:
                 return A_NUMBER
+            case LibraryType("rclpy.client.Client", answers) if answers and name == "call_async":
+                return frozenset((LibraryType("rclpy.task.Future", answers),))
+            case LibraryType(_, holds) if holds and name in ("call", "result"):
+                return holds
             case LibraryType(of):
                 return self._attributes.of_class(result_of(f"{of}.{name}"))
             case InstanceType(of):
@@ -230,7 +234,24 @@ class GivenTypes:
         if self._origins.methods(of, name) or self._graph.stores.of(Member(name)):
             return self._of_program(call, function)
         found = (result_of(f"{base}.{name}") for base in self._graph.bases(of))
-        return self._attributes.of_class(next(filter(None, found), ""))
+        gives = next(filter(None, found), "")
+        holds = self._held(name, call, function) if gives else NO_TYPES
+        if holds and None not in holds:
+            return frozenset((LibraryType(gives, holds),))
+        return self._attributes.of_class(gives)
+
+    def _held(self, name: str, call: s.Call, function: str) -> ValueTypes:
+        """The types of a parameter's value, or of a service's answer, that a node is asked for."""
+        plain = [a.value for a in call.arguments if a.name is None and not a.stars]
+        match name, plain:
+            case "create_client", [type_, *_]:
+                answers = self._arguments.messages_of(type_, function)
+                return union(self._attributes.of_class(f"{each}_Response") for each in answers)
+            case "declare_parameter" | "get_parameter", [e.Literal(str() as parameter), *_]:
+                defaults = self._arguments.declared.get(parameter, ())
+                return union(self._types.of(value, of) or ANY_TYPE for of, value in defaults)
+            case _:
+                return NO_TYPES
 
 
 def _has_methods(type_: ValueType | None) -> bool:

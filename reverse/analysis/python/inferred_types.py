@@ -11,7 +11,9 @@ from dataclasses import replace
 from typing import TypeAlias
 from weakref import proxy
 
+from rebsync.records import dataclass
 from rebsync.reverse.analysis.fixpoint import Rounds
+from rebsync.reverse.analysis.held_values import is_of_other_class
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.python.argument_types import ArgumentTypes
 from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
@@ -48,6 +50,7 @@ from rebsync.reverse.analysis.stores import (
     ClassValue,
     ElementOf,
     Key,
+    Member,
     ObjectValue,
     PartOf,
     Source,
@@ -71,7 +74,17 @@ _CONTAINERS = {
 _ADDED = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
 _CHANGING = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
 _DEEPEST = 3  # containers in one another; what is deeper is of any type
-Node: TypeAlias = Key | str  # a name, or the function whose result is meant
+
+
+@dataclass(frozen=True, slots=True)
+class OwnMember:
+    """An attribute that methods of a class ask of their own object."""
+
+    owner: str
+    name: str
+
+
+Node: TypeAlias = Key | OwnMember | str  # a name, or the function whose result is meant
 
 
 class InferredTypes:
@@ -198,11 +211,25 @@ class InferredTypes:
 
     def _found(self, node: Node, before: ValueTypes) -> ValueTypes:
         """The types of what is stored under a name, or a function gives, of a bounded depth."""
-        found = self._result(node) if isinstance(node, str) else self._named(node)
+        match node:
+            case str():
+                found = self._result(node)
+            case OwnMember(owner, name):
+                found = self._named(Member(name), owner)
+            case _:
+                found = self._named(node)
         return merged(limited(found, _DEEPEST) | before)
 
-    def _named(self, key: Key) -> ValueTypes:
+    def of_member(self, name: str, owner: str | None) -> ValueTypes:
+        """The types of an attribute, of objects of a class if methods of that ask their own."""
+        return self._rounds.of(Member(name) if owner is None else OwnMember(owner, name))
+
+    def _named(self, key: Key, owner: str | None = None) -> ValueTypes:
         sources = self.sources(key)
+        if owner is not None and isinstance(key, Member):
+            functions = {function for function, _ in sources}
+            others = {f for f in functions if is_of_other_class(self._graph, owner, key, f)}
+            sources = [each for each in sources if each[0] not in others]
         if not sources:
             return self.parameter(key) or ANY_TYPE
         return self.with_puts(key, union(map(self.of_stored, sources)) | self.parameter(key))
