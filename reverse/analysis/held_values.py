@@ -27,6 +27,14 @@ def held_by(origins: Origins, value: e.Expression, function: str) -> list[Stored
     return origins.graph.stores.of(key)
 
 
+def texts_of(origins: Origins, value: e.Expression, function: str) -> list[str]:
+    """The texts that a value may be; none if that is not known."""
+    is_variable = key_of(value, function) is not None
+    held = [v for _, v in held_by(origins, value, function)] if is_variable else [value]
+    texts = [v.value for v in held if isinstance(v, e.Literal) and isinstance(v.value, str)]
+    return texts if len(texts) == len(held) else []
+
+
 def all_held(origins: Origins, value: e.Expression, function: str) -> list[Stored]:
     """The same of C++, where a variable whose address is only looked at holds nothing by that."""
     stored, key = held_by(origins, value, function), key_of(value, function)

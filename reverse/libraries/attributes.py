@@ -318,6 +318,11 @@ def held_in(name: str) -> str:
     return _HOLDS.get(name) or _CONSTANTS.get(type(_in_python(name)), "")
 
 
+def is_float(name: str) -> bool:
+    """Whether what Python's own library has under a full name is a number with a point."""
+    return isinstance(_in_python(name), float)
+
+
 _MISSING = object()  # what a module of Python's own does not have
 _CONSTANTS = {int: "number", float: "number", bool: "number", str: "str", bytes: "bytes"}
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from rebsync.reverse.analysis.facts import Facts
-from rebsync.reverse.analysis.origins import ClassOrigin
+from rebsync.reverse.analysis.foreign_values import ForeignValues
+from rebsync.reverse.analysis.origins import ANYTHING, ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.operand_kinds import ATTRIBUTES, OperandKinds
 from rebsync.reverse.analysis.python.value_types import (
@@ -39,6 +40,7 @@ class AttributeErrors:
     def __init__(self, notes: ProblemNotes, kinds: OperandKinds) -> None:
         self._notes = notes
         self._kinds = kinds
+        self._foreign = ForeignValues(notes.origins)
         self._rules = notes.counts.rules
         self._program = notes.origins.graph.program
 
@@ -47,8 +49,15 @@ class AttributeErrors:
     ) -> None:
         """Notes that an attribute is asked of a value that may have none of the name."""
         types = self._kinds.types(of, facts)
-        if any(self._has_not(type_, name) for type_ in types) or self._is_of_none(of, name, facts):
+        lacks = any(self._has_not(type_, name) for type_ in types)
+        if lacks or self._is_of_none(of, name, facts) or (None in types and self._is_open(of)):
             self._notes.fails(node, _LACKS)
+
+    def _is_open(self, of: e.Expression) -> bool:
+        """Whether nothing is known of a value: not which library, or class, it is of."""
+        name = self._notes.function.name
+        is_open = not ANYTHING.isdisjoint(self._notes.origins.of(of, name))
+        return is_open and not self._foreign.has(of, name)
 
     def _has_not(self, type_: ValueType | None, name: str) -> bool:
         """Whether values of a type have no attribute of a name."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from rebsync.reverse.analysis.held_values import is_own
 from rebsync.reverse.analysis.origins import ClassOrigin, Origins
+from rebsync.reverse.analysis.python.argument_parsers import ArgumentParsers
 from rebsync.reverse.analysis.python.argument_types import message_name
 from rebsync.reverse.analysis.python.type_queries import TypeQueries
 from rebsync.reverse.analysis.python.value_types import (
@@ -39,6 +40,7 @@ class AttributeTypes:
         self._graph = origins.graph
         self._program = origins.graph.program
         self._types = types
+        self._parsers = ArgumentParsers(origins)
 
     def of(self, types: ValueTypes, of: e.Expression, name: str, function: str) -> ValueTypes:
         """The types of an attribute of what is of some types."""
@@ -102,6 +104,8 @@ class AttributeTypes:
                 if name == "_connection_header":
                     return frozenset((ContainerType(OwnType.MAPPING, A_TEXT, A_TEXT),))
                 return self.field(fields[name]) if name in fields else ANY_TYPE
+            case LibraryType("argparse.Namespace"):
+                return self._parsers.of(name)
             case LibraryType(_, holds) if holds and name == "value":
                 return holds
             case LibraryType(of):

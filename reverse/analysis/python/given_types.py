@@ -28,6 +28,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.libraries.attributes import OF_NUMBERS_ALONE, result_of
 
+_COMPUTING = OF_NUMBERS_ALONE | {"builtins.divmod"}
 _LIST, _QUEUE, _SET = OwnType.LIST, OwnType.QUEUE, OwnType.SET
 # Functions that give a container of the elements of their first argument, or go through it.
 _COPYING = {
@@ -35,6 +36,7 @@ _COPYING = {
     **{"builtins.set": _SET, "builtins.frozenset": _SET, "collections.deque": _QUEUE},
     **{"builtins.reversed": None, "builtins.iter": None},
 }
+_PARSER = frozenset((LibraryOrigin("argparse.ArgumentParser", True),))
 _NUMBERED = frozenset({"index", "count", "find", "rfind", "__len__"})
 _OF_TEXTS = {
     **dict.fromkeys(
@@ -81,6 +83,8 @@ class GivenTypes:
                 return self._of_library(call, name, function)
             case s.MethodCallee(receiver, name, None, None):
                 types = self._types.of(receiver, function)
+                if name == "parse_args" and self._origins.of(receiver, function) == _PARSER:
+                    return frozenset((LibraryType("argparse.Namespace"),))
                 if types == NO_TYPES:  # None, or not yet known of what is stored there
                     return NO_TYPES
                 if all(map(_has_methods, types)):
@@ -129,6 +133,8 @@ class GivenTypes:
     def _of_library(self, call: s.Call, name: str, function: str) -> ValueTypes:
         plain = [a.value for a in call.arguments if a.name is None and not a.stars]
         given = [self._types.of(value, function) for value in plain]
+        if NO_TYPES in given and name in _COMPUTING:
+            return NO_TYPES
         if name in _COPYING:
             return sequence(_COPYING[name], *map(elements_of, given[:1]))
         match name:

@@ -76,6 +76,8 @@ class OperandKinds:
     def types(self, value: e.Expression, facts: Facts) -> ValueTypes:
         """The types of what a value may be where some facts are known."""
         known = [fact.types for fact in facts if isinstance(fact, IsOf) and fact.value == value]
+        if isinstance(value, e.Local) and value.name in self._notes.function.captured:
+            known = []  # functions within store there as well
         if known:
             told = sorted((types for types in known if None not in types), key=len)
             types = told[0] if told else self._declared(value) or ANY_TYPE

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from rebsync.reverse.analysis.facts import Facts
-from rebsync.reverse.analysis.origins import ClassOrigin
+from rebsync.reverse.analysis.held_values import held_by, texts_of
+from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.attribute_errors import AttributeErrors
 from rebsync.reverse.analysis.python.element_errors import ElementErrors
@@ -86,6 +87,11 @@ class TypeErrors:
         """The types that a value may be of; None in other languages."""
         return self.kinds.types(value, facts) if self._is_python else None
 
+    @property
+    def caught(self) -> ValueTypes | None:
+        """The types of what a handler catches; None in other languages."""
+        return frozenset((LibraryType("builtins.Exception"),)) if self._is_python else None
+
     def given(self, call: s.Call) -> ValueTypes | None:
         """The types of what a call gives; None in other languages."""
         return self.kinds.given(call) if self._is_python else None
@@ -158,13 +164,28 @@ class TypeErrors:
                 if not all(map(self._gives_pairs, union(types))):
                     self._notes.fails(node, _WRONG)
             case "builtins.isinstance" if len(plain) > 1:
-                if self.kinds.of(plain[1], facts) - {None, OwnType.TUPLE}:
+                if not self._are_classes(plain[1]):
                     self._notes.fails(node, _WRONG)
             case _ if name in _OF_ELEMENTS:
                 for value in plain if name == "builtins.zip" else plain[:1]:
                     self._answers(node, value, ImplicitCall.ITERATE)
             case _:
                 pass
+
+    def _are_classes(self, value: e.Expression) -> bool:
+        """Whether a value is a class, or a tuple of classes."""
+        if isinstance(value, e.Build):
+            return all(not isinstance(v, e.Spread) and self._are_classes(v) for v in value.elements)
+        if isinstance(value, e.Binary):  # of types: `int | str`
+            return self._are_classes(value.left) and self._are_classes(value.right)
+        held = held_by(self._notes.origins, value, self._notes.function.name)
+        values = [v for _, v in held if isinstance(v, e.Build)]
+        if held and len(values) == len(held):
+            return all(map(self._are_classes, values))
+        return all(
+            isinstance(o, ClassOrigin | LibraryOrigin) and not o.of_object
+            for o in self._notes.origins.of(value, self._notes.function.name)
+        )
 
     def _gives_pairs(self, type_: ValueType | None) -> bool:
         """Whether a mapping can be made of a value: of another one, or of pairs."""
@@ -274,9 +295,9 @@ class TypeErrors:
         types = self.kinds.types(left, facts), self.kinds.types(right, facts)
         kinds = self.kinds.asked(left, facts), self.kinds.asked(right, facts)
         if operator in (Operator.IN, Operator.NOT_IN):
-            wrong = bool(kinds[1] & {NUMBER, OwnType.MESSAGE}) or (
-                kinds[1] == {TEXT} and bool(kinds[0] - {TEXT, None})
-            )
+            wrong = not all(map(self._is_searched, types[1])) or self._is_class(left, right)
+            wrong |= TEXT in kinds[1] and bool(kinds[0] - {TEXT})
+            wrong |= OwnType.BYTES in kinds[1] and bool(kinds[0] - {NUMBER, OwnType.BYTES})
             wrong |= _is_none(right)
             if kinds[1] & {OwnType.SET, OwnType.MAPPING}:
                 self._elements.is_key(value, left, facts)
@@ -289,8 +310,9 @@ class TypeErrors:
             wrong |= operator in _OF_BITS and any(map(self._floats.has, (left, right)))
             is_times = operator is Operator.MULTIPLY and self._floats.has(right)
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
-        if operator is Operator.FLOOR_MODULO and isinstance(left, e.Literal):
-            wrong |= isinstance(left.value, str) and self._puts(left.value, right, facts)
+        if operator is Operator.FLOOR_MODULO and TEXT in kinds[0]:
+            texts = texts_of(self._notes.origins, left, self._notes.function.name)
+            wrong |= not texts or any(self._puts(text, right, facts) for text in texts)
         if wrong:
             self._notes.fails(value, _WRONG)
         if operator in (Operator.IN, Operator.NOT_IN):
@@ -299,6 +321,24 @@ class TypeErrors:
             self._answers(value, left, operator)
             self._answers(value, right, operator)
 
+    def _is_searched(self, type_: ValueType | None) -> bool:
+        """Whether `in` looks for something in values of a type; objects answer for themselves."""
+        is_range = isinstance(type_, ContainerType) and type_.own is None
+        return is_range or isinstance(type_, InstanceType) or own_type(type_) in ITERABLE
+
+    def _is_class(self, left: e.Expression, right: e.Expression) -> bool:
+        """Whether something is looked for in a class, other than members in their enumeration."""
+        origins, name = self._notes.origins, self._notes.function.name
+        classes = {
+            o for o in origins.of(right, name) if o == ClassOrigin(getattr(o, "name", ""), False)
+        }
+        members = {
+            ClassOrigin(o.name, False)
+            for o in origins.of(left, name)
+            if isinstance(o, ClassOrigin) and o.of_object
+        }
+        return bool(classes) and members != classes
+
     def _refuses(self, operator: Operator, left: ValueType | None, right: ValueType | None) -> bool:
         """Whether an object of a library is no operand of an operator."""
         pair = left, right
@@ -306,9 +346,7 @@ class TypeErrors:
         is_own = any(isinstance(type_, InstanceType) for type_ in pair)
         if is_text or is_own or not any(isinstance(type_, LibraryType) for type_ in pair):
             return False
-        if None in pair:
-            return not self._notes.table.trusts_types
-        return not given_by(operator, left, right)
+        return None in pair or not given_by(operator, left, right)
 
     def _puts(self, text: str, value: e.Expression, facts: Facts) -> bool:
         """Whether `%` may not put values into a text: too many, too few, or of another type."""
@@ -320,12 +358,19 @@ class TypeErrors:
             found = refuses(text, [self.kinds.asked(v, facts) for v in values])
         else:
             values = [value]
-            found = kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
+            tuples = [t for t in self.kinds.types(value, facts) if own_type(t) is OwnType.TUPLE]
+            found = any(self._puts_parts(text, each) for each in tuples)
+            found |= kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
         if conversions(text) is None and not self._has_names(text, value):
             return True
         is_float = any(map(self._floats.has, numbers_of(text, values, _WHOLE)))
         is_object = any(self.kinds.is_object(v, facts) for v in numbers_of(text, values))
         return found or is_float or is_object
+
+    def _puts_parts(self, text: str, type_: ValueType | None) -> bool:
+        """Whether `%` may not put the parts of a tuple into a text."""
+        parts = type_.parts if isinstance(type_, ContainerType) else None
+        return parts is None or refuses(text, [frozenset(map(own_type, each)) for each in parts])
 
     def _has_names(self, text: str, value: e.Expression) -> bool:
         """Whether a mapping is written here with all that a text takes from it, which is texts."""
