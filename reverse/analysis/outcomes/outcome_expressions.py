@@ -16,6 +16,7 @@ from rebsync.reverse.analysis.foreign_values import ForeignValues
 from rebsync.reverse.analysis.held_values import held_by, texts_of
 from rebsync.reverse.analysis.numbers.constant_numbers import ConstantNumbers, is_floating
 from rebsync.reverse.analysis.numbers.least_numbers import LeastNumbers
+from rebsync.reverse.analysis.numbers.magnitudes import Magnitudes
 from rebsync.reverse.analysis.numbers.signs import Signs
 from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origin
 from rebsync.reverse.analysis.outcomes.element_bounds import ElementBounds
@@ -162,7 +163,9 @@ class OutcomeExpressions:
             case e.Binary(Operator.POWER, left, right):
                 if not self.is_positive(right, facts) and not self.is_nonzero(left, facts):
                     self.notes.fails(value, "divides by zero")
-                if not self._is_bounded(right, facts):
+                is_finite = Magnitudes(self.origins, self.function).is_finite
+                is_written = isinstance(right, e.Literal)
+                if not self._is_bounded(right, facts) or (is_written and not is_finite(value)):
                     self.notes.fails(value, "is too great")
             case _:
                 pass

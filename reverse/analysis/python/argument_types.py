@@ -22,7 +22,7 @@ from rebsync.reverse.analysis.python.message_values import (
     first_parameter,
     own_parameters,
 )
-from rebsync.reverse.analysis.stores import ElementOf, Member, Source
+from rebsync.reverse.analysis.stores import CallResult, Drawn, ElementOf, Member, Source, Value
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function
@@ -142,10 +142,11 @@ class ArgumentTypes:
                             given = bound(node, self._program.function(called))
                             for parameter, value in given.items():
                                 found.setdefault((called, parameter), []).append((name, value))
-                        for called, element in self._called_for_each(node, around):
-                            for parameter in first_parameter(self._program.function(called)):
+                        for called, values in self._called_for_each(node, around):
+                            of_call = own_parameters(self._program.function(called))
+                            for parameter, each in zip(of_call, values, strict=False):
                                 known = found.setdefault((called, parameter), [])
-                                known.append((name, element))
+                                known += ((name, value) for value in each)
                     case e.Closure(of, _, defaults):
                         for parameter, value in defaults:
                             found.setdefault((of, parameter), []).append((name, value))
@@ -202,18 +203,26 @@ class ArgumentTypes:
         stored = self._graph.stores.of(Member(name))
         return frozenset[str]().union(*(self._run_by(self._origins.of_stored(v)) for v in stored))
 
-    def _called_for_each(self, call: s.Call, around: Function) -> Iterator[tuple[str, ElementOf]]:
-        """The functions that one of Python's calls for each element of a container."""
+    def _called_for_each(
+        self, call: s.Call, around: Function
+    ) -> Iterator[tuple[str, list[list[Drawn | Value]]]]:
+        """The functions that one of Python's calls for each element, with what these get."""
         match call:
             case s.Call(_, s.LibraryCallee(name), (function, container)) if name in _FOR_EACH:
                 values = [function.value]
+            case s.Call(_, s.LibraryCallee("functools.reduce"), (function, container, *first)):
+                element = ElementOf(container.value)
+                for called in self._graph.value(function.value, around).functions:
+                    result = CallResult(s.Call(None, s.FunctionCallee(called), ()))
+                    yield called, [[element, result, *(a.value for a in first)], [element]]
+                return
             case s.Call(_, s.LibraryCallee(), (container, *more)):
                 values = [a.value for a in more if a.name == "key"]
             case _:
                 return
         for value in values:
             for called in self._graph.value(value, around).functions:
-                yield called, ElementOf(container.value)
+                yield called, [[ElementOf(container.value)]]
 
     @cached_property
     def _subscribed(self) -> dict[tuple[str, str], list[str]]:

@@ -24,7 +24,9 @@ from rebsync.reverse.analysis.python.value_types import (
     sequence,
     union,
 )
+from rebsync.reverse.analysis.stores import CallResult, Stored
 from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.libraries.attributes import attributes_of, held_in
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
@@ -112,7 +114,7 @@ class AttributeTypes:
                 return self.of_class(held_in(f"{of}.{name}"))
             case InstanceType(of) if name in ("value", "_value_") and self._has_members(type_):
                 stored = self._origins.enumerations.of(of).values()
-                return union(map(self._types.of_stored, stored))
+                return union(A_NUMBER if _is_auto(v) else self._types.of_stored(v) for v in stored)
             case InstanceType() if name in ("name", "_name_") and self._has_members(type_):
                 return A_TEXT
             case InstanceType() if self._has_members(type_):
@@ -162,6 +164,15 @@ class AttributeTypes:
         classes = (o.name for o in self._origins.of(of, function) if isinstance(o, ClassOrigin))
         # Of an enumeration they are its members, which have that as their values.
         return all(ENUMERATIONS.isdisjoint(self._graph.bases(name)) for name in classes)
+
+
+def _is_auto(stored: Stored) -> bool:
+    """Whether the value of a member is a number that the enumeration chooses."""
+    match stored[1]:
+        case CallResult(s.Call(_, s.LibraryCallee("enum.auto"))):
+            return True
+        case _:
+            return False
 
 
 def _any_of(own: OwnType) -> ValueTypes:

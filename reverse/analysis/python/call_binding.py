@@ -113,6 +113,8 @@ class CallBinding:
         match call.callee:
             case s.LibraryCallee("builtins.map") if argument is call.arguments[0]:
                 count = len(call.arguments) - 1
+            case s.LibraryCallee("functools.reduce") if argument is call.arguments[0]:
+                count = 2
             case s.LibraryCallee("builtins.filter") if argument is call.arguments[0]:
                 count = 1
             case s.LibraryCallee(called) if called in _WITH_KEYS and argument.name == "key":

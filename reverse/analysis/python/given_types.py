@@ -33,7 +33,7 @@ _LIST, _QUEUE, _SET = OwnType.LIST, OwnType.QUEUE, OwnType.SET
 # Functions that give a container of the elements of their first argument, or go through it.
 _COPYING = {
     **{"builtins.list": _LIST, "builtins.sorted": _LIST, "builtins.tuple": OwnType.TUPLE},
-    **{"builtins.set": _SET, "builtins.frozenset": _SET, "collections.deque": _QUEUE},
+    **{"builtins.set": _SET, "builtins.frozenset": OwnType.FROZEN, "collections.deque": _QUEUE},
     **{"builtins.reversed": None, "builtins.iter": None},
 }
 _PARSER = frozenset((LibraryOrigin("argparse.ArgumentParser", True),))
@@ -147,7 +147,7 @@ class GivenTypes:
             case "builtins.filter" if len(given) > 1:
                 return sequence(None, elements_of(given[1]))
             case "builtins.map" if len(given) > 1:
-                return sequence(None, self._mapped(plain[0], function))
+                return sequence(None, self.mapped(plain[0], function))
             case "builtins.dict" if not call.arguments:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, NO_TYPES),))
             case "collections.Counter" if not call.arguments:
@@ -159,7 +159,7 @@ class GivenTypes:
             case "random.choice" | "copy.copy" | "copy.deepcopy" if given:
                 return given[0] if name.startswith("copy") else elements_of(given[0])
             case "functools.reduce" if given:
-                return union([self._mapped(plain[0], function), *given[2:]])
+                return union([self.mapped(plain[0], function), *given[2:]])
             case "os.getenv" | "os.environ.get" if given:
                 return union([A_TEXT, *given[1:]])
             case "rospy.get_param" | "rospy.get_param_cached" if len(given) > 1:
@@ -173,7 +173,7 @@ class GivenTypes:
         gives = self._origins.table.function(name).gives or result_of(name) or name
         return self._attributes.of_class(gives)
 
-    def _mapped(self, value: e.Expression, function: str) -> ValueTypes:
+    def mapped(self, value: e.Expression, function: str) -> ValueTypes:
         """The types of what a function gives that another calls for each element."""
         match value:
             case e.LibraryReference(name):

@@ -291,6 +291,10 @@ class InferredTypes:
         """The types of what a call in a function gives."""
         return self._calls.of(call, function)
 
+    def mapped(self, value: e.Expression, function: str) -> ValueTypes:
+        """The types of what a function gives that another calls for each element."""
+        return self._calls.mapped(value, function)
+
     def _result(self, name: str) -> ValueTypes:
         body = self._graph.program.function(name)
         if body.kind is FunctionKind.GENERATOR:

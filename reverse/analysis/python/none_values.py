@@ -247,8 +247,6 @@ class NoneValues:
         nothing = [
             v for v in some if self._is_nothing((name, v), depth) or self._is_kept(function, v)
         ]
-        if all(map(_is_none, some)):
-            return False
         return bool(nothing) or None in values or falls_through(function.body)
 
 

@@ -45,15 +45,13 @@ ATTRIBUTES: Mapping[OwnType | None, frozenset[str]] = {
     OwnType.LIST: frozenset(dir(list)),
     OwnType.TUPLE: frozenset(dir(tuple)),
     OwnType.SET: frozenset(dir(set)),
+    OwnType.FROZEN: frozenset(dir(frozenset)),
     OwnType.MAPPING: frozenset({"has_key", "iteritems", "iterkeys", "itervalues"}).union(
         *map(dir, (dict, defaultdict, OrderedDict, Counter))
     ),
     OwnType.QUEUE: frozenset(dir(deque)),
     OwnType.MODEL_ARRAY: frozenset(dir(object)) | {"at"},
 }
-_IN_TEXTS = frozenset(
-    {OwnType.NUMBER, OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.MAPPING, None}
-)
 _ASKING = frozenset(f"builtins.{n}" for n in ("isinstance", "type", "hasattr", "callable"))
 _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
 _CLASSES = dict.fromkeys(("int", "float", "bool"), "number")
@@ -141,20 +139,9 @@ class OperandKinds:
         """The types of what a call of the function gives."""
         return self._types.of_call(call, self._name)
 
-    def may_be_plain(self, value: e.Expression, facts: Facts) -> bool:
-        """Whether a value may be made of numbers, texts, lists and mappings alone."""
-        match value:
-            case e.Build(t.Container(t.ContainerKind.SEQUENCE | t.ContainerKind.TUPLE), parts):
-                within = [p.operand if isinstance(p, e.Spread) else p for p in parts]
-                return all(self.may_be_plain(p, facts) for p in within)
-            case e.BuildMapping(_, entries):
-                pairs = (entry for entry in entries if not isinstance(entry, e.Spread))
-                return all(self.may_be_plain(part, facts) for pair in pairs for part in pair)
-            case e.Conditional(_, one, other):
-                return self.may_be_plain(one, facts) and self.may_be_plain(other, facts)
-        held = self._notes.origins.of(value, self._name)
-        is_object = any(isinstance(o, ClassOrigin) and o.of_object for o in held)
-        return not is_object and self.of(value, facts) <= _IN_TEXTS
+    def mapped(self, function: e.Expression) -> ValueTypes:
+        """The types of what a function gives that another calls for each element."""
+        return self._types.mapped(function, self._name)
 
     def is_whole(self, value: e.Expression) -> bool:
         """Whether a value is declared as a whole number."""

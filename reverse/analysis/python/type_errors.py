@@ -299,7 +299,7 @@ class TypeErrors:
             wrong |= TEXT in kinds[1] and bool(kinds[0] - {TEXT})
             wrong |= OwnType.BYTES in kinds[1] and bool(kinds[0] - {NUMBER, OwnType.BYTES})
             wrong |= _is_none(right)
-            if kinds[1] & {OwnType.SET, OwnType.MAPPING}:
+            if kinds[1] & {OwnType.SET, OwnType.FROZEN, OwnType.MAPPING}:
                 self._elements.is_key(value, left, facts)
         elif operator in (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SAME):
             wrong = False

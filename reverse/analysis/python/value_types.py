@@ -19,6 +19,7 @@ class OwnType(Enum):
     LIST = "list"
     TUPLE = "tuple"
     SET = "set"
+    FROZEN = "frozenset"
     MAPPING = "dict"
     QUEUE = "deque"
     ARRAY = "array"  # the elements of a message's field: a list, a tuple or an array of numbers
