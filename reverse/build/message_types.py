@@ -39,6 +39,9 @@ _QUOTED = re.compile(r"(['\"])(.*)\1")
 _GENERATES = re.compile(
     r"rosidl_default_\w+|rosidl_interface_packages|message_(?:generation|runtime)"
 )
+_SERVICE = re.compile(r"/?srv/([^/]+)\.srv\Z")
+_BETWEEN = re.compile(r"^---.*$", re.MULTILINE)
+_PARTS = ("Request", "Response")
 _MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
 
 # Times in ROS 1 are objects of their own, in ROS 2 messages.
@@ -52,6 +55,16 @@ _STARTED = frozenset({("geometry_msgs/Quaternion", "w")})
 _ROS2 = re.compile(r"\b(?:ament|rosidl)_\w+")
 
 Fields = Mapping[str, Type | None]
+
+
+def _of_service(
+    source: Source, path: str, owner: str
+) -> dict[str, list[tuple[str, str, int | None]]]:
+    """The fields of the request and the response of a service, if a file declares one."""
+    service = _SERVICE.search(path)
+    parts = zip(_PARTS, _BETWEEN.split(source.text), strict=False) if service is not None else ()
+    read = (read_message(Source(path, text), owner, f"{service[1]}_{p}") for p, text in parts)
+    return {each.full_name: [(f.name, f.type, f.length) for f in each.fields] for each in read}
 
 
 @dataclass(slots=True)
@@ -82,6 +95,7 @@ class MessageTypes:
         constants: dict[str, int | str] = {}
         rosidl, unclear = _of_rosidl(files), set[str]()
         for path, source in sorted(files.items()):
+            own |= _of_service(source, f"/{path}", owner_of(path, package))
             found = _MESSAGE.search(f"/{path}")
             if found is not None:
                 owner = owner_of(path, package)

@@ -79,6 +79,10 @@ _ATTRIBUTES: Mapping[str, str] = {
         get_pending_request qos_profile remove_pending_request service_is_ready service_name
         srv_name srv_type wait_for_service""",
     "rclpy.timer.Rate": "destroy sleep",
+    "rclpy.guard_condition.GuardCondition": "callback callback_group destroy handle trigger",
+    "rclpy.qos.QoSProfile": """
+        avoid_ros_namespace_conventions deadline depth durability get_c_qos_profile history lifespan
+        liveliness liveliness_lease_duration reliability""",
     "rclpy.clock.Clock": """
         clock_handle clock_type create_jump_callback handle now ros_time_is_active
         set_ros_time_override sleep_for sleep_until""",
@@ -131,6 +135,9 @@ _GIVES: Mapping[str, str] = {
     f"{_NODE}.create_timer": "rclpy.timer.Timer",
     f"{_NODE}.create_client": "rclpy.client.Client",
     f"{_NODE}.create_rate": "rclpy.timer.Rate",
+    f"{_NODE}.create_guard_condition": "rclpy.guard_condition.GuardCondition",
+    "rclpy.action.ActionClient.send_goal_async": "rclpy.task.Future",
+    "rclpy.task.Future.exception": "builtins.Exception",
     **dict.fromkeys(
         (f"{_NODE}.declare_parameter", f"{_NODE}.get_parameter"), "rclpy.parameter.Parameter"
     ),
@@ -172,6 +179,8 @@ _HOLDS: Mapping[str, str] = {
     **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
     **{f"numpy.{name}": "number" for name in ("pi", "e", "inf", "nan")},
     "sys.argv": "texts",
+    "rclpy.qos.qos_profile_sensor_data": "rclpy.qos.QoSProfile",
+    "rclpy.qos.qos_profile_system_default": "rclpy.qos.QoSProfile",
     **{
         f"rospy.timer.TimerEvent.{when}_{which}": "rospy.Time"
         for when in ("current", "last")

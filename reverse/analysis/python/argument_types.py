@@ -33,7 +33,10 @@ from rebsync.reverse.libraries.routines import Kind, Routine
 _FOR_EACH = frozenset({"builtins.map", "builtins.filter"})
 # Functions of Python that call what they get with elements alone, or never.
 _KNOWN_USERS = KEEPING | _FOR_EACH | {"builtins.super", "builtins.isinstance", "functools.reduce"}
-_TIMER, _EVENT = "rospy.Timer", "rospy.timer.TimerEvent"
+_OF_PARAMETERS = frozenset(
+    {"set_parameters_callback"}
+    | {f"add_{when}_set_parameters_callback" for when in ("pre", "on", "post")}
+)
 _MESSAGE = re.compile(r"(\w+)\.(?:msg|srv)(?:\._\w+)?\.(\w+?)(?:\.?(Request|Response))?")
 _PARTS = ("Request", "Response")  # what the callback of a service gets, in this order
 
@@ -125,8 +128,7 @@ class ArgumentTypes:
         yield from [] if target is None else [target]
         if isinstance(node, s.Call):
             yield from (a.value for a in node.arguments if a.name == "key")
-            if isinstance(node.callee, s.LibraryCallee) and node.callee.name == _TIMER:
-                yield from (a.value for a in node.arguments)
+            yield from (callback for _, callback in _other_callbacks(node))
             for kind in (Kind.SUBSCRIPTION, Kind.SERVICE):
                 yield from (callback for _, callback in _asked(node, kind))
 
@@ -234,13 +236,10 @@ class ArgumentTypes:
                         for parameter in first_parameter(self._program.function(called)):
                             known = found.setdefault((called, parameter), [])
                             known += self.messages_of(type_, name)
-                match node:
-                    case s.Call(_, s.LibraryCallee(timer), (_, callback, *_)) if timer == _TIMER:
-                        for called in callback_functions(self._graph, callback.value, name):
-                            for parameter in first_parameter(self._program.function(called)):
-                                found.setdefault((called, parameter), []).append(_EVENT)
-                    case _:
-                        pass
+                for gets, callback in _other_callbacks(node):
+                    for called in callback_functions(self._graph, callback, name):
+                        for parameter in first_parameter(self._program.function(called)):
+                            found.setdefault((called, parameter), []).append(gets)
                 for type_, callback in _asked(node, Kind.SERVICE):
                     for called in callback_functions(self._graph, callback, name):
                         of_call = own_parameters(self._program.function(called))
@@ -278,6 +277,17 @@ def _asked(node: object, kind: Kind) -> Iterator[tuple[e.Expression, e.Expressio
         type_, callback = (_argument(node, routine, role) for role in ("type", "callback"))
         if type_ is not None and callback is not None:
             yield type_, callback
+
+
+def _other_callbacks(node: object) -> Iterator[tuple[str, e.Expression]]:
+    """The callbacks of a call that get no messages, with the class of what they get."""
+    match node:
+        case s.Call(_, s.LibraryCallee("rospy.Timer"), (_, callback, *_)):
+            yield "rospy.timer.TimerEvent", callback.value
+        case s.Call(_, s.MethodCallee(_, name), (callback, *_)) if name in _OF_PARAMETERS:
+            yield "parameters", callback.value
+        case _:
+            pass
 
 
 def _argument(call: s.Call, routine: Routine, role: str) -> e.Expression | None:

@@ -57,7 +57,8 @@ class AttributeErrors:
         """Whether nothing is known of a value: not which library, or class, it is of."""
         name = self._notes.function.name
         is_open = not ANYTHING.isdisjoint(self._notes.origins.of(of, name))
-        return is_open and not self._foreign.has(of, name)
+        is_message = self._rules.messages.has(of, name)
+        return is_open and not is_message and not self._foreign.has(of, name)
 
     def _has_not(self, type_: ValueType | None, name: str) -> bool:
         """Whether values of a type have no attribute of a name."""

@@ -145,6 +145,10 @@ class AttributeTypes:
 
     def of_class(self, name: str) -> ValueTypes:
         """The types of an object of a library's class, of a message, or of one of Python's own."""
+        if name == "parameters":
+            return sequence(OwnType.LIST, frozenset((LibraryType("rclpy.parameter.Parameter"),)))
+        if name == "builtins.Exception":
+            return frozenset((LibraryType(name),))
         if name == "texts":
             return sequence(OwnType.LIST, A_TEXT)
         if name == "numbers":
