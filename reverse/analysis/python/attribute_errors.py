@@ -56,6 +56,8 @@ class AttributeErrors:
     def _is_open(self, of: e.Expression) -> bool:
         """Whether nothing is known of a value: not which library, or class, it is of."""
         name = self._notes.function.name
+        if self._notes.table.trusts_types:
+            return False
         is_open = not ANYTHING.isdisjoint(self._notes.origins.of(of, name))
         is_message = self._rules.messages.has(of, name)
         return is_open and not is_message and not self._foreign.has(of, name)

@@ -65,7 +65,9 @@ class MessageErrors:
 
     def _fits(self, field: str, value: e.Expression, facts: Facts) -> bool:
         """Whether a field of a type takes a value, as far as its types are known."""
-        return _takes(self._types.attributes.field(field), self._kinds.types(value, facts))
+        return _takes(
+            self._types.attributes.field(field), self._kinds.known(self._kinds.types(value, facts))
+        )
 
 
 def _takes(expected: ValueTypes, given: ValueTypes) -> bool:

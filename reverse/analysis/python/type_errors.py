@@ -295,7 +295,9 @@ class TypeErrors:
         types = self.kinds.types(left, facts), self.kinds.types(right, facts)
         kinds = self.kinds.asked(left, facts), self.kinds.asked(right, facts)
         if operator in (Operator.IN, Operator.NOT_IN):
-            wrong = not all(map(self._is_searched, types[1])) or self._is_class(left, right)
+            wrong = not all(map(self._is_searched, self.kinds.known(types[1]))) or self._is_class(
+                left, right
+            )
             wrong |= TEXT in kinds[1] and bool(kinds[0] - {TEXT})
             wrong |= OwnType.BYTES in kinds[1] and bool(kinds[0] - {NUMBER, OwnType.BYTES})
             wrong |= _is_none(right)
@@ -346,7 +348,9 @@ class TypeErrors:
         is_own = any(isinstance(type_, InstanceType) for type_ in pair)
         if is_text or is_own or not any(isinstance(type_, LibraryType) for type_ in pair):
             return False
-        return None in pair or not given_by(operator, left, right)
+        if None in pair:
+            return not self._notes.table.trusts_types
+        return not given_by(operator, left, right)
 
     def _puts(self, text: str, value: e.Expression, facts: Facts) -> bool:
         """Whether `%` may not put values into a text: too many, too few, or of another type."""
