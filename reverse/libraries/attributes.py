@@ -16,8 +16,8 @@ from types import ModuleType
 from rebsync.reverse.libraries import python
 from rebsync.reverse.libraries.registry import derived
 
-_NODE = "rclpy.node.Node"
-_OF_NODES = """
+NODE = "rclpy.node.Node"
+_OFNODES = """
     PARAM_REL_TOL add_on_set_parameters_callback add_post_set_parameters_callback
     add_pre_set_parameters_callback add_waitable assert_liveliness clients context count_clients
     count_publishers count_services count_subscribers create_client create_guard_condition
@@ -64,7 +64,7 @@ _TIMES = ("rospy.Time", "rospy.Duration", "time", "duration")  # the last two in
 
 # By the full name of a class the attributes of its objects, beside those of all objects.
 _ATTRIBUTES: Mapping[str, str] = {
-    _NODE: _OF_NODES,
+    NODE: _OFNODES,
     "rclpy.publisher.Publisher": """
         assert_liveliness destroy event_handlers get_subscription_count handle msg_type publish
         publisher_handle qos_profile topic topic_name wait_for_all_acked""",
@@ -129,21 +129,22 @@ _OF_NUMBERS = """
 OF_NUMBERS_ALONE = frozenset(f"numpy.{name}" for name in _OF_NUMBERS.split())
 # By the full name of a function or method the class of what it gives.
 _GIVES: Mapping[str, str] = {
-    "rclpy.create_node": _NODE,
-    f"{_NODE}.create_publisher": "rclpy.publisher.Publisher",
-    f"{_NODE}.create_subscription": "rclpy.subscription.Subscription",
-    f"{_NODE}.create_timer": "rclpy.timer.Timer",
-    f"{_NODE}.create_client": "rclpy.client.Client",
-    f"{_NODE}.create_rate": "rclpy.timer.Rate",
-    f"{_NODE}.create_guard_condition": "rclpy.guard_condition.GuardCondition",
+    "rclpy.create_node": NODE,
+    f"{NODE}.create_publisher": "rclpy.publisher.Publisher",
+    f"{NODE}.create_subscription": "rclpy.subscription.Subscription",
+    f"{NODE}.create_timer": "rclpy.timer.Timer",
+    f"{NODE}.create_client": "rclpy.client.Client",
+    f"{NODE}.create_rate": "rclpy.timer.Rate",
+    f"{NODE}.create_guard_condition": "rclpy.guard_condition.GuardCondition",
     "rclpy.action.ActionClient.send_goal_async": "rclpy.task.Future",
     "rclpy.task.Future.exception": "builtins.Exception",
+    "rclpy.client.Client.call_async": "rclpy.task.Future",
     **dict.fromkeys(
-        (f"{_NODE}.declare_parameter", f"{_NODE}.get_parameter"), "rclpy.parameter.Parameter"
+        (f"{NODE}.declare_parameter", f"{NODE}.get_parameter"), "rclpy.parameter.Parameter"
     ),
-    f"{_NODE}.get_clock": "rclpy.clock.Clock",
-    f"{_NODE}.get_logger": "rclpy.logging.Logger",
-    **dict.fromkeys((f"{_NODE}.get_name", f"{_NODE}.get_namespace"), "str"),
+    f"{NODE}.get_clock": "rclpy.clock.Clock",
+    f"{NODE}.get_logger": "rclpy.logging.Logger",
+    **dict.fromkeys((f"{NODE}.get_name", f"{NODE}.get_namespace"), "str"),
     "rclpy.logging.get_logger": "rclpy.logging.Logger",
     "rclpy.clock.Clock.now": "rclpy.time.Time",
     "rclpy.time.Time.to_msg": "builtin_interfaces/Time",
@@ -174,6 +175,8 @@ _GIVES: Mapping[str, str] = {
     **{f"{of}.{name}": "numbers" for of in _TURNING for name in _OF_TURNS.split()},
     **dict.fromkeys(("builtins.pow", "numpy.linalg.norm"), "number"),
 }
+PARAMETER = "rclpy.parameter.Parameter"
+FLOAT_METHODS = frozenset({"to_sec", "total_seconds", "timestamp", "rospy.get_time"})
 # By the full name of an attribute the class of its value.
 _HOLDS: Mapping[str, str] = {
     **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
@@ -201,6 +204,7 @@ _HOLDS: Mapping[str, str] = {
 # Those of messages are of the same classes.
 SAME_TIMES = {"rospy.Time": "time", "rospy.Duration": "duration"}
 _CLIENT_TIMES = (("time", "duration"), ("rclpy.time.Time", "rclpy.duration.Duration"))
+TIMES = frozenset({*SAME_TIMES, *(name for pair in _CLIENT_TIMES for name in pair)})
 _SPAN, _MOMENT, _DAY = "datetime.timedelta", "datetime.datetime", "datetime.date"
 # What an operator gives for times, by the classes of its operands.
 OF_TIMES: Mapping[tuple[str, str, str], str] = {
@@ -231,7 +235,7 @@ OF_TIMES: Mapping[tuple[str, str, str], str] = {
 # Methods that take no arguments.
 _ALONE = frozenset(
     {
-        *(f"{_NODE}.{name}" for name in ("get_logger", "get_clock", "get_name", "get_namespace")),
+        *(f"{NODE}.{name}" for name in ("get_logger", "get_clock", "get_name", "get_namespace")),
         *(f"rclpy.timer.Timer.{name}" for name in ("cancel", "reset", "is_ready", "is_canceled")),
         *("rclpy.clock.Clock.now", "rclpy.time.Time.to_msg", "rclpy.duration.Duration.to_msg"),
         *("rospy.Time.now", "rospy.get_time", "rospy.get_rostime", "rospy.Timer.shutdown"),
@@ -299,7 +303,7 @@ def _is_node(name: str) -> bool:
 def attributes_of(name: str) -> frozenset[str] | None:
     """The attributes of objects of a class, by its full name; None if no table has it."""
     if _is_node(name):
-        return frozenset((_OF_NODES + _OF_STATES * (name in python.managed())).split())
+        return frozenset((_OFNODES + _OF_STATES * (name in python.managed())).split())
     if name in _OF_MEMBERS:
         return _OF_MEMBERS[name] | _MEMBER
     found = "" if name in _PLAIN_BASES else _ATTRIBUTES.get(name)
@@ -311,7 +315,7 @@ def result_of(name: str) -> str:
     """The class of what a function or method gives; empty if that is not known."""
     of, _, last = name.rpartition(".")
     if _is_node(of):
-        name = f"{_NODE}.{last}"
+        name = f"{NODE}.{last}"
     return _GIVES.get(name, "")
 
 
@@ -319,7 +323,7 @@ def result_of(name: str) -> str:
 def takes_nothing(name: str) -> bool:
     """Whether a function or method takes no arguments, by its full name."""
     of, _, last = name.rpartition(".")
-    return name in _ALONE or (_is_node(of) and f"{_NODE}.{last}" in _ALONE)
+    return name in _ALONE or (_is_node(of) and f"{NODE}.{last}" in _ALONE)
 
 
 def held_in(name: str) -> str:

@@ -28,15 +28,12 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries import python
-from rebsync.reverse.libraries.routines import Kind, Routine
+from rebsync.reverse.libraries.callbacks import CALLBACKS
+from rebsync.reverse.libraries.routines import Access, Kind, Routine
 
 _FOR_EACH = frozenset({"builtins.map", "builtins.filter"})
 # Functions of Python that call what they get with elements alone, or never.
 _KNOWN_USERS = KEEPING | _FOR_EACH | {"builtins.super", "builtins.isinstance", "functools.reduce"}
-_OF_PARAMETERS = frozenset(
-    {"set_parameters_callback"}
-    | {f"add_{when}_set_parameters_callback" for when in ("pre", "on", "post")}
-)
 _MESSAGE = re.compile(r"(\w+)\.(?:msg|srv)(?:\._\w+)?\.(\w+?)(?:\.?(Request|Response))?")
 _PARTS = ("Request", "Response")  # what the callback of a service gets, in this order
 
@@ -75,16 +72,9 @@ class ArgumentTypes:
         found: dict[str, list[tuple[str, e.Expression]]] = {}
         for name in self._program.functions:
             for node in walk(self._program.function(name)):
-                match node:
-                    case s.Call(_, s.MethodCallee(_, "declare_parameter"), arguments):
-                        match [a.value for a in arguments if a.name in (None, "value")]:
-                            case [e.Literal(str() as parameter), *default]:
-                                value = default[0] if default else e.Literal(None)
-                                found.setdefault(parameter, []).append((name, value))
-                            case _:
-                                pass
-                    case _:
-                        pass
+                asked = parameter_of(node) if isinstance(node, s.Call) else None
+                if asked is not None and asked[1] is Access.DECLARE:
+                    found.setdefault(asked[0], []).append((name, asked[2] or e.Literal(None)))
         return found
 
     @cached_property
@@ -166,7 +156,7 @@ class ArgumentTypes:
                 return self._graph.value(value, around).functions | self._run_by(held)
             case s.MethodCallee(_, name, _, str() as after):
                 return self._nearest(self._graph.bases(after), name)
-            case s.MethodCallee(e.Local() as receiver, name, None, None) as callee if (
+            case s.MethodCallee(receiver, name, None, None) as callee if (
                 owner := self._graph.class_of(receiver, around)
             ) is not None:
                 found = self._graph.callee(callee, around).functions
@@ -264,16 +254,30 @@ class ArgumentTypes:
                 yield node.module
 
 
+def parameter_of(call: s.Call) -> tuple[str, Access, e.Expression | None] | None:
+    """The parameter that a call asks a node for, by its name, how, and its default."""
+    routine = _routine(call)
+    if routine is None or routine.kind is not Kind.PARAMETER or routine.access is None:
+        return None
+    name, default = (_argument(call, routine, role) for role in ("name", "default"))
+    is_known = isinstance(name, e.Literal) and isinstance(name.value, str)
+    return (name.value, routine.access, default) if is_known else None
+
+
+def _routine(call: s.Call) -> Routine | None:
+    match call.callee:
+        case s.LibraryCallee(name):
+            return python.function(name, len(call.arguments))
+        case s.MethodCallee(_, name):
+            return python.node_method(name)
+        case _:
+            return None
+
+
 def _asked(node: object, kind: Kind) -> Iterator[tuple[e.Expression, e.Expression]]:
     """The types and callbacks of the subscriptions, or services, that a call asks for."""
-    match node:
-        case s.Call(_, s.LibraryCallee(name), arguments):
-            routine = python.function(name, len(arguments))
-        case s.Call(_, s.MethodCallee(_, name), arguments):
-            routine = python.node_method(name)
-        case _:
-            return
-    if routine is not None and routine.kind is kind:
+    routine = _routine(node) if isinstance(node, s.Call) else None
+    if isinstance(node, s.Call) and routine is not None and routine.kind is kind:
         type_, callback = (_argument(node, routine, role) for role in ("type", "callback"))
         if type_ is not None and callback is not None:
             yield type_, callback
@@ -281,13 +285,13 @@ def _asked(node: object, kind: Kind) -> Iterator[tuple[e.Expression, e.Expressio
 
 def _other_callbacks(node: object) -> Iterator[tuple[str, e.Expression]]:
     """The callbacks of a call that get no messages, with the class of what they get."""
-    match node:
-        case s.Call(_, s.LibraryCallee("rospy.Timer"), (_, callback, *_)):
-            yield "rospy.timer.TimerEvent", callback.value
-        case s.Call(_, s.MethodCallee(_, name), (callback, *_)) if name in _OF_PARAMETERS:
-            yield "parameters", callback.value
-        case _:
-            pass
+    if not isinstance(node, s.Call):
+        return
+    known = CALLBACKS.get(getattr(node.callee, "name", ""))
+    if known is not None and known.gets:
+        plain = [a.value for a in node.arguments if a.name is None and not a.stars]
+        named = (a.value for a in node.arguments if a.name == known.name)
+        yield from ((known.gets, each) for each in (*plain[known.at : known.at + 1], *named))
 
 
 def _argument(call: s.Call, routine: Routine, role: str) -> e.Expression | None:

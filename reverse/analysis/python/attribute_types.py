@@ -28,7 +28,7 @@ from rebsync.reverse.analysis.stores import CallResult, Stored
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.libraries.attributes import attributes_of, held_in
+from rebsync.reverse.libraries.attributes import PARAMETER, attributes_of, held_in
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
 _OWN = {**{kind.value: kind for kind in OwnType}, "defaultdict": OwnType.MAPPING}
@@ -146,7 +146,7 @@ class AttributeTypes:
     def of_class(self, name: str) -> ValueTypes:
         """The types of an object of a library's class, of a message, or of one of Python's own."""
         if name == "parameters":
-            return sequence(OwnType.LIST, frozenset((LibraryType("rclpy.parameter.Parameter"),)))
+            return sequence(OwnType.LIST, frozenset((LibraryType(PARAMETER),)))
         if name == "builtins.Exception":
             return frozenset((LibraryType(name),))
         if name == "texts":

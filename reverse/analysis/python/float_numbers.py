@@ -7,7 +7,7 @@ from rebsync.reverse.analysis.python.value_types import MessageType
 from rebsync.reverse.analysis.stores import AnyValue, CallResult, Source, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir.operators import Operator
-from rebsync.reverse.libraries.attributes import is_float
+from rebsync.reverse.libraries.attributes import FLOAT_METHODS, is_float
 
 _DEEPEST = 4  # names that follow each other
 _COMPUTING = frozenset(
@@ -19,7 +19,6 @@ _COMPUTING = frozenset(
 _OF_FLOATS = frozenset(
     {
         *("builtins.float", "time.time", "time.monotonic", "time.perf_counter", "random.random"),
-        *("to_sec", "total_seconds", "timestamp", "rospy.get_time"),
         *("random.uniform", "random.gauss", "math.fsum", "statistics.mean"),
         *(f"math.{name}" for name in ("sqrt", "sin", "cos", "tan", "atan2", "hypot", "fabs")),
         *(f"math.{name}" for name in ("exp", "log", "pow", "degrees", "radians", "atan", "fmod")),
@@ -60,7 +59,7 @@ class FloatNumbers:
             case e.Conditional(_, one, other):
                 return any(self._is_float((function, each), depth) for each in (one, other))
             case CallResult(call):
-                return getattr(call.callee, "name", "") in _OF_FLOATS
+                return getattr(call.callee, "name", "") in _OF_FLOATS | FLOAT_METHODS
             case e.LibraryReference(name):
                 return is_float(name)
             case e.Attribute(of, name) if self._is_float_field(of, name, function):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin, Origins
-from rebsync.reverse.analysis.python.argument_types import ArgumentTypes
+from rebsync.reverse.analysis.python.argument_types import ArgumentTypes, parameter_of
 from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
 from rebsync.reverse.analysis.python.type_queries import TypeQueries
 from rebsync.reverse.analysis.python.value_types import (
@@ -26,7 +26,8 @@ from rebsync.reverse.analysis.python.value_types import (
 from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.libraries.attributes import OF_NUMBERS_ALONE, result_of
+from rebsync.reverse.libraries.attributes import NODE, OF_NUMBERS_ALONE, result_of
+from rebsync.reverse.libraries.routines import Access
 
 _COMPUTING = OF_NUMBERS_ALONE | {"builtins.divmod"}
 _LIST, _QUEUE, _SET = OwnType.LIST, OwnType.QUEUE, OwnType.SET
@@ -78,6 +79,8 @@ class GivenTypes:
 
     def of(self, call: s.Call, function: str) -> ValueTypes:
         """The types of what a call in a function gives."""
+        if (held := self._of_parameter(call, function)) is not None:
+            return held
         match call.callee:
             case s.LibraryCallee(name, None):
                 return self._of_library(call, name, function)
@@ -154,6 +157,16 @@ class GivenTypes:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, A_NUMBER),))
             case "builtins.sum" if len(given) > 1:
                 return ANY_TYPE
+            case "builtins.next" if given:
+                return elements_of(given[0]) | union(given[1:])
+            case "itertools.count":
+                return sequence(None, A_NUMBER)
+            case "itertools.repeat" if given:
+                return sequence(None, given[0])
+            case "itertools.islice" | "itertools.cycle" if given:
+                return sequence(None, elements_of(given[0]))
+            case "itertools.chain":
+                return sequence(None, *map(elements_of, given))
             case "builtins.divmod" if given == [A_NUMBER, A_NUMBER]:
                 return pair(A_NUMBER, A_NUMBER)
             case "random.choice" | "copy.copy" | "copy.deepcopy" if given:
@@ -162,8 +175,6 @@ class GivenTypes:
                 return union([self.mapped(plain[0], function), *given[2:]])
             case "os.getenv" | "os.environ.get" if given:
                 return union([A_TEXT, *given[1:]])
-            case "rospy.get_param" | "rospy.get_param_cached" if len(given) > 1:
-                return given[1] or ANY_TYPE  # a parameter is of the type of its default
             case _ if name in OF_NUMBERS_ALONE and given and union(given) == A_NUMBER:
                 return A_NUMBER
             case "builtins.max" | "builtins.min" if given:
@@ -202,8 +213,8 @@ class GivenTypes:
                 return frozenset((type_,))
             case ContainerType() if name in _NUMBERED:
                 return A_NUMBER
-            case LibraryType("rclpy.client.Client", answers) if answers and name == "call_async":
-                return frozenset((LibraryType("rclpy.task.Future", answers),))
+            case LibraryType(of, answers) if answers and name == "call_async":
+                return frozenset((LibraryType(result_of(f"{of}.{name}"), answers),))
             case LibraryType(_, holds) if holds and name in ("call", "result"):
                 return holds
             case LibraryType(of):
@@ -253,11 +264,21 @@ class GivenTypes:
             case "create_client", [type_, *_]:
                 answers = self._arguments.messages_of(type_, function)
                 return union(self._attributes.of_class(f"{each}_Response") for each in answers)
-            case "declare_parameter" | "get_parameter", [e.Literal(str() as parameter), *_]:
-                defaults = self._arguments.declared.get(parameter, ())
+            case _ if (asked := parameter_of(call)) is not None:
+                defaults = self._arguments.declared.get(asked[0], ())
                 return union(self._types.of(value, of) or ANY_TYPE for of, value in defaults)
             case _:
                 return NO_TYPES
+
+    def _of_parameter(self, call: s.Call, function: str) -> ValueTypes | None:
+        """The types of a parameter that a call gives: of its default, as people take it for."""
+        asked = parameter_of(call)
+        if asked is None or asked[2] is None or asked[1] not in (Access.GET, Access.DECLARE):
+            return None
+        name = call.callee.name if isinstance(call.callee, s.MethodCallee) else ""
+        if name and result_of(f"{NODE}.{name}"):  # which gives an object that has it
+            return None
+        return self._types.of(asked[2], function) or ANY_TYPE
 
 
 def _has_methods(type_: ValueType | None) -> bool:

@@ -14,10 +14,10 @@ from rebsync.reverse.analysis.python.value_types import (
     ValueTypes,
     own_type,
 )
+from rebsync.reverse.libraries.attributes import TIMES
 
 _PLAIN = frozenset({OwnType.NUMBER, OwnType.TEXT, OwnType.NONE})
 _NESTED = frozenset({OwnType.LIST, OwnType.TUPLE, OwnType.MAPPING})
-_COPIED = ("rospy.Time", "rospy.Duration", "rclpy.time.", "rclpy.duration.", "time", "duration")
 
 
 def is_written(types: ValueTypes, *, is_sorted: bool) -> bool:
@@ -52,6 +52,6 @@ def _is_copied(type_: ValueType | None, is_object: Callable[[str], bool], is_dee
         case InstanceType(name):
             return is_object(name)
         case LibraryType(name):
-            return name.startswith(("datetime.", *_COPIED))
+            return name.startswith("datetime.") or name in TIMES
         case MessageType() | OwnType():
             return True
