@@ -55,7 +55,9 @@ def is_own(origins: Origins, value: e.Expression, function: str) -> bool:
         return isinstance(type_, t.Record) and type_.name in origins.graph.program.classes
     if isinstance(value, e.ModuleReference):
         return True
-    if isinstance(value, e.Local) and value.name == origins.object_of.get(function):
+    around = value.function if isinstance(value, e.Captured) else function
+    is_name = isinstance(value, e.Local | e.Captured)
+    if is_name and value.name == origins.object_of.get(around):  # type: ignore[attr-defined]
         return True
     held = origins.of(value, function)
     return bool(held) and all(isinstance(o, ClassOrigin) for o in held)

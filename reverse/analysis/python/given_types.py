@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin, Origins
 from rebsync.reverse.analysis.python.argument_types import ArgumentTypes, parameter_of
 from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
@@ -136,19 +138,10 @@ class GivenTypes:
     def _of_library(self, call: s.Call, name: str, function: str) -> ValueTypes:
         plain = [a.value for a in call.arguments if a.name is None and not a.stars]
         given = [self._types.of(value, function) for value in plain]
-        if NO_TYPES in given and name in _COMPUTING:
-            return NO_TYPES
-        if name in _COPYING:
-            return sequence(_COPYING[name], *map(elements_of, given[:1]))
+        found = _of_elements(name, given)
+        if found is not None:
+            return found
         match name:
-            case "builtins.range":
-                return sequence(None, A_NUMBER)
-            case "builtins.enumerate" if given:
-                return sequence(None, pair(A_NUMBER, elements_of(given[0])))
-            case "builtins.zip":
-                return sequence(None, pair(*map(elements_of, given)))
-            case "builtins.filter" if len(given) > 1:
-                return sequence(None, elements_of(given[1]))
             case "builtins.map" if len(given) > 1:
                 return sequence(None, self.mapped(plain[0], function))
             case "builtins.dict" if not call.arguments:
@@ -157,26 +150,8 @@ class GivenTypes:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, A_NUMBER),))
             case "builtins.sum" if len(given) > 1:
                 return ANY_TYPE
-            case "builtins.next" if given:
-                return elements_of(given[0]) | union(given[1:])
-            case "itertools.count":
-                return sequence(None, A_NUMBER)
-            case "itertools.repeat" if given:
-                return sequence(None, given[0])
-            case "itertools.islice" | "itertools.cycle" if given:
-                return sequence(None, elements_of(given[0]))
-            case "itertools.chain":
-                return sequence(None, *map(elements_of, given))
-            case "builtins.divmod" if given == [A_NUMBER, A_NUMBER]:
-                return pair(A_NUMBER, A_NUMBER)
-            case "random.choice" | "copy.copy" | "copy.deepcopy" if given:
-                return given[0] if name.startswith("copy") else elements_of(given[0])
             case "functools.reduce" if given:
                 return union([self.mapped(plain[0], function), *given[2:]])
-            case "os.getenv" | "os.environ.get" if given:
-                return union([A_TEXT, *given[1:]])
-            case _ if name in OF_NUMBERS_ALONE and given and union(given) == A_NUMBER:
-                return A_NUMBER
             case "builtins.max" | "builtins.min" if given:
                 defaults = [a.value for a in call.arguments if a.name == "default"]
                 found = union(given) if len(given) > 1 else elements_of(given[0])
@@ -279,6 +254,43 @@ class GivenTypes:
         if name and result_of(f"{NODE}.{name}"):  # which gives an object that has it
             return None
         return self._types.of(asked[2], function) or ANY_TYPE
+
+
+def _of_elements(name: str, given: Sequence[ValueTypes]) -> ValueTypes | None:
+    """The types of what a function gives that depend on its arguments alone; None for others."""
+    if NO_TYPES in given and name in _COMPUTING:
+        return NO_TYPES
+    if name in _COPYING:
+        return sequence(_COPYING[name], *map(elements_of, given[:1]))
+    match name:
+        case "builtins.range" | "itertools.count":
+            return sequence(None, A_NUMBER)
+        case "builtins.enumerate" if given:
+            return sequence(None, pair(A_NUMBER, elements_of(given[0])))
+        case "builtins.zip":
+            return sequence(None, pair(*map(elements_of, given)))
+        case "builtins.filter" if len(given) > 1:
+            return sequence(None, elements_of(given[1]))
+        case "builtins.next" if given:
+            return elements_of(given[0]) | union(given[1:])
+        case "itertools.repeat" if given:
+            return sequence(None, given[0])
+        case "itertools.islice" | "itertools.cycle" if given:
+            return sequence(None, elements_of(given[0]))
+        case "itertools.chain":
+            return sequence(None, *map(elements_of, given))
+        case "builtins.divmod" if list(given) == [A_NUMBER, A_NUMBER]:
+            return pair(A_NUMBER, A_NUMBER)
+        case "random.choice" if given:
+            return elements_of(given[0])
+        case "copy.copy" | "copy.deepcopy" if given:
+            return given[0]
+        case "os.getenv" | "os.environ.get" if given:
+            return union([A_TEXT, *given[1:]])
+        case _ if name in OF_NUMBERS_ALONE and given and union(given) == A_NUMBER:
+            return A_NUMBER
+        case _:
+            return None
 
 
 def _has_methods(type_: ValueType | None) -> bool:
