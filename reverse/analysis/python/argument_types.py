@@ -17,12 +17,21 @@ from rebsync.reverse.analysis.origins import (
     Origins,
 )
 from rebsync.reverse.analysis.python.call_binding import KEEPING, bound
+from rebsync.reverse.analysis.python.class_decorators import ClassDecorators
 from rebsync.reverse.analysis.python.message_values import (
     callback_functions,
     first_parameter,
     own_parameters,
 )
-from rebsync.reverse.analysis.stores import CallResult, Drawn, ElementOf, Member, Source, Value
+from rebsync.reverse.analysis.stores import (
+    ANY_VALUE,
+    CallResult,
+    Drawn,
+    ElementOf,
+    Member,
+    Source,
+    Value,
+)
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function
@@ -53,14 +62,43 @@ def message_name(name: str) -> str | None:
 class ArgumentTypes:
     """The arguments and messages of one program."""
 
-    def __init__(self, origins: Origins) -> None:
+    def __init__(self, origins: Origins, decorators: ClassDecorators) -> None:
         self._origins = origins
+        self._decorators = decorators
         self._graph = origins.graph
         self._program = origins.graph.program
 
     def arguments(self, function: str, parameter: str) -> list[Source]:
         """What calls give for a parameter, with the functions that these stand in; defaults too."""
         return self._given.get((function, parameter), [])
+
+    def fields(self, name: str) -> list[Source]:
+        """What calls of data classes give for a field."""
+        return self._built.get(name, [])
+
+    @cached_property
+    def _built(self) -> dict[str, list[Source]]:
+        found: dict[str, list[Source]] = {}
+        for name in self._program.functions:
+            for node in walk(self._program.function(name)):
+                match node:
+                    case s.Call(_, s.ValueCallee(value)):
+                        for origin in self._origins.of(value, name):
+                            if isinstance(origin, ClassOrigin) and not origin.of_object:
+                                for field, given in self._for_fields(node, origin.name):
+                                    found.setdefault(field, []).append((name, given))
+                    case _:
+                        pass
+        return found
+
+    def _for_fields(self, call: s.Call, name: str) -> Iterator[tuple[str, Value]]:
+        """The arguments of a call of a data class, each with its field."""
+        fields = [p.name for p in self._decorators.parameters(name) or ()]
+        if any(a.stars for a in call.arguments):
+            yield from ((field, ANY_VALUE) for field in fields)
+        plain = [a.value for a in call.arguments if a.name is None]
+        yield from zip(fields, plain, strict=False)
+        yield from ((a.name, a.value) for a in call.arguments if a.name in fields and a.name)
 
     def messages(self, function: str, parameter: str) -> list[str]:
         """The types of the messages that subscriptions give for a parameter."""

@@ -239,6 +239,8 @@ class InferredTypes:
         sources = self._graph.stores.sources(key)
         if isinstance(key, CapturedVariable) and self.parameter(key):
             sources.remove((key.function, ANY_VALUE))
+        if isinstance(key, Member):
+            sources += self._arguments.fields(key.name)
         return sources
 
     def parameter(self, key: Key) -> ValueTypes:

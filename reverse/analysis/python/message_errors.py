@@ -71,8 +71,8 @@ class MessageErrors:
 
 
 def _takes(expected: ValueTypes, given: ValueTypes) -> bool:
-    if None in expected:
-        return True
+    if None in expected or not given:
+        return bool(given)
     kinds = frozenset(map(own_type, expected))
     if any(isinstance(type_, LibraryType) for type_ in expected):  # times of ROS 1
         known = (t.name for t in given if isinstance(t, LibraryType))

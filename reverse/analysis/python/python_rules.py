@@ -57,7 +57,7 @@ class PythonRules:
     @cached_property
     def arguments(self) -> ArgumentTypes:
         """What functions get for their parameters."""
-        return ArgumentTypes(self._origins)
+        return ArgumentTypes(self._origins, self.decorators)
 
     @cached_property
     def messages(self) -> MessageValues:
