@@ -349,13 +349,19 @@ def _in_python(name: str) -> object:
     found: object = importlib.import_module(first)
     for part in rest:
         inner = getattr(found, part, _MISSING)
-        is_package = hasattr(found, "__path__") and isinstance(found, ModuleType)
-        if inner is _MISSING and is_package and find_spec(f"{found.__name__}.{part}") is not None:
-            return None  # a module of which nothing was asked here
+        if inner is _MISSING and _is_module_in(found, part):
+            return None  # of which nothing was asked here
         found = inner
         if found is _MISSING:
             return found
     return found
+
+
+def _is_module_in(package: object, name: str) -> bool:
+    """Whether a package has a module, or may have it."""
+    if not isinstance(package, ModuleType) or not hasattr(package, "__path__"):
+        return False
+    return find_spec(f"{package.__name__}.{name}") is not None
 
 
 @derived

@@ -78,8 +78,8 @@ class LibraryOutcomes:
     `opaque` are names of the program itself that no lowering sees through: macros, and modules of
     which it is not known where they are. Where it `trusts_others`, methods of what a library made
     that no table knows raise nothing by their names alone; where it `trusts_types`, values of no
-    known type have what is asked of them. `messages` are classes in C++ of which headers are
-    included that hold nothing but a message.
+    known type have what is asked of them: messages, in functions of sensors and in users' blocks.
+    `messages` are classes in C++ of which headers are included that hold nothing but a message.
     `fields` gives the fields of a type of messages with their types, by their names in ROS.
     """
 

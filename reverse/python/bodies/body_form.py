@@ -84,7 +84,6 @@ class PyForm:
         table = LibraryOutcomes(
             Language.PYTHON,
             trusts_others=True,
-            # What generated code declares is known; people's code has types that nobody wrote.
             trusts_types=False,
             fields=self._fields,
         )

@@ -1,4 +1,4 @@
-"""What a callback asks of values of unknown types is listed where Python raises, and hardly else."""
+"""What a callback asks of values of unknown types is listed where Python raises."""
 
 from __future__ import annotations
 
