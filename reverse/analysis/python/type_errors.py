@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from rebsync.reverse.analysis.facts import Facts
-from rebsync.reverse.analysis.held_values import held_by, texts_of
-from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin
+from rebsync.reverse.analysis.facts import Facts, stored
+from rebsync.reverse.analysis.held_values import texts_of
+from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.attribute_errors import AttributeErrors
+from rebsync.reverse.analysis.python.class_values import are_classes, is_in_class, is_searched
 from rebsync.reverse.analysis.python.element_errors import ElementErrors
 from rebsync.reverse.analysis.python.float_numbers import FloatNumbers
 from rebsync.reverse.analysis.python.format_strings import (
@@ -87,10 +88,10 @@ class TypeErrors:
         """The types that a value may be of; None in other languages."""
         return self.kinds.types(value, facts) if self._is_python else None
 
-    @property
-    def caught(self) -> ValueTypes | None:
-        """The types of what a handler catches; None in other languages."""
-        return frozenset((LibraryType("builtins.Exception"),)) if self._is_python else None
+    def caught(self, facts: Facts, target: e.Lvalue | None) -> Facts:
+        """What is known where a handler has stored what it catches."""
+        types = frozenset((LibraryType("builtins.Exception"),)) if self._is_python else None
+        return facts if target is None else stored(facts, target, types)
 
     def given(self, call: s.Call) -> ValueTypes | None:
         """The types of what a call gives; None in other languages."""
@@ -164,28 +165,13 @@ class TypeErrors:
                 if not all(map(self._gives_pairs, union(types))):
                     self._notes.fails(node, _WRONG)
             case "builtins.isinstance" if len(plain) > 1:
-                if not self._are_classes(plain[1]):
+                if not are_classes(self._notes, plain[1]):
                     self._notes.fails(node, _WRONG)
             case _ if name in _OF_ELEMENTS:
                 for value in plain if name == "builtins.zip" else plain[:1]:
                     self._answers(node, value, ImplicitCall.ITERATE)
             case _:
                 pass
-
-    def _are_classes(self, value: e.Expression) -> bool:
-        """Whether a value is a class, or a tuple of classes."""
-        if isinstance(value, e.Build):
-            return all(not isinstance(v, e.Spread) and self._are_classes(v) for v in value.elements)
-        if isinstance(value, e.Binary):  # of types: `int | str`
-            return self._are_classes(value.left) and self._are_classes(value.right)
-        held = held_by(self._notes.origins, value, self._notes.function.name)
-        values = [v for _, v in held if isinstance(v, e.Build)]
-        if held and len(values) == len(held):
-            return all(map(self._are_classes, values))
-        return all(
-            isinstance(o, ClassOrigin | LibraryOrigin) and not o.of_object
-            for o in self._notes.origins.of(value, self._notes.function.name)
-        )
 
     def _gives_pairs(self, type_: ValueType | None) -> bool:
         """Whether a mapping can be made of a value: of another one, or of pairs."""
@@ -295,8 +281,8 @@ class TypeErrors:
         types = self.kinds.types(left, facts), self.kinds.types(right, facts)
         kinds = self.kinds.asked(left, facts), self.kinds.asked(right, facts)
         if operator in (Operator.IN, Operator.NOT_IN):
-            wrong = not all(map(self._is_searched, self.kinds.known(types[1]))) or self._is_class(
-                left, right
+            wrong = not all(map(is_searched, self.kinds.known(types[1]))) or is_in_class(
+                self._notes, left, right
             )
             wrong |= TEXT in kinds[1] and bool(kinds[0] - {TEXT})
             wrong |= OwnType.BYTES in kinds[1] and bool(kinds[0] - {NUMBER, OwnType.BYTES})
@@ -322,24 +308,6 @@ class TypeErrors:
         elif operator not in (*_EQUALITY, Operator.SAME, Operator.NOT_SAME):
             self._answers(value, left, operator)
             self._answers(value, right, operator)
-
-    def _is_searched(self, type_: ValueType | None) -> bool:
-        """Whether `in` looks for something in values of a type; objects answer for themselves."""
-        is_range = isinstance(type_, ContainerType) and type_.own is None
-        return is_range or isinstance(type_, InstanceType) or own_type(type_) in ITERABLE
-
-    def _is_class(self, left: e.Expression, right: e.Expression) -> bool:
-        """Whether something is looked for in a class, other than members in their enumeration."""
-        origins, name = self._notes.origins, self._notes.function.name
-        classes = {
-            o for o in origins.of(right, name) if o == ClassOrigin(getattr(o, "name", ""), False)
-        }
-        members = {
-            ClassOrigin(o.name, False)
-            for o in origins.of(left, name)
-            if isinstance(o, ClassOrigin) and o.of_object
-        }
-        return bool(classes) and members != classes
 
     def _refuses(self, operator: Operator, left: ValueType | None, right: ValueType | None) -> bool:
         """Whether an object of a library is no operand of an operator."""
