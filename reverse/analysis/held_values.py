@@ -55,10 +55,13 @@ def is_own(origins: Origins, value: e.Expression, function: str) -> bool:
         return isinstance(type_, t.Record) and type_.name in origins.graph.program.classes
     if isinstance(value, e.ModuleReference):
         return True
-    around = value.function if isinstance(value, e.Captured) else function
-    is_name = isinstance(value, e.Local | e.Captured)
-    if is_name and value.name == origins.object_of.get(around):  # type: ignore[attr-defined]
-        return True
+    match value:
+        case e.Local(name) if name == origins.object_of.get(function):
+            return True
+        case e.Captured(around, name) if name == origins.object_of.get(around):
+            return True
+        case _:
+            pass
     held = origins.of(value, function)
     return bool(held) and all(isinstance(o, ClassOrigin) for o in held)
 

@@ -62,7 +62,9 @@ def _of_service(
 ) -> dict[str, list[tuple[str, str, int | None]]]:
     """The fields of the request and the response of a service, if a file declares one."""
     service = _SERVICE.search(path)
-    parts = zip(_PARTS, _BETWEEN.split(source.text), strict=False) if service is not None else ()
+    if service is None:
+        return {}
+    parts = zip(_PARTS, _BETWEEN.split(source.text), strict=False)
     read = (read_message(Source(path, text), owner, f"{service[1]}_{p}") for p, text in parts)
     return {each.full_name: [(f.name, f.type, f.length) for f in each.fields] for each in read}
 
@@ -91,7 +93,7 @@ class MessageTypes:
     @staticmethod
     def of(files: Mapping[str, Source], package: str) -> MessageTypes:
         """The types that a package declares, and those that come with ROS."""
-        own = {}
+        own: dict[str, list[tuple[str, str, int | None]]] = {}
         constants: dict[str, int | str] = {}
         rosidl, unclear = _of_rosidl(files), set[str]()
         for path, source in sorted(files.items()):

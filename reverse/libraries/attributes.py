@@ -182,6 +182,7 @@ _HOLDS: Mapping[str, str] = {
     **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
     **{f"numpy.{name}": "number" for name in ("pi", "e", "inf", "nan")},
     "sys.argv": "texts",
+    "rclpy.timer.Timer.timer_period_ns": "number",
     "rclpy.qos.qos_profile_sensor_data": "rclpy.qos.QoSProfile",
     "rclpy.qos.qos_profile_system_default": "rclpy.qos.QoSProfile",
     **{

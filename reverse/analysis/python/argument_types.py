@@ -298,8 +298,11 @@ def parameter_of(call: s.Call) -> tuple[str, Access, e.Expression | None] | None
     if routine is None or routine.kind is not Kind.PARAMETER or routine.access is None:
         return None
     name, default = (_argument(call, routine, role) for role in ("name", "default"))
-    is_known = isinstance(name, e.Literal) and isinstance(name.value, str)
-    return (name.value, routine.access, default) if is_known else None
+    match name:
+        case e.Literal(str() as text):
+            return text, routine.access, default
+        case _:
+            return None
 
 
 def _routine(call: s.Call) -> Routine | None:

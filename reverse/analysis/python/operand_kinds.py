@@ -184,7 +184,8 @@ class OperandKinds:
         if isinstance(key, Member) and IsBound(value) in facts:
             # What makes objects ran before this function stored something there.
             kinds = {n: self._graph.program.function(n).kind for n, _ in found}
-            found = [s for s in found if kinds[s[0]] not in _FIRST]
+            kinds.pop(self._name, None)
+            found = [s for s in found if kinds.get(s[0]) not in _FIRST]
         given = self._types.parameter(key)
         if not found:
             return given or ANY_TYPE
