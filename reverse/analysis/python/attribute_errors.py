@@ -69,7 +69,7 @@ class AttributeErrors:
     def _is_open(self, of: e.Expression) -> bool:
         """Whether nothing is known of a value: not which library, or class, it is of."""
         name = self._notes.function.name
-        return not (self._notes.table.trusts_types or self._is_made(of, name, 0))
+        return not (self._notes.table.trusts_attributes or self._is_made(of, name, 0))
 
     def _is_made(self, value: e.Expression, function: str, depth: int) -> bool:
         """Whether a value is a message, what the program or a library made, or a part of these."""

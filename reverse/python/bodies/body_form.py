@@ -85,6 +85,7 @@ class PyForm:
             Language.PYTHON,
             trusts_others=True,
             trusts_types=False,
+            trusts_attributes=self._without_runtime,
             fields=self._fields,
         )
         return OutcomeAnalysis(self.program, table, lambda name: False)
