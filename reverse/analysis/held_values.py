@@ -27,6 +27,14 @@ def held_by(origins: Origins, value: e.Expression, function: str) -> list[Stored
     return origins.graph.stores.of(key)
 
 
+def texts_of(origins: Origins, value: e.Expression, function: str) -> list[str]:
+    """The texts that a value may be; none if that is not known."""
+    is_variable = key_of(value, function) is not None
+    held = [v for _, v in held_by(origins, value, function)] if is_variable else [value]
+    texts = [v.value for v in held if isinstance(v, e.Literal) and isinstance(v.value, str)]
+    return texts if len(texts) == len(held) else []
+
+
 def all_held(origins: Origins, value: e.Expression, function: str) -> list[Stored]:
     """The same of C++, where a variable whose address is only looked at holds nothing by that."""
     stored, key = held_by(origins, value, function), key_of(value, function)
@@ -47,8 +55,13 @@ def is_own(origins: Origins, value: e.Expression, function: str) -> bool:
         return isinstance(type_, t.Record) and type_.name in origins.graph.program.classes
     if isinstance(value, e.ModuleReference):
         return True
-    if isinstance(value, e.Local) and value.name == origins.object_of.get(function):
-        return True
+    match value:
+        case e.Local(name) if name == origins.object_of.get(function):
+            return True
+        case e.Captured(around, name) if name == origins.object_of.get(around):
+            return True
+        case _:
+            pass
     held = origins.of(value, function)
     return bool(held) and all(isinstance(o, ClassOrigin) for o in held)
 
@@ -62,10 +75,15 @@ def is_of_other(
     """
     if not (isinstance(key, Member) and isinstance(value, e.Attribute)):
         return False
-    there = graph.program.function(function)
     if not (isinstance(value.object, e.Local) and value.object.name == here.receiver):
         return False
-    if here.owner is None or there.owner is None or there.owner in graph.family(here.owner):
+    return here.owner is not None and is_of_other_class(graph, here.owner, key, function)
+
+
+def is_of_other_class(graph: CallGraph, owner: str, key: Member, function: str) -> bool:
+    """Whether what a function stores is an attribute of its own object, and not of a class."""
+    there = graph.program.function(function)
+    if there.owner is None or there.owner in graph.family(owner):
         return False
     targets = [n.target for n in walk(there) if isinstance(n, s.Assign | s.Call | s.Declare)]
     own = e.Local(there.receiver or "")

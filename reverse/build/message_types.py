@@ -39,6 +39,9 @@ _QUOTED = re.compile(r"(['\"])(.*)\1")
 _GENERATES = re.compile(
     r"rosidl_default_\w+|rosidl_interface_packages|message_(?:generation|runtime)"
 )
+_SERVICE = re.compile(r"/?srv/([^/]+)\.srv\Z")
+_BETWEEN = re.compile(r"^---.*$", re.MULTILINE)
+_PARTS = ("Request", "Response")
 _MESSAGE = re.compile(r"/?msg/([^/]+)\.msg\Z")
 
 # Times in ROS 1 are objects of their own, in ROS 2 messages.
@@ -52,6 +55,18 @@ _STARTED = frozenset({("geometry_msgs/Quaternion", "w")})
 _ROS2 = re.compile(r"\b(?:ament|rosidl)_\w+")
 
 Fields = Mapping[str, Type | None]
+
+
+def _of_service(
+    source: Source, path: str, owner: str
+) -> dict[str, list[tuple[str, str, int | None]]]:
+    """The fields of the request and the response of a service, if a file declares one."""
+    service = _SERVICE.search(path)
+    if service is None:
+        return {}
+    parts = zip(_PARTS, _BETWEEN.split(source.text), strict=False)
+    read = (read_message(Source(path, text), owner, f"{service[1]}_{p}") for p, text in parts)
+    return {each.full_name: [(f.name, f.type, f.length) for f in each.fields] for each in read}
 
 
 @dataclass(slots=True)
@@ -78,10 +93,11 @@ class MessageTypes:
     @staticmethod
     def of(files: Mapping[str, Source], package: str) -> MessageTypes:
         """The types that a package declares, and those that come with ROS."""
-        own = {}
+        own: dict[str, list[tuple[str, str, int | None]]] = {}
         constants: dict[str, int | str] = {}
         rosidl, unclear = _of_rosidl(files), set[str]()
         for path, source in sorted(files.items()):
+            own |= _of_service(source, f"/{path}", owner_of(path, package))
             found = _MESSAGE.search(f"/{path}")
             if found is not None:
                 owner = owner_of(path, package)

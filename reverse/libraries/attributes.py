@@ -10,12 +10,14 @@ import importlib
 import queue
 import threading
 from collections.abc import Mapping
+from importlib.util import find_spec
+from types import ModuleType
 
 from rebsync.reverse.libraries import python
 from rebsync.reverse.libraries.registry import derived
 
-_NODE = "rclpy.node.Node"
-_OF_NODES = """
+NODE = "rclpy.node.Node"
+_OFNODES = """
     PARAM_REL_TOL add_on_set_parameters_callback add_post_set_parameters_callback
     add_pre_set_parameters_callback add_waitable assert_liveliness clients context count_clients
     count_publishers count_services count_subscribers create_client create_guard_condition
@@ -62,7 +64,7 @@ _TIMES = ("rospy.Time", "rospy.Duration", "time", "duration")  # the last two in
 
 # By the full name of a class the attributes of its objects, beside those of all objects.
 _ATTRIBUTES: Mapping[str, str] = {
-    _NODE: _OF_NODES,
+    NODE: _OFNODES,
     "rclpy.publisher.Publisher": """
         assert_liveliness destroy event_handlers get_subscription_count handle msg_type publish
         publisher_handle qos_profile topic topic_name wait_for_all_acked""",
@@ -77,6 +79,10 @@ _ATTRIBUTES: Mapping[str, str] = {
         get_pending_request qos_profile remove_pending_request service_is_ready service_name
         srv_name srv_type wait_for_service""",
     "rclpy.timer.Rate": "destroy sleep",
+    "rclpy.guard_condition.GuardCondition": "callback callback_group destroy handle trigger",
+    "rclpy.qos.QoSProfile": """
+        avoid_ros_namespace_conventions deadline depth durability get_c_qos_profile history lifespan
+        liveliness liveliness_lease_duration reliability""",
     "rclpy.clock.Clock": """
         clock_handle clock_type create_jump_callback handle now ros_time_is_active
         set_ros_time_override sleep_for sleep_until""",
@@ -90,6 +96,10 @@ _ATTRIBUTES: Mapping[str, str] = {
     "rospy.Publisher": f"publish {_OF_TOPICS}",
     "rospy.Subscriber": f"callback callback_args {_OF_TOPICS}",
     "rospy.Timer": f"shutdown {_THREAD}",
+    "rospy.timer.TimerEvent": "current_expected current_real last_duration last_expected last_real",
+    "rclpy.task.Future": """
+        add_done_callback cancel cancelled done exception remove_pending_request result
+        set_exception set_result""",
     "rospy.Rate": "last_time remaining sleep sleep_dur",
     **dict.fromkeys(_TIMES, _TIME),
     **{
@@ -101,20 +111,40 @@ _ATTRIBUTES: Mapping[str, str] = {
         )
     },
 }
+_COUNTS = ("get_subscription_count", "get_publisher_count")
+# Modules that turn angles into quaternions and back: tuples and arrays of numbers.
+_TURNING = (
+    *("tf.transformations", "tf_transformations", "transformations", "tf_conversions"),
+    *("tf_conversions.transformations", "transforms3d.euler", "transforms3d.quaternions"),
+)
+_OF_TURNS = """
+    euler_from_quaternion quaternion_from_euler quaternion_multiply quaternion_inverse
+    quaternion_conjugate euler_from_matrix translation_from_matrix quaternion_from_matrix euler2quat
+    quat2euler qmult"""
+_OF_NUMBERS = """
+    sin cos tan arcsin arccos arctan arctan2 sinh cosh tanh sqrt cbrt abs absolute fabs sign hypot
+    deg2rad rad2deg radians degrees exp log log2 log10 floor ceil round rint trunc clip minimum
+    maximum mod fmod power isnan isinf isfinite square float32 float64 int32 int64"""
+# Functions of numpy that give a number for numbers.
+OF_NUMBERS_ALONE = frozenset(f"numpy.{name}" for name in _OF_NUMBERS.split())
 # By the full name of a function or method the class of what it gives.
 _GIVES: Mapping[str, str] = {
-    "rclpy.create_node": _NODE,
-    f"{_NODE}.create_publisher": "rclpy.publisher.Publisher",
-    f"{_NODE}.create_subscription": "rclpy.subscription.Subscription",
-    f"{_NODE}.create_timer": "rclpy.timer.Timer",
-    f"{_NODE}.create_client": "rclpy.client.Client",
-    f"{_NODE}.create_rate": "rclpy.timer.Rate",
+    "rclpy.create_node": NODE,
+    f"{NODE}.create_publisher": "rclpy.publisher.Publisher",
+    f"{NODE}.create_subscription": "rclpy.subscription.Subscription",
+    f"{NODE}.create_timer": "rclpy.timer.Timer",
+    f"{NODE}.create_client": "rclpy.client.Client",
+    f"{NODE}.create_rate": "rclpy.timer.Rate",
+    f"{NODE}.create_guard_condition": "rclpy.guard_condition.GuardCondition",
+    "rclpy.action.ActionClient.send_goal_async": "rclpy.task.Future",
+    "rclpy.task.Future.exception": "builtins.Exception",
+    "rclpy.client.Client.call_async": "rclpy.task.Future",
     **dict.fromkeys(
-        (f"{_NODE}.declare_parameter", f"{_NODE}.get_parameter"), "rclpy.parameter.Parameter"
+        (f"{NODE}.declare_parameter", f"{NODE}.get_parameter"), "rclpy.parameter.Parameter"
     ),
-    f"{_NODE}.get_clock": "rclpy.clock.Clock",
-    f"{_NODE}.get_logger": "rclpy.logging.Logger",
-    **dict.fromkeys((f"{_NODE}.get_name", f"{_NODE}.get_namespace"), "str"),
+    f"{NODE}.get_clock": "rclpy.clock.Clock",
+    f"{NODE}.get_logger": "rclpy.logging.Logger",
+    **dict.fromkeys((f"{NODE}.get_name", f"{NODE}.get_namespace"), "str"),
     "rclpy.logging.get_logger": "rclpy.logging.Logger",
     "rclpy.clock.Clock.now": "rclpy.time.Time",
     "rclpy.time.Time.to_msg": "builtin_interfaces/Time",
@@ -130,10 +160,36 @@ _GIVES: Mapping[str, str] = {
     "datetime.datetime.date": "datetime.date",
     "datetime.datetime.time": "datetime.time",
     **dict.fromkeys(("os.getcwd", "platform.node", "socket.gethostname"), "str"),
+    **dict.fromkeys(("rospy.resolve_name", "rospy.remap_name"), "str"),
+    "rospy.Publisher.get_num_connections": "number",
+    **dict.fromkeys(
+        (
+            f"rclpy.publisher.Publisher.{_COUNTS[0]}",
+            f"rclpy.subscription.Subscription.{_COUNTS[1]}",
+        ),
+        "number",
+    ),
+    "rclpy.time.Time.from_msg": "rclpy.time.Time",
+    "rclpy.duration.Duration.from_msg": "rclpy.duration.Duration",
+    "rclpy.parameter.Parameter.get_parameter_value": "rcl_interfaces/ParameterValue",
+    **{f"{of}.{name}": "numbers" for of in _TURNING for name in _OF_TURNS.split()},
+    **dict.fromkeys(("builtins.pow", "numpy.linalg.norm"), "number"),
 }
+PARAMETER = "rclpy.parameter.Parameter"
+FLOAT_METHODS = frozenset({"to_sec", "total_seconds", "timestamp", "rospy.get_time"})
 # By the full name of an attribute the class of its value.
 _HOLDS: Mapping[str, str] = {
     **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
+    **{f"numpy.{name}": "number" for name in ("pi", "e", "inf", "nan")},
+    "sys.argv": "texts",
+    "rclpy.timer.Timer.timer_period_ns": "number",
+    "rclpy.qos.qos_profile_sensor_data": "rclpy.qos.QoSProfile",
+    "rclpy.qos.qos_profile_system_default": "rclpy.qos.QoSProfile",
+    **{
+        f"rospy.timer.TimerEvent.{when}_{which}": "rospy.Time"
+        for when in ("current", "last")
+        for which in ("real", "expected")
+    },
     **{f"{of}.{name}": "number" for of in _TIMES for name in ("secs", "nsecs")},
     **{f"datetime.timedelta.{name}": "number" for name in ("days", "seconds", "microseconds")},
     **{
@@ -149,6 +205,7 @@ _HOLDS: Mapping[str, str] = {
 # Those of messages are of the same classes.
 SAME_TIMES = {"rospy.Time": "time", "rospy.Duration": "duration"}
 _CLIENT_TIMES = (("time", "duration"), ("rclpy.time.Time", "rclpy.duration.Duration"))
+TIMES = frozenset({*SAME_TIMES, *(name for pair in _CLIENT_TIMES for name in pair)})
 _SPAN, _MOMENT, _DAY = "datetime.timedelta", "datetime.datetime", "datetime.date"
 # What an operator gives for times, by the classes of its operands.
 OF_TIMES: Mapping[tuple[str, str, str], str] = {
@@ -179,7 +236,7 @@ OF_TIMES: Mapping[tuple[str, str, str], str] = {
 # Methods that take no arguments.
 _ALONE = frozenset(
     {
-        *(f"{_NODE}.{name}" for name in ("get_logger", "get_clock", "get_name", "get_namespace")),
+        *(f"{NODE}.{name}" for name in ("get_logger", "get_clock", "get_name", "get_namespace")),
         *(f"rclpy.timer.Timer.{name}" for name in ("cancel", "reset", "is_ready", "is_canceled")),
         *("rclpy.clock.Clock.now", "rclpy.time.Time.to_msg", "rclpy.duration.Duration.to_msg"),
         *("rospy.Time.now", "rospy.get_time", "rospy.get_rostime", "rospy.Timer.shutdown"),
@@ -212,7 +269,10 @@ _OWN_MODULES = frozenset(
         *("abc", "bisect", "collections", "contextlib", "copy", "dataclasses", "datetime"),
         *("decimal", "enum", "functools", "heapq", "itertools", "json", "math", "operator"),
         *("queue", "random", "re", "statistics", "string", "struct", "sys", "threading"),
-        *("time", "typing", "uuid"),
+        *("time", "typing", "uuid", "argparse", "array", "base64", "csv", "errno", "fractions"),
+        *("glob", "hashlib", "io", "locale", "logging", "numbers", "os", "pathlib", "pickle"),
+        *("platform", "select", "shutil", "signal", "socket", "subprocess", "tempfile"),
+        *("textwrap", "traceback", "types", "warnings", "zlib"),
     }
 )
 # Constants of messages are written in capitals; the rest are what generators add.
@@ -244,7 +304,7 @@ def _is_node(name: str) -> bool:
 def attributes_of(name: str) -> frozenset[str] | None:
     """The attributes of objects of a class, by its full name; None if no table has it."""
     if _is_node(name):
-        return frozenset((_OF_NODES + _OF_STATES * (name in python.managed())).split())
+        return frozenset((_OFNODES + _OF_STATES * (name in python.managed())).split())
     if name in _OF_MEMBERS:
         return _OF_MEMBERS[name] | _MEMBER
     found = "" if name in _PLAIN_BASES else _ATTRIBUTES.get(name)
@@ -256,7 +316,7 @@ def result_of(name: str) -> str:
     """The class of what a function or method gives; empty if that is not known."""
     of, _, last = name.rpartition(".")
     if _is_node(of):
-        name = f"{_NODE}.{last}"
+        name = f"{NODE}.{last}"
     return _GIVES.get(name, "")
 
 
@@ -264,21 +324,56 @@ def result_of(name: str) -> str:
 def takes_nothing(name: str) -> bool:
     """Whether a function or method takes no arguments, by its full name."""
     of, _, last = name.rpartition(".")
-    return name in _ALONE or (_is_node(of) and f"{_NODE}.{last}" in _ALONE)
+    return name in _ALONE or (_is_node(of) and f"{NODE}.{last}" in _ALONE)
 
 
 def held_in(name: str) -> str:
-    """The class of the value of an attribute; empty if that is not known."""
-    return _HOLDS.get(name, "")
+    """The class of the value of an attribute, or of a constant; empty if that is not known."""
+    return _HOLDS.get(name) or _CONSTANTS.get(type(_in_python(name)), "")
+
+
+def is_float(name: str) -> bool:
+    """Whether what Python's own library has under a full name is a number with a point."""
+    return isinstance(_in_python(name), float)
+
+
+_MISSING = object()  # what a module of Python's own does not have
+_CONSTANTS = {int: "number", float: "number", bool: "number", str: "str", bytes: "bytes"}
 
 
 @derived
-def has_name(module: str, name: str) -> bool:
-    """Whether a module may have a name; the modules of Python's own have what they have here."""
+def _in_python(name: str) -> object:
+    """What Python's own library has here under a full name; None where that is not known."""
+    first, *rest = name.split(".")
+    if first not in _OWN_MODULES or not rest:
+        return None
+    found: object = importlib.import_module(first)
+    for part in rest:
+        inner = getattr(found, part, _MISSING)
+        if inner is _MISSING and _is_module_in(found, part):
+            return None  # of which nothing was asked here
+        found = inner
+        if found is _MISSING:
+            return found
+    return found
+
+
+def _is_module_in(package: object, name: str) -> bool:
+    """Whether a package has a module, or may have it."""
+    if not isinstance(package, ModuleType) or not hasattr(package, "__path__"):
+        return False
+    return find_spec(f"{package.__name__}.{name}") is not None
+
+
+@derived
+def has_name(name: str) -> bool:
+    """Whether there may be a full name; the modules of Python's own have what they have here."""
+    module, _, rest = name.partition(".")
     known = _MODULES.get(module)
-    if known is None and module in _OWN_MODULES:
-        return hasattr(importlib.import_module(module), name)
-    return known is None or name in known.split() or name.startswith("_")
+    if known is None:
+        return _in_python(name) is not _MISSING
+    first = rest.partition(".")[0]
+    return first in known.split() or first.startswith("_")
 
 
 def may_be_of_messages(name: str) -> bool:

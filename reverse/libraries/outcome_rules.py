@@ -57,7 +57,6 @@ class Raises(Enum):
     CODED = "another encoding than UTF-8, which has all characters"
     UNWRITTEN = "a first one that is no text in the source"
     NO_TEXT = "a first one that is of another type than texts"
-    OBJECTS = "one that has something else in it than numbers, texts, lists and mappings"
     UNDECLARED = "the name of a parameter that the node may not have declared"
     REPEATED = "any, where the call may not be the first one"
     UNDECLARED_ALONE = "the name alone of a parameter that nobody declares in the source"

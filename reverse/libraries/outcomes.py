@@ -78,8 +78,9 @@ class LibraryOutcomes:
     `opaque` are names of the program itself that no lowering sees through: macros, and modules of
     which it is not known where they are. Where it `trusts_others`, methods of what a library made
     that no table knows raise nothing by their names alone; where it `trusts_types`, values of no
-    known type have what is asked of them. `messages` are classes in C++ of which headers are
-    included that hold nothing but a message.
+    known type have what is asked of them: messages, in functions of sensors and in users' blocks.
+    So are attributes (`trusts_attributes`) where the run-time part is not in the program.
+    `messages` are classes in C++ of which headers are included that hold nothing but a message.
     `fields` gives the fields of a type of messages with their types, by their names in ROS.
     """
 
@@ -87,6 +88,7 @@ class LibraryOutcomes:
     opaque: frozenset[str] = frozenset()
     trusts_others: bool = False
     trusts_types: bool = True
+    trusts_attributes: bool = True
     messages: frozenset[str] = frozenset()
     fields: MessageFields = no_fields
 

@@ -83,11 +83,12 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     (
         "any",
         """
-        repr ascii callable id copy.copy typing.final functools.total_ordering enum.unique
+        repr ascii callable id typing.final functools.total_ordering enum.unique
         abc.abstractmethod staticmethod classmethod functools.cache functools.lru_cache
         contextlib.contextmanager dataclasses.asdict operator.itemgetter""",
     ),
-    ("any memo:mapping?", "copy.deepcopy"),
+    ("shallow|none", "copy.copy"),
+    ("deep|none memo:mapping?", "copy.deepcopy"),
     ("any any", "isinstance"),
     ("any text?", "format"),
     ("any text", "hasattr"),
@@ -174,8 +175,8 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     ("pattern text flags:number?", "re.match re.search re.fullmatch re.findall re.finditer"),
     ("pattern text whole?", "re.split"),
     ("pattern replacement text", "re.sub"),
-    ("any indent=number|text|none default=function ensure_ascii=number", "json.dumps"),
-    ("any indent=number|text|none sort_keys=number separators=tuple", "json.dumps"),
+    ("plain|none indent=number|text|none ensure_ascii=number separators=tuple", "json.dumps"),
+    ("orderly indent=number|text|none sort_keys=number separators=tuple", "json.dumps"),
     ("bytes", "base64.b64encode"),
     ("bytes?", "hashlib.md5 hashlib.sha256"),
     ("maxsize:number?", "queue.Queue queue.PriorityQueue queue.LifoQueue"),

@@ -15,6 +15,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import COMPARISONS, Operator
 
 _ORDINARY = 2.0**64
+_GREATEST = 1024  # the power of two that no float holds
 _DIVIDING = (Operator.TRUE_DIVIDE, Operator.CLASSIC_DIVIDE, Operator.FLOOR_DIVIDE)
 _INFINITE = frozenset({"math.inf", "math.nan", "numpy.inf", "numpy.nan"})
 
@@ -96,8 +97,7 @@ def _combined(operator: Operator, left: float, right: float, by: e.Expression) -
             is_written = isinstance(by, e.Literal) and right
             return left / right if is_written else left * _ORDINARY
         case Operator.POWER:
-            is_small = isinstance(by, e.Literal) and 0 <= right <= 4
-            is_exact = max(left, 1.0) < _ORDINARY**2
-            return max(left, 1.0) ** right if is_small and is_exact else math.inf
+            is_small = right * math.log2(max(left, 1.0)) < _GREATEST
+            return max(left, 1.0) ** right if isinstance(by, e.Literal) and is_small else math.inf
         case _:
             return max(left, right)

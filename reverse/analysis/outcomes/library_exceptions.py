@@ -34,7 +34,7 @@ def _is_positive(value: object) -> bool:
 
 
 _OfNumbers: TypeAlias = Literal[Raises.NEGATIVE, Raises.ZERO_SECOND, Raises.ZERO_STEP, Raises.POWER]
-_Plain: TypeAlias = Literal[Raises.NO_TEXT, Raises.OBJECTS, Raises.UNWRITTEN]
+_Plain: TypeAlias = Literal[Raises.NO_TEXT, Raises.UNWRITTEN]
 _OF_MOMENTS = {"datetime": datetime, "time": time}
 _MEMORY = 1 << 40
 _WHOLE = (["utf-8"], ["utf8"], ["UTF-8"])  # encodings that have all characters
@@ -131,7 +131,7 @@ class LibraryExceptions:
                 )
             case Raises.CODED:
                 return any(self.expressions.texts(v) not in _WHOLE for v in values)
-            case Raises.NO_TEXT | Raises.OBJECTS | Raises.UNWRITTEN:
+            case Raises.NO_TEXT | Raises.UNWRITTEN:
                 return not self._are_plain(values, when, facts)
             case Raises.UNDECLARED | Raises.UNDECLARED_ALONE | Raises.REPEATED | Raises.OTHER_TYPE:
                 return self._is_odd_parameter(node, when, facts)
@@ -169,8 +169,6 @@ class LibraryExceptions:
         match when:
             case Raises.NO_TEXT:
                 return all(kinds.of(v, facts) <= {OwnType.TEXT, None} for v in values[:1])
-            case Raises.OBJECTS:
-                return all(kinds.may_be_plain(v, facts) for v in values)
             case Raises.UNWRITTEN:
                 return all(map(self.expressions.texts, values[:1]))
             case _:

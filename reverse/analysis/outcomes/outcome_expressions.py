@@ -13,9 +13,10 @@ from rebsync.reverse.analysis.facts import (
     tested,
 )
 from rebsync.reverse.analysis.foreign_values import ForeignValues
-from rebsync.reverse.analysis.held_values import held_by
+from rebsync.reverse.analysis.held_values import held_by, texts_of
 from rebsync.reverse.analysis.numbers.constant_numbers import ConstantNumbers, is_floating
 from rebsync.reverse.analysis.numbers.least_numbers import LeastNumbers
+from rebsync.reverse.analysis.numbers.magnitudes import Magnitudes
 from rebsync.reverse.analysis.numbers.signs import Signs
 from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origin
 from rebsync.reverse.analysis.outcomes.element_bounds import ElementBounds
@@ -161,7 +162,9 @@ class OutcomeExpressions:
             case e.Binary(Operator.POWER, left, right):
                 if not self.is_positive(right, facts) and not self.is_nonzero(left, facts):
                     self.notes.fails(value, "divides by zero")
-                if not self._is_bounded(right, facts):
+                is_finite = Magnitudes(self.origins, self.function).is_finite
+                is_written = isinstance(right, e.Literal)
+                if not self._is_bounded(right, facts) or (is_written and not is_finite(value)):
                     self.notes.fails(value, "is too great")
             case _:
                 pass
@@ -192,11 +195,7 @@ class OutcomeExpressions:
 
     def texts(self, value: e.Expression) -> list[str]:
         """The texts that a value may be; none if that is not known."""
-        is_variable = key_of(value, self.function) is not None
-        held = held_by(self.origins, value, self.function)
-        stored = [v for _, v in held] if is_variable else [value]
-        texts = [v.value for v in stored if isinstance(v, e.Literal) and isinstance(v.value, str)]
-        return texts if len(texts) == len(stored) else []
+        return texts_of(self.origins, value, self.function)
 
     def is_nonzero(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a number is known not to be zero."""

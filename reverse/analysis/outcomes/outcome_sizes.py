@@ -22,7 +22,7 @@ from rebsync.reverse.analysis.facts import (
 from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.outcomes.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.python.value_types import ANY_TYPE
+from rebsync.reverse.analysis.python.value_types import ANY_TYPE, ValueTypes
 from rebsync.reverse.analysis.stores import AnyValue, CallResult, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -104,7 +104,7 @@ class OutcomeSizes:
             case Tells.HAS if first is not None:
                 return frozenset({Implies(node.target, True, HasKey(of, first))})
             case Tells.OBJECT:
-                told = IsThere(of), IsOf(of, ANY_TYPE)
+                told = IsThere(of), IsOf(of, self._of_classes(node))
                 return frozenset(Implies(node.target, True, each) for each in told)
             case Tells.SAME:
                 return sized(node.target, self.expressions.size(of, facts))
@@ -119,6 +119,14 @@ class OutcomeSizes:
                 return frozenset({Holds(node.target)} if is_above and len(values) > 1 else ())
             case _:
                 return frozenset()
+
+    def _of_classes(self, node: s.Call) -> ValueTypes:
+        """The types that a value is asked for that `isinstance` gets."""
+        asked = [a.value for a in node.arguments[1:]]
+        if getattr(node.callee, "name", "") != "builtins.isinstance" or len(asked) != 1:
+            return ANY_TYPE
+        classes = asked[0].elements if isinstance(asked[0], e.Build) else asked
+        return self.expressions.types.kinds.of_classes(classes)
 
     def _of_result(self, node: s.Call) -> Facts:
         assert node.target is not None

@@ -385,7 +385,7 @@ class OutcomeWalk:
         for handler in node.handlers:
             caught, raised = self._handlers.split(raised, handler)
             self._handled.append(caught)
-            caught_as = inside if handler.target is None else stored(inside, handler.target)
+            caught_as = self._expressions.types.caught(inside, handler.target)
             ways.append(self.body((*handler.prelude, *handler.body), caught_as))
             self._handled.pop()
         self.notes.take(raised)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from rebsync.reverse.analysis.facts import Facts
-from rebsync.reverse.analysis.origins import ClassOrigin
+from rebsync.reverse.analysis.foreign_values import ForeignValues
+from rebsync.reverse.analysis.origins import ANYTHING, ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.operand_kinds import ATTRIBUTES, OperandKinds
 from rebsync.reverse.analysis.python.value_types import (
@@ -13,7 +14,19 @@ from rebsync.reverse.analysis.python.value_types import (
     ValueType,
     own_type,
 )
-from rebsync.reverse.analysis.stores import GlobalVariable, Member
+from rebsync.reverse.analysis.stores import (
+    AnyValue,
+    CallResult,
+    CapturedVariable,
+    ClassValue,
+    ElementOf,
+    GlobalVariable,
+    Member,
+    ObjectValue,
+    PartOf,
+    Source,
+    key_of,
+)
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.walk import Node, walk
@@ -28,6 +41,7 @@ _REFUSED = "gets other arguments than it takes"
 _LACKS = "has no such attribute"
 _UNDEFINED = "names what nothing defines"
 _OF_MODULES = frozenset({"__name__", "__file__", "__doc__", "__package__", "__spec__"})
+_DEEPEST = 5  # names that follow each other
 _HOOKS = ("__getattr__", "__getattribute__")
 _OF_CLASSES = frozenset(dir(type)) | {"__members__"}
 _OF_OBJECTS = frozenset(dir(object)) | {"__dict__", "__module__", "__name__", "__slots__"}
@@ -39,6 +53,7 @@ class AttributeErrors:
     def __init__(self, notes: ProblemNotes, kinds: OperandKinds) -> None:
         self._notes = notes
         self._kinds = kinds
+        self._foreign = ForeignValues(notes.origins)
         self._rules = notes.counts.rules
         self._program = notes.origins.graph.program
 
@@ -47,8 +62,45 @@ class AttributeErrors:
     ) -> None:
         """Notes that an attribute is asked of a value that may have none of the name."""
         types = self._kinds.types(of, facts)
-        if any(self._has_not(type_, name) for type_ in types) or self._is_of_none(of, name, facts):
+        lacks = any(self._has_not(type_, name) for type_ in types)
+        if lacks or self._is_of_none(of, name, facts) or (None in types and self._is_open(of)):
             self._notes.fails(node, _LACKS)
+
+    def _is_open(self, of: e.Expression) -> bool:
+        """Whether nothing is known of a value: not which library, or class, it is of."""
+        name = self._notes.function.name
+        return not (self._notes.table.trusts_attributes or self._is_made(of, name, 0))
+
+    def _is_made(self, value: e.Expression, function: str, depth: int) -> bool:
+        """Whether a value is a message, what the program or a library made, or a part of these."""
+        held = self._notes.origins.of(value, function)
+        is_own = self._rules.types.attributes.receiver(value, function) is not None
+        if is_own or ANYTHING.isdisjoint(held) or self._rules.messages.has(value, function):
+            return True
+        if depth == _DEEPEST or self._foreign.has(value, function):
+            return depth != _DEEPEST
+        key = key_of(value, function)
+        sources = self._rules.types.sources(key) if key is not None else []
+        if isinstance(key, CapturedVariable):
+            given = self._rules.arguments.arguments(key.function, key.name)
+            if given and key.function not in self._rules.arguments.escaping:
+                sources = [*given, *(s for s in sources if not isinstance(s[1], AnyValue))]
+        if sources:
+            return all(self._is_made_there(each, depth + 1) for each in sources)
+        return isinstance(value, e.Attribute) and self._is_made(value.object, function, depth + 1)
+
+    def _is_made_there(self, source: Source, depth: int) -> bool:
+        function, value = source
+        match value:
+            case CallResult(s.Call(_, s.MethodCallee(receiver, name, None, None))):
+                is_own = bool(self._notes.origins.methods_of_any(name))
+                return not is_own and self._is_made(receiver, function, depth)
+            case CallResult() | ClassValue() | ObjectValue():
+                return ANYTHING.isdisjoint(self._notes.origins.of_stored((function, value)))
+            case ElementOf() | PartOf() | AnyValue():
+                return False
+            case _:
+                return self._is_made(value, function, depth)
 
     def _has_not(self, type_: ValueType | None, name: str) -> bool:
         """Whether values of a type have no attribute of a name."""
@@ -131,8 +183,7 @@ class AttributeErrors:
 
     def of_library(self, node: s.Statement | e.Expression, name: str) -> None:
         """Notes a full name in a library of which a table has all names, and not this one."""
-        module, _, rest = name.partition(".")
-        if rest and not has_name(module, rest.partition(".")[0]):
+        if "." in name and not has_name(name):
             self._notes.fails(node, _LACKS)
         if isinstance(node, s.Call) and node.arguments and takes_nothing(name):
             self._notes.fails(node, _REFUSED)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from rebsync.reverse.analysis.held_values import is_own
 from rebsync.reverse.analysis.origins import ClassOrigin, Origins
+from rebsync.reverse.analysis.python.argument_parsers import ArgumentParsers
 from rebsync.reverse.analysis.python.argument_types import message_name
 from rebsync.reverse.analysis.python.type_queries import TypeQueries
 from rebsync.reverse.analysis.python.value_types import (
@@ -23,10 +24,11 @@ from rebsync.reverse.analysis.python.value_types import (
     sequence,
     union,
 )
-from rebsync.reverse.analysis.stores import Member
+from rebsync.reverse.analysis.stores import CallResult, Stored
 from rebsync.reverse.ir import expressions as e
+from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.libraries.attributes import attributes_of, held_in
+from rebsync.reverse.libraries.attributes import PARAMETER, attributes_of, held_in
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
 _OWN = {**{kind.value: kind for kind in OwnType}, "defaultdict": OwnType.MAPPING}
@@ -40,6 +42,7 @@ class AttributeTypes:
         self._graph = origins.graph
         self._program = origins.graph.program
         self._types = types
+        self._parsers = ArgumentParsers(origins)
 
     def of(self, types: ValueTypes, of: e.Expression, name: str, function: str) -> ValueTypes:
         """The types of an attribute of what is of some types."""
@@ -58,7 +61,7 @@ class AttributeTypes:
             return found
         if not self.has_own(of, function):
             return found | ANY_TYPE
-        return found | self._types.of_name(Member(name))
+        return found | self._types.of_member(name, self.receiver(of, function))
 
     def declared(self, value: e.Expression, function: str) -> list[t.Type]:
         """The types that a parameter or attribute, or an element of it, is declared with."""
@@ -100,12 +103,18 @@ class AttributeTypes:
         match type_:
             case MessageType(of):
                 fields = self._origins.table.fields(of) or {}
+                if name == "_connection_header":
+                    return frozenset((ContainerType(OwnType.MAPPING, A_TEXT, A_TEXT),))
                 return self.field(fields[name]) if name in fields else ANY_TYPE
+            case LibraryType("argparse.Namespace"):
+                return self._parsers.of(name)
+            case LibraryType(_, holds) if holds and name == "value":
+                return holds
             case LibraryType(of):
                 return self.of_class(held_in(f"{of}.{name}"))
             case InstanceType(of) if name in ("value", "_value_") and self._has_members(type_):
                 stored = self._origins.enumerations.of(of).values()
-                return union(map(self._types.of_stored, stored))
+                return union(A_NUMBER if _is_auto(v) else self._types.of_stored(v) for v in stored)
             case InstanceType() if name in ("name", "_name_") and self._has_members(type_):
                 return A_TEXT
             case InstanceType() if self._has_members(type_):
@@ -136,6 +145,14 @@ class AttributeTypes:
 
     def of_class(self, name: str) -> ValueTypes:
         """The types of an object of a library's class, of a message, or of one of Python's own."""
+        if name == "parameters":
+            return sequence(OwnType.LIST, frozenset((LibraryType(PARAMETER),)))
+        if name == "builtins.Exception":
+            return frozenset((LibraryType(name),))
+        if name == "texts":
+            return sequence(OwnType.LIST, A_TEXT)
+        if name == "numbers":
+            return sequence(OwnType.ARRAY, A_NUMBER)
         if name in _OWN:
             own = _OWN[name]
             return frozenset((own,)) if own in (OwnType.NUMBER, OwnType.TEXT) else _any_of(own)
@@ -151,6 +168,15 @@ class AttributeTypes:
         classes = (o.name for o in self._origins.of(of, function) if isinstance(o, ClassOrigin))
         # Of an enumeration they are its members, which have that as their values.
         return all(ENUMERATIONS.isdisjoint(self._graph.bases(name)) for name in classes)
+
+
+def _is_auto(stored: Stored) -> bool:
+    """Whether the value of a member is a number that the enumeration chooses."""
+    match stored[1]:
+        case CallResult(s.Call(_, s.LibraryCallee("enum.auto"))):
+            return True
+        case _:
+            return False
 
 
 def _any_of(own: OwnType) -> ValueTypes:

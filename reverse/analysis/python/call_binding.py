@@ -24,7 +24,7 @@ _WITH_KEYS = frozenset({"builtins.sorted", "builtins.max", "builtins.min"})
 _BY_PLACE = (ParameterKind.PLAIN, ParameterKind.BY_PLACE)
 _BY_NAME = (ParameterKind.PLAIN, ParameterKind.BY_NAME)
 # Decorators of libraries that leave the parameters of a function as they are.
-_KEEPING = frozenset(
+KEEPING = frozenset(
     f"{module}.{name}"
     for module, names in (
         ("builtins", "staticmethod classmethod property"),
@@ -113,6 +113,8 @@ class CallBinding:
         match call.callee:
             case s.LibraryCallee("builtins.map") if argument is call.arguments[0]:
                 count = len(call.arguments) - 1
+            case s.LibraryCallee("functools.reduce") if argument is call.arguments[0]:
+                count = 2
             case s.LibraryCallee("builtins.filter") if argument is call.arguments[0]:
                 count = 1
             case s.LibraryCallee(called) if called in _WITH_KEYS and argument.name == "key":
@@ -221,7 +223,7 @@ class CallBinding:
                 match node:
                     case s.Call(_, callee, (s.CallArgument(e.Closure(function)),)):
                         known = callee.name if isinstance(callee, s.LibraryCallee) else ""
-                        is_asked = known not in _KEEPING if names is None else known in names
+                        is_asked = known not in KEEPING if names is None else known in names
                         found |= {function} if is_asked else set()
                     case _:
                         pass

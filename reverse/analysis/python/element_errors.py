@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rebsync.reverse.analysis.facts import Facts
+from rebsync.reverse.analysis.held_values import held_by
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.python.operator_types import are_comparable, are_ordered, is_hashable
@@ -14,10 +15,13 @@ from rebsync.reverse.analysis.python.value_types import (
     ContainerType,
     OwnType,
     ValueTypes,
+    at_index,
     elements_of,
     own_type,
     union,
+    values_of,
 )
+from rebsync.reverse.analysis.stores import CallResult
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -51,7 +55,11 @@ class ElementErrors:
         names = {a.name for a in node.arguments}
         given = [self._kinds.types(value, facts) for value in plain]
         match node.callee:
-            case s.LibraryCallee(name) if name in _SORTING and "key" not in names:
+            case s.LibraryCallee(name) if name in _SORTING and "key" in names:
+                keys = (a.value for a in node.arguments if a.name == "key")
+                inside = _inside(given) if len(given) == 1 else union(given)
+                self._orders(node, union(self._keyed(key, inside, facts) for key in keys))
+            case s.LibraryCallee(name) if name in _SORTING:
                 self._orders(node, union(given) if len(given) > 1 else _inside(given))
             case s.MethodCallee(receiver, "sort") if "key" not in names:
                 self._orders(node, _inside([self._kinds.types(receiver, facts)]))
@@ -76,6 +84,23 @@ class ElementErrors:
                     self._hashes(node, union(given))
             case _:
                 pass
+
+    def _keyed(self, key: e.Expression, inside: ValueTypes, facts: Facts) -> ValueTypes:
+        """The types of what a function gives for elements by which they are ordered."""
+        match key:
+            case e.Literal(None):
+                return inside
+            case e.Attribute(of, "get"):
+                return values_of(self._kinds.types(of, facts))
+            case e.Temporary() | e.Local():
+                held = held_by(self._notes.origins, key, self._notes.function.name)
+                match held:
+                    case [(_, CallResult(s.Call(_, s.LibraryCallee(name), (index,))))]:
+                        if name == "operator.itemgetter" and isinstance(index.value, e.Literal):
+                            return at_index(inside, index.value.value)
+                    case _:
+                        pass
+        return self._kinds.mapped(key)
 
     def built(self, value: e.Build | e.BuildMapping, facts: Facts) -> None:
         """Notes that a new set or mapping gets elements or keys without a hash."""

@@ -36,6 +36,21 @@ class FixedAttributes:
         methods = {p.name for c in own for p in self._program.classes[c].properties}
         return attribute not in methods.union(*(each or () for each in slots))
 
+    def stored_in(self, name: str) -> frozenset[str]:
+        """The attributes that objects of a class may have: all that functions may store there."""
+        family, found = self._graph.family(name), set[str]()
+        for each in self._program.functions:
+            around = self._program.function(each)
+            for node in walk(around):
+                match getattr(node, "target", None):
+                    case e.Attribute(e.Local(of), attribute) if of == around.receiver:
+                        found |= {attribute} if around.owner in family else set()
+                    case e.Attribute(_, attribute):
+                        found.add(attribute)
+                    case _:
+                        pass
+        return frozenset(found)
+
     def _slots(self, name: str) -> frozenset[str] | None:
         """The attributes that a class has place for; None where it has place for any."""
         body = self._program.classes[name].body

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.python.value_types import MessageType
 from rebsync.reverse.analysis.stores import AnyValue, CallResult, Source, key_of
 from rebsync.reverse.ir import expressions as e
-from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import Operator
+from rebsync.reverse.libraries.attributes import FLOAT_METHODS, is_float
 
 _DEEPEST = 4  # names that follow each other
 _COMPUTING = frozenset(
@@ -31,10 +32,18 @@ class FloatNumbers:
     def __init__(self, notes: ProblemNotes) -> None:
         self._stores = notes.origins.graph.stores
         self._name = notes.function.name
+        self._types = notes.counts.rules.types
+        self._fields = notes.table.fields
 
     def has(self, value: e.Expression) -> bool:
         """Whether a number is a float, or one is stored under its name."""
         return self._is_float((self._name, value), 0)
+
+    def _is_float_field(self, of: e.Expression, name: str, function: str) -> bool:
+        """Whether a field of a message is a float."""
+        messages = (t for t in self._types.of(of, function) if isinstance(t, MessageType))
+        fields = (self._fields(t.name) or {} for t in messages)
+        return any(each.get(name, "").startswith("float") for each in fields)
 
     def _is_float(self, source: Source, depth: int) -> bool:
         function, value = source
@@ -50,7 +59,11 @@ class FloatNumbers:
             case e.Conditional(_, one, other):
                 return any(self._is_float((function, each), depth) for each in (one, other))
             case CallResult(call):
-                return isinstance(call.callee, s.LibraryCallee) and call.callee.name in _OF_FLOATS
+                return getattr(call.callee, "name", "") in _OF_FLOATS | FLOAT_METHODS
+            case e.LibraryReference(name):
+                return is_float(name)
+            case e.Attribute(of, name) if self._is_float_field(of, name, function):
+                return True
             case AnyValue():
                 return False
             case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from rebsync.reverse.analysis.origins import ClassOrigin, LibraryOrigin, Origins
+from collections.abc import Sequence
+
+from rebsync.reverse.analysis.origins import ClassOrigin, FunctionOrigin, LibraryOrigin, Origins
+from rebsync.reverse.analysis.python.argument_types import ArgumentTypes, parameter_of
 from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
 from rebsync.reverse.analysis.python.type_queries import TypeQueries
 from rebsync.reverse.analysis.python.value_types import (
@@ -22,17 +25,21 @@ from rebsync.reverse.analysis.python.value_types import (
     union,
     values_of,
 )
+from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.libraries.attributes import result_of
+from rebsync.reverse.libraries.attributes import NODE, OF_NUMBERS_ALONE, result_of
+from rebsync.reverse.libraries.routines import Access
 
+_COMPUTING = OF_NUMBERS_ALONE | {"builtins.divmod"}
 _LIST, _QUEUE, _SET = OwnType.LIST, OwnType.QUEUE, OwnType.SET
 # Functions that give a container of the elements of their first argument, or go through it.
 _COPYING = {
     **{"builtins.list": _LIST, "builtins.sorted": _LIST, "builtins.tuple": OwnType.TUPLE},
-    **{"builtins.set": _SET, "builtins.frozenset": _SET, "collections.deque": _QUEUE},
+    **{"builtins.set": _SET, "builtins.frozenset": OwnType.FROZEN, "collections.deque": _QUEUE},
     **{"builtins.reversed": None, "builtins.iter": None},
 }
+_PARSER = frozenset((LibraryOrigin("argparse.ArgumentParser", True),))
 _NUMBERED = frozenset({"index", "count", "find", "rfind", "__len__"})
 _OF_TEXTS = {
     **dict.fromkeys(
@@ -59,19 +66,30 @@ _OF_TEXTS = {
 class GivenTypes:
     """The calls of one program; `types` are those of the values in it."""
 
-    def __init__(self, origins: Origins, types: TypeQueries, attributes: AttributeTypes) -> None:
+    def __init__(
+        self,
+        origins: Origins,
+        types: TypeQueries,
+        attributes: AttributeTypes,
+        arguments: ArgumentTypes,
+    ) -> None:
         self._origins = origins
         self._graph = origins.graph
         self._types = types
+        self._arguments = arguments
         self._attributes = attributes
 
     def of(self, call: s.Call, function: str) -> ValueTypes:
         """The types of what a call in a function gives."""
+        if (held := self._of_parameter(call, function)) is not None:
+            return held
         match call.callee:
             case s.LibraryCallee(name, None):
                 return self._of_library(call, name, function)
             case s.MethodCallee(receiver, name, None, None):
                 types = self._types.of(receiver, function)
+                if name == "parse_args" and self._origins.of(receiver, function) == _PARSER:
+                    return frozenset((LibraryType("argparse.Namespace"),))
                 if types == NO_TYPES:  # None, or not yet known of what is stored there
                     return NO_TYPES
                 if all(map(_has_methods, types)):
@@ -89,38 +107,51 @@ class GivenTypes:
                     found |= self._attributes.of_class(name)
                 case _:
                     found |= ANY_TYPE
-        if None not in found:
+        if found and None not in found:
             return found
         around = self._graph.program.function(function)
         targets = self._graph.callee(call.callee, around)
-        if targets.unknown or targets.libraries or not targets.functions:
-            return found
-        return union(map(self._types.result, targets.functions))
+        functions = targets.functions
+        if targets.unknown or targets.libraries or not functions:
+            functions = self._of_known(call, function)
+        return union(map(self._types.result, functions)) if functions else ANY_TYPE
+
+    def _of_known(self, call: s.Call, function: str) -> frozenset[str]:
+        """The functions that a call runs, if it is known of which objects; none otherwise."""
+        match call.callee:
+            case s.MethodCallee(_, _, _, str()):
+                pass
+            case s.MethodCallee(receiver):
+                types = self._types.of(receiver, function)
+                if not types or not all(isinstance(t, InstanceType) for t in types):
+                    return frozenset()
+            case s.ValueCallee(value):
+                held = self._origins.of(value, function)
+                if not all(isinstance(o, ClassOrigin | FunctionOrigin) for o in held):
+                    return frozenset()
+            case _:
+                return frozenset()
+        return self._arguments.called(call, self._graph.program.function(function))
 
     # --- functions of libraries ------------------------------------------------------------------
 
     def _of_library(self, call: s.Call, name: str, function: str) -> ValueTypes:
         plain = [a.value for a in call.arguments if a.name is None and not a.stars]
         given = [self._types.of(value, function) for value in plain]
-        if name in _COPYING:
-            return sequence(_COPYING[name], *map(elements_of, given[:1]))
+        found = _of_elements(name, given)
+        if found is not None:
+            return found
         match name:
-            case "builtins.range":
-                return sequence(None, A_NUMBER)
-            case "builtins.enumerate" if given:
-                return sequence(None, pair(A_NUMBER, elements_of(given[0])))
-            case "builtins.zip":
-                return sequence(None, pair(*map(elements_of, given)))
-            case "builtins.filter" if len(given) > 1:
-                return sequence(None, elements_of(given[1]))
             case "builtins.map" if len(given) > 1:
-                return sequence(None, self._mapped(plain[0], function))
+                return sequence(None, self.mapped(plain[0], function))
             case "builtins.dict" if not call.arguments:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, NO_TYPES),))
             case "collections.Counter" if not call.arguments:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, A_NUMBER),))
             case "builtins.sum" if len(given) > 1:
                 return ANY_TYPE
+            case "functools.reduce" if given:
+                return union([self.mapped(plain[0], function), *given[2:]])
             case "builtins.max" | "builtins.min" if given:
                 defaults = [a.value for a in call.arguments if a.name == "default"]
                 found = union(given) if len(given) > 1 else elements_of(given[0])
@@ -128,7 +159,7 @@ class GivenTypes:
         gives = self._origins.table.function(name).gives or result_of(name) or name
         return self._attributes.of_class(gives)
 
-    def _mapped(self, value: e.Expression, function: str) -> ValueTypes:
+    def mapped(self, value: e.Expression, function: str) -> ValueTypes:
         """The types of what a function gives that another calls for each element."""
         match value:
             case e.LibraryReference(name):
@@ -157,6 +188,10 @@ class GivenTypes:
                 return frozenset((type_,))
             case ContainerType() if name in _NUMBERED:
                 return A_NUMBER
+            case LibraryType(of, answers) if answers and name == "call_async":
+                return frozenset((LibraryType(result_of(f"{of}.{name}"), answers),))
+            case LibraryType(_, holds) if holds and name in ("call", "result"):
+                return holds
             case LibraryType(of):
                 return self._attributes.of_class(result_of(f"{of}.{name}"))
             case InstanceType(of):
@@ -188,10 +223,74 @@ class GivenTypes:
 
     def _of_instance(self, of: str, name: str, call: s.Call, function: str) -> ValueTypes:
         """A method of an object of the program's: its own, or one of a base in a library."""
-        if self._origins.methods(of, name):
+        if self._origins.methods(of, name) or self._graph.stores.of(Member(name)):
             return self._of_program(call, function)
         found = (result_of(f"{base}.{name}") for base in self._graph.bases(of))
-        return self._attributes.of_class(next(filter(None, found), ""))
+        gives = next(filter(None, found), "")
+        holds = self._held(name, call, function) if gives else NO_TYPES
+        if holds and None not in holds:
+            return frozenset((LibraryType(gives, holds),))
+        return self._attributes.of_class(gives)
+
+    def _held(self, name: str, call: s.Call, function: str) -> ValueTypes:
+        """The types of a parameter's value, or of a service's answer, that a node is asked for."""
+        plain = [a.value for a in call.arguments if a.name is None and not a.stars]
+        match name, plain:
+            case "create_client", [type_, *_]:
+                answers = self._arguments.messages_of(type_, function)
+                return union(self._attributes.of_class(f"{each}_Response") for each in answers)
+            case _ if (asked := parameter_of(call)) is not None:
+                defaults = self._arguments.declared.get(asked[0], ())
+                return union(self._types.of(value, of) or ANY_TYPE for of, value in defaults)
+            case _:
+                return NO_TYPES
+
+    def _of_parameter(self, call: s.Call, function: str) -> ValueTypes | None:
+        """The types of a parameter that a call gives: of its default, as people take it for."""
+        asked = parameter_of(call)
+        if asked is None or asked[2] is None or asked[1] not in (Access.GET, Access.DECLARE):
+            return None
+        name = call.callee.name if isinstance(call.callee, s.MethodCallee) else ""
+        if name and result_of(f"{NODE}.{name}"):  # which gives an object that has it
+            return None
+        return self._types.of(asked[2], function) or ANY_TYPE
+
+
+def _of_elements(name: str, given: Sequence[ValueTypes]) -> ValueTypes | None:
+    """The types of what a function gives that depend on its arguments alone; None for others."""
+    if NO_TYPES in given and name in _COMPUTING:
+        return NO_TYPES
+    if name in _COPYING:
+        return sequence(_COPYING[name], *map(elements_of, given[:1]))
+    match name:
+        case "builtins.range" | "itertools.count":
+            return sequence(None, A_NUMBER)
+        case "builtins.enumerate" if given:
+            return sequence(None, pair(A_NUMBER, elements_of(given[0])))
+        case "builtins.zip":
+            return sequence(None, pair(*map(elements_of, given)))
+        case "builtins.filter" if len(given) > 1:
+            return sequence(None, elements_of(given[1]))
+        case "builtins.next" if given:
+            return elements_of(given[0]) | union(given[1:])
+        case "itertools.repeat" if given:
+            return sequence(None, given[0])
+        case "itertools.islice" | "itertools.cycle" if given:
+            return sequence(None, elements_of(given[0]))
+        case "itertools.chain":
+            return sequence(None, *map(elements_of, given))
+        case "builtins.divmod" if list(given) == [A_NUMBER, A_NUMBER]:
+            return pair(A_NUMBER, A_NUMBER)
+        case "random.choice" if given:
+            return elements_of(given[0])
+        case "copy.copy" | "copy.deepcopy" if given:
+            return given[0]
+        case "os.getenv" | "os.environ.get" if given:
+            return union([A_TEXT, *given[1:]])
+        case _ if name in OF_NUMBERS_ALONE and given and union(given) == A_NUMBER:
+            return A_NUMBER
+        case _:
+            return None
 
 
 def _has_methods(type_: ValueType | None) -> bool:

@@ -11,7 +11,9 @@ from dataclasses import replace
 from typing import TypeAlias
 from weakref import proxy
 
+from rebsync.records import dataclass
 from rebsync.reverse.analysis.fixpoint import Rounds
+from rebsync.reverse.analysis.held_values import is_of_other_class
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.python.argument_types import ArgumentTypes
 from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
@@ -48,6 +50,7 @@ from rebsync.reverse.analysis.stores import (
     ClassValue,
     ElementOf,
     Key,
+    Member,
     ObjectValue,
     PartOf,
     Source,
@@ -57,8 +60,9 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import COMPARISONS, Operator
-from rebsync.reverse.ir.program import FunctionKind, Parameter
+from rebsync.reverse.ir.program import FunctionKind, Parameter, ParameterKind
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.attributes import held_in
 
 _CONTAINERS = {
     t.ContainerKind.SEQUENCE: OwnType.LIST,
@@ -70,7 +74,17 @@ _CONTAINERS = {
 _ADDED = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
 _CHANGING = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
 _DEEPEST = 3  # containers in one another; what is deeper is of any type
-Node: TypeAlias = Key | str  # a name, or the function whose result is meant
+
+
+@dataclass(frozen=True, slots=True)
+class OwnMember:
+    """An attribute that methods of a class ask of their own object."""
+
+    owner: str
+    name: str
+
+
+Node: TypeAlias = Key | OwnMember | str  # a name, or the function whose result is meant
 
 
 class InferredTypes:
@@ -83,7 +97,7 @@ class InferredTypes:
         self._containers = ContainerStores(origins.graph)
         own = proxy(self)  # they are parts of this: no circle keeps the trees of a program
         self.attributes = AttributeTypes(origins, own)
-        self._calls = GivenTypes(origins, own, self.attributes)
+        self._calls = GivenTypes(origins, own, self.attributes, arguments)
         self._rounds = Rounds[Node, ValueTypes](self._found, NO_TYPES)
 
     def of(self, value: e.Expression, function: str) -> ValueTypes:
@@ -118,6 +132,8 @@ class InferredTypes:
                 return declared
             case e.Attribute(of, name):
                 return self.attributes.of(self.of(of, function), of, name, function)
+            case e.LibraryReference(name):
+                return self.attributes.of_class(held_in(name))
             case e.Local() | e.Temporary() | e.Captured() | e.Global():
                 if owner := self.attributes.receiver(value, function):
                     return frozenset((InstanceType(owner),))
@@ -195,11 +211,25 @@ class InferredTypes:
 
     def _found(self, node: Node, before: ValueTypes) -> ValueTypes:
         """The types of what is stored under a name, or a function gives, of a bounded depth."""
-        found = self._result(node) if isinstance(node, str) else self._named(node)
+        match node:
+            case str():
+                found = self._result(node)
+            case OwnMember(owner, name):
+                found = self._named(Member(name), owner)
+            case _:
+                found = self._named(node)
         return merged(limited(found, _DEEPEST) | before)
 
-    def _named(self, key: Key) -> ValueTypes:
+    def of_member(self, name: str, owner: str | None) -> ValueTypes:
+        """The types of an attribute, of objects of a class if methods of that ask their own."""
+        return self._rounds.of(Member(name) if owner is None else OwnMember(owner, name))
+
+    def _named(self, key: Key, owner: str | None = None) -> ValueTypes:
         sources = self.sources(key)
+        if owner is not None and isinstance(key, Member):
+            functions = {function for function, _ in sources}
+            others = {f for f in functions if is_of_other_class(self._graph, owner, key, f)}
+            sources = [each for each in sources if each[0] not in others]
         if not sources:
             return self.parameter(key) or ANY_TYPE
         return self.with_puts(key, union(map(self.of_stored, sources)) | self.parameter(key))
@@ -209,6 +239,8 @@ class InferredTypes:
         sources = self._graph.stores.sources(key)
         if isinstance(key, CapturedVariable) and self.parameter(key):
             sources.remove((key.function, ANY_VALUE))
+        if isinstance(key, Member):
+            sources += self._arguments.fields(key.name)
         return sources
 
     def parameter(self, key: Key) -> ValueTypes:
@@ -217,6 +249,12 @@ class InferredTypes:
             return NO_TYPES
         if declared := of_declared(own.type):
             return declared
+        if own.kind is ParameterKind.REST:
+            return sequence(OwnType.TUPLE, ANY_TYPE)
+        if own.kind is ParameterKind.NAMED_REST:
+            return frozenset((ContainerType(OwnType.MAPPING, A_TEXT, ANY_TYPE),))
+        if key.function in self._arguments.escaping:
+            return ANY_TYPE
         given = self._arguments.arguments(key.function, key.name)
         messages = self._arguments.messages(key.function, key.name)
         found = union(map(self.of_stored, given))
@@ -240,6 +278,8 @@ class InferredTypes:
                 return elements_of(self.of(container, function))
             case PartOf(of, at):
                 return at_index(self.of(of, function), at)
+            case ClassValue(name) if self._origins.enumerations.of(name):
+                return sequence(None, frozenset((InstanceType(name),)))
             case AnyValue() | ClassValue():
                 return ANY_TYPE
             case _:
@@ -252,6 +292,10 @@ class InferredTypes:
     def of_call(self, call: s.Call, function: str) -> ValueTypes:
         """The types of what a call in a function gives."""
         return self._calls.of(call, function)
+
+    def mapped(self, value: e.Expression, function: str) -> ValueTypes:
+        """The types of what a function gives that another calls for each element."""
+        return self._calls.mapped(value, function)
 
     def _result(self, name: str) -> ValueTypes:
         body = self._graph.program.function(name)

@@ -6,12 +6,15 @@ What no signature says is refused; so is a value of another kind than the signat
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias
 
 from rebsync.reverse.analysis.facts import Facts
+from rebsync.reverse.analysis.held_values import held_by
 from rebsync.reverse.analysis.python.float_numbers import FloatNumbers
 from rebsync.reverse.analysis.python.operator_types import ITERABLE, SEQUENCES, SIZED, is_hashable
+from rebsync.reverse.analysis.python.plain_values import is_copied, is_written
 from rebsync.reverse.analysis.python.value_types import (
     ContainerType,
     InstanceType,
@@ -24,6 +27,7 @@ from rebsync.reverse.analysis.python.value_types import (
     own_type,
     union,
 )
+from rebsync.reverse.analysis.stores import CallResult
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.calls import Callee
@@ -71,13 +75,29 @@ class LibraryArguments:
         self._objects = expressions.notes.counts.rules.objects
         self._has_hash = expressions.notes.counts.rules.decorators.has_hash
         self._floats = FloatNumbers(expressions.notes)
+        self._copying: set[str] = set()
 
     def check(self, node: s.Call, facts: Facts) -> None:
         """Notes that a call of a function or method may be refused what it gives."""
         if self._notes.table.language is not Language.PYTHON:
             return
         self._asks(node, self._named(node.callee, facts), facts)
+        for name, whole in self._of_partial(node):
+            self.of_value(whole, name, facts)
         self._called_for_each(node, facts)
+
+    def _of_partial(self, node: s.Call) -> Iterator[tuple[str, s.Call]]:
+        """The functions of libraries that a partial function calls, with all that they get."""
+        if not isinstance(node.callee, s.ValueCallee):
+            return
+        held = held_by(self._notes.origins, node.callee.value, self._notes.function.name)
+        for _, value in held:
+            match value:
+                case CallResult(s.Call(_, s.LibraryCallee("functools.partial"), (first, *rest))):
+                    if isinstance(first.value, e.LibraryReference):
+                        yield first.value.name, replace(node, arguments=(*rest, *node.arguments))
+                case _:
+                    pass
 
     def of_value(self, node: s.Call, name: str, facts: Facts) -> None:
         """The same of a function that is stored under a name, or in a partial one."""
@@ -140,9 +160,27 @@ class LibraryArguments:
                 return not (types - {None}) or any(isinstance(t, InstanceType) for t in types)
             case "hashable":
                 return is_hashable(types, self._has_hash)
+            case "plain" | "orderly":
+                return is_written(types, is_sorted=kind == "orderly")
+            case "shallow" | "deep":
+                return is_copied(types, self._is_copied_object, is_deep=kind == "deep")
             case "whole" if self._floats.has(value):
                 return False
         return all(self._is_type(type_, kind) for type_ in types)
+
+    def _is_copied_object(self, name: str) -> bool:
+        """Whether objects of a class can be copied: what they hold can, as far as it is known."""
+        if not self._objects.is_plain(name):
+            return False
+        if name in self._copying:
+            return True
+        self._copying.add(name)
+        rules = self._notes.counts.rules
+        held = (rules.types.of_member(each, name) for each in rules.fixed.stored_in(name))
+        try:
+            return all(is_copied(types, self._is_copied_object, is_deep=True) for types in held)
+        finally:
+            self._copying.discard(name)
 
     def _is_type(self, type_: ValueType | None, kind: str) -> bool:
         if isinstance(type_, InstanceType):  # whose class answers as it is written
@@ -207,6 +245,9 @@ class LibraryArguments:
         match node.callee:
             case s.LibraryCallee(name) if name in _FOR_EACH:
                 called, through = given.get(0), [v for n, v in given.items() if n not in (0, "key")]
+            case s.LibraryCallee("functools.reduce") if 1 in given:
+                self._reduced(node, given, facts)
+                return
             case s.LibraryCallee() if len(given) > 2:
                 through = []
             case s.MethodCallee(receiver):
@@ -214,6 +255,15 @@ class LibraryArguments:
         if isinstance(called, e.LibraryReference) and self._notes.table.is_of_language(called.name):
             inside = [elements_of(self._kinds.types(v, facts)) for v in through]
             if not self._takes(called.name, inside):
+                self._notes.fails(node, _WRONG)
+
+    def _reduced(self, node: s.Call, given: _Given, facts: Facts) -> None:
+        """Notes that a function does not take what is reduced so far with the next element."""
+        called = given[0]
+        if isinstance(called, e.LibraryReference):
+            inside = elements_of(self._kinds.types(given[1], facts))
+            first = self._kinds.types(given[2], facts) if 2 in given else inside
+            if not self._takes(called.name, [first | inside, inside]):
                 self._notes.fails(node, _WRONG)
 
     def _takes(self, name: str, types: Sequence[ValueTypes]) -> bool:
@@ -246,6 +296,8 @@ def _class_of(type_: ValueType | None) -> str:
     if isinstance(type_, LibraryType):
         return type_.name if type_.name.startswith("datetime.") else ""
     own = own_type(type_)
+    if own is OwnType.FROZEN:
+        return OwnType.SET.value  # it has fewer methods, which take the same
     return own.value if own in _METHODS_OF else ""
 
 

@@ -20,6 +20,7 @@ from rebsync.reverse.analysis.python.value_types import (
 )
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.libraries.attributes import SAME_TIMES
 
 _WRONG = "is of another type"
 _LACKS = "has no such attribute"
@@ -64,19 +65,24 @@ class MessageErrors:
 
     def _fits(self, field: str, value: e.Expression, facts: Facts) -> bool:
         """Whether a field of a type takes a value, as far as its types are known."""
-        return _takes(self._types.attributes.field(field), self._kinds.types(value, facts))
+        return _takes(
+            self._types.attributes.field(field), self._kinds.known(self._kinds.types(value, facts))
+        )
 
 
 def _takes(expected: ValueTypes, given: ValueTypes) -> bool:
-    if None in expected:
-        return True
+    if None in expected or not given:
+        return bool(given)
     kinds = frozenset(map(own_type, expected))
-    if None in kinds:
-        return True
+    if any(isinstance(type_, LibraryType) for type_ in expected):  # times of ROS 1
+        known = (t.name for t in given if isinstance(t, LibraryType))
+        return len(given) == len([n for n in known if SAME_TIMES.get(n, n) in SAME_TIMES.values()])
+    if None in kinds:  # bytes, and what has a length of its own
+        return (
+            frozenset(map(own_type, given)) <= _LISTED | {OwnType.BYTES, None} and None not in given
+        )
     if kinds == {OwnType.ARRAY}:
-        return frozenset(map(own_type, given)) <= _LISTED | {None}
+        return frozenset(map(own_type, given)) <= _LISTED
     if kinds == {OwnType.MESSAGE}:
-        return given <= expected | {None}
-    if any(isinstance(type_, LibraryType) for type_ in given):
-        return False
-    return frozenset(map(own_type, given)) <= kinds | {None}
+        return given <= expected
+    return frozenset(map(own_type, given)) <= kinds

@@ -154,6 +154,12 @@ def callback_functions(graph: CallGraph, callback: e.Expression, function: str) 
             return frozenset({f"{module}:{name}"} & set(graph.program.functions))
         case e.Closure(name):
             return frozenset({name})
+        case e.Temporary(number):
+            match graph.stores.of(TemporaryVariable(function, number)):
+                case [(_, e.Attribute() | e.Global() | e.Closure() as value)]:
+                    return callback_functions(graph, value, function)
+                case _:
+                    return frozenset()
         case _:
             return frozenset()
 

@@ -247,9 +247,16 @@ class NoneValues:
         nothing = [
             v for v in some if self._is_nothing((name, v), depth) or self._is_kept(function, v)
         ]
-        if all(map(_is_none, some)):
+        if all(map(_is_none, some)) and self._is_overridden(function):
             return False
         return bool(nothing) or None in values or falls_through(function.body)
+
+    def _is_overridden(self, function: Function) -> bool:
+        """Whether a method is there for the classes below to have it in its place."""
+        owner, name = function.owner or "", function.name.rpartition(".")[2]
+        below = self._graph.subclasses.get(owner, set()) - {owner}
+        classes = (self._graph.program.classes.get(each) for each in below)
+        return any(name in dict(c.methods) for c in classes if c is not None)
 
 
 def _is_none(value: object) -> bool:

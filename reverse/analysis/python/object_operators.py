@@ -31,13 +31,13 @@ class ObjectOperators:
         """Whether objects of a class do not answer a call."""
         if self._origins.graph.implicit((call,)) or self._decorators.answers(name, call):
             return False  # the other operand's class may
-        return self._is_plain(name)
+        return self.is_plain(name)
 
     def is_bare(self, name: str) -> bool:
         """Whether objects of a class answer nothing at all that no text calls."""
         line = [self._program.classes[c] for c in self._line(name) if c in self._program.classes]
         special = {n for c in line for n, _ in c.methods if n.startswith("__")}
-        return self._is_plain(name) and special <= _COMMON
+        return self.is_plain(name) and special <= _COMMON
 
     def lacks_attribute(self, of: str, name: str) -> bool:
         """Whether a class itself has no such attribute, nor anything that may make it one."""
@@ -45,12 +45,12 @@ class ObjectOperators:
         names = {n for c in known for n, _ in c.methods}
         names |= {each.name for c in known for each in c.properties}
         names |= {each.name for c in known for each in c.fields}
-        return self._is_plain(of) and name not in names and _HOOKS.isdisjoint(names)
+        return self.is_plain(of) and name not in names and _HOOKS.isdisjoint(names)
 
     def _line(self, name: str) -> list[str]:
         return [name, *self._origins.graph.bases(name)]
 
-    def _is_plain(self, name: str) -> bool:
+    def is_plain(self, name: str) -> bool:
         """Whether all is known of a class: no decorator or unknown base adds to it."""
         classes = self._program.classes
         line = self._line(name)

@@ -7,13 +7,13 @@ Attributes are told apart by names, and by their class where a function asks its
 from __future__ import annotations
 
 from collections import Counter, OrderedDict, defaultdict, deque
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import TypeAlias
 
 from rebsync.reverse.analysis.facts import Facts, Holds, IsBound, IsOf
 from rebsync.reverse.analysis.held_values import is_of_other
-from rebsync.reverse.analysis.origins import ClassOrigin
+from rebsync.reverse.analysis.origins import ANYTHING, ClassOrigin, LibraryOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.inferred_types import computed
 from rebsync.reverse.analysis.python.value_types import (
@@ -45,17 +45,16 @@ ATTRIBUTES: Mapping[OwnType | None, frozenset[str]] = {
     OwnType.LIST: frozenset(dir(list)),
     OwnType.TUPLE: frozenset(dir(tuple)),
     OwnType.SET: frozenset(dir(set)),
+    OwnType.FROZEN: frozenset(dir(frozenset)),
     OwnType.MAPPING: frozenset({"has_key", "iteritems", "iterkeys", "itervalues"}).union(
         *map(dir, (dict, defaultdict, OrderedDict, Counter))
     ),
     OwnType.QUEUE: frozenset(dir(deque)),
     OwnType.MODEL_ARRAY: frozenset(dir(object)) | {"at"},
 }
-_IN_TEXTS = frozenset(
-    {OwnType.NUMBER, OwnType.TEXT, OwnType.LIST, OwnType.TUPLE, OwnType.MAPPING, None}
-)
 _ASKING = frozenset(f"builtins.{n}" for n in ("isinstance", "type", "hasattr", "callable"))
 _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
+_CLASSES = dict.fromkeys(("int", "float", "bool"), "number")
 Kinds: TypeAlias = "frozenset[OwnType | None]"
 
 
@@ -75,9 +74,11 @@ class OperandKinds:
     def types(self, value: e.Expression, facts: Facts) -> ValueTypes:
         """The types of what a value may be where some facts are known."""
         known = [fact.types for fact in facts if isinstance(fact, IsOf) and fact.value == value]
-        if known:  # what a test says is not told apart, and is any type
-            declared = self._declared(value) if ANY_TYPE in known else NO_TYPES
-            types = declared or (ANY_TYPE if ANY_TYPE in known else known[0])
+        if isinstance(value, e.Local) and value.name in self._notes.function.captured:
+            known = []  # functions within store there as well
+        if known:
+            told = sorted((types for types in known if None not in types), key=len)
+            types = told[0] if told else self._declared(value) or ANY_TYPE
             key = key_of(value, self._name)
             return types if key is None else self._types.with_puts(key, types)
         if declared := self._declared(value):
@@ -98,6 +99,24 @@ class OperandKinds:
                 return self._named(value, facts)
             case _:
                 return self._types.of(value, self._name)
+
+    def of_classes(self, classes: Iterable[e.Expression | e.Spread]) -> ValueTypes:
+        """The types of objects of some classes."""
+        found = NO_TYPES
+        for value in classes:
+            held = ANYTHING
+            if not isinstance(value, e.Spread):
+                held = self._notes.origins.of(value, self._name)
+            for origin in held:
+                match origin:
+                    case ClassOrigin(name, False):
+                        found |= {InstanceType(name)}
+                    case LibraryOrigin(name, False):
+                        plain = name.removeprefix("builtins.")
+                        found |= self._types.attributes.of_class(_CLASSES.get(plain, plain))
+                    case _:
+                        found |= ANY_TYPE
+        return found
 
     def asked(self, value: e.Expression, facts: Facts) -> Kinds:
         """The types of Python's own that an operator or a text must take; None for any other.
@@ -120,20 +139,9 @@ class OperandKinds:
         """The types of what a call of the function gives."""
         return self._types.of_call(call, self._name)
 
-    def may_be_plain(self, value: e.Expression, facts: Facts) -> bool:
-        """Whether a value may be made of numbers, texts, lists and mappings alone."""
-        match value:
-            case e.Build(t.Container(t.ContainerKind.SEQUENCE | t.ContainerKind.TUPLE), parts):
-                within = [p.operand if isinstance(p, e.Spread) else p for p in parts]
-                return all(self.may_be_plain(p, facts) for p in within)
-            case e.BuildMapping(_, entries):
-                pairs = (entry for entry in entries if not isinstance(entry, e.Spread))
-                return all(self.may_be_plain(part, facts) for pair in pairs for part in pair)
-            case e.Conditional(_, one, other):
-                return self.may_be_plain(one, facts) and self.may_be_plain(other, facts)
-        held = self._notes.origins.of(value, self._name)
-        is_object = any(isinstance(o, ClassOrigin) and o.of_object for o in held)
-        return not is_object and self.of(value, facts) <= _IN_TEXTS
+    def mapped(self, function: e.Expression) -> ValueTypes:
+        """The types of what a function gives that another calls for each element."""
+        return self._types.mapped(function, self._name)
 
     def is_whole(self, value: e.Expression) -> bool:
         """Whether a value is declared as a whole number."""
@@ -176,7 +184,8 @@ class OperandKinds:
         if isinstance(key, Member) and IsBound(value) in facts:
             # What makes objects ran before this function stored something there.
             kinds = {n: self._graph.program.function(n).kind for n, _ in found}
-            found = [s for s in found if kinds[s[0]] not in _FIRST]
+            kinds.pop(self._name, None)
+            found = [s for s in found if kinds.get(s[0]) not in _FIRST]
         given = self._types.parameter(key)
         if not found:
             return given or ANY_TYPE

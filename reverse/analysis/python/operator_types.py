@@ -23,7 +23,8 @@ from rebsync.reverse.libraries.attributes import OF_TIMES, SAME_TIMES
 
 _NUMBER = OwnType.NUMBER
 SEQUENCES = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.ARRAY})
-SIZED = SEQUENCES | {OwnType.SET, OwnType.MAPPING, OwnType.QUEUE}
+_SETS = frozenset({OwnType.SET, OwnType.FROZEN})
+SIZED = SEQUENCES | _SETS | {OwnType.MAPPING, OwnType.QUEUE}
 ITERABLE = SIZED | {OwnType.MODEL_ARRAY}
 INDEXED = SEQUENCES | {OwnType.QUEUE, OwnType.MAPPING, OwnType.MODEL_ARRAY}
 UNHASHABLE = frozenset(
@@ -50,10 +51,10 @@ def takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bo
         case Operator.FLOOR_MODULO:
             return left in (OwnType.TEXT, OwnType.BYTES)
         case _ if operator in ORDERED:
-            return left is right and left not in _WITHOUT_ORDER
+            return (left is right and left not in _WITHOUT_ORDER) or {left, right} <= _SETS
         case _ if operator in _OF_SETS:
             is_mapping = left is right is OwnType.MAPPING and operator is Operator.BIT_OR
-            return left is right is OwnType.SET or is_mapping
+            return {left, right} <= _SETS or is_mapping
         case _:
             return False
 

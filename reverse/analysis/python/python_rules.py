@@ -12,6 +12,7 @@ from rebsync.reverse.analysis.python.construction_order import ConstructionOrder
 from rebsync.reverse.analysis.python.declared_parameters import DeclaredParameters
 from rebsync.reverse.analysis.python.fixed_attributes import FixedAttributes
 from rebsync.reverse.analysis.python.inferred_types import InferredTypes
+from rebsync.reverse.analysis.python.message_values import MessageValues
 from rebsync.reverse.analysis.python.object_operators import ObjectOperators
 from rebsync.reverse.libraries.routines import Language
 
@@ -56,7 +57,12 @@ class PythonRules:
     @cached_property
     def arguments(self) -> ArgumentTypes:
         """What functions get for their parameters."""
-        return ArgumentTypes(self._origins)
+        return ArgumentTypes(self._origins, self.decorators)
+
+    @cached_property
+    def messages(self) -> MessageValues:
+        """Which values are messages, or parts of these, whether or not their fields are known."""
+        return MessageValues(self._origins.graph)
 
     @cached_property
     def declared(self) -> DeclaredParameters:

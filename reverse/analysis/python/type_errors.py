@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from rebsync.reverse.analysis.facts import Facts
+from rebsync.reverse.analysis.facts import Facts, stored
+from rebsync.reverse.analysis.held_values import texts_of
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.attribute_errors import AttributeErrors
+from rebsync.reverse.analysis.python.class_values import are_classes, is_in_class, is_searched
 from rebsync.reverse.analysis.python.element_errors import ElementErrors
 from rebsync.reverse.analysis.python.float_numbers import FloatNumbers
 from rebsync.reverse.analysis.python.format_strings import (
@@ -86,6 +88,11 @@ class TypeErrors:
         """The types that a value may be of; None in other languages."""
         return self.kinds.types(value, facts) if self._is_python else None
 
+    def caught(self, facts: Facts, target: e.Lvalue | None) -> Facts:
+        """What is known where a handler has stored what it catches."""
+        types = frozenset((LibraryType("builtins.Exception"),)) if self._is_python else None
+        return facts if target is None else stored(facts, target, types)
+
     def given(self, call: s.Call) -> ValueTypes | None:
         """The types of what a call gives; None in other languages."""
         return self.kinds.given(call) if self._is_python else None
@@ -158,7 +165,7 @@ class TypeErrors:
                 if not all(map(self._gives_pairs, union(types))):
                     self._notes.fails(node, _WRONG)
             case "builtins.isinstance" if len(plain) > 1:
-                if self.kinds.of(plain[1], facts) - {None, OwnType.TUPLE}:
+                if not are_classes(self._notes, plain[1]):
                     self._notes.fails(node, _WRONG)
             case _ if name in _OF_ELEMENTS:
                 for value in plain if name == "builtins.zip" else plain[:1]:
@@ -274,11 +281,13 @@ class TypeErrors:
         types = self.kinds.types(left, facts), self.kinds.types(right, facts)
         kinds = self.kinds.asked(left, facts), self.kinds.asked(right, facts)
         if operator in (Operator.IN, Operator.NOT_IN):
-            wrong = bool(kinds[1] & {NUMBER, OwnType.MESSAGE}) or (
-                kinds[1] == {TEXT} and bool(kinds[0] - {TEXT, None})
+            wrong = not all(map(is_searched, self.kinds.known(types[1]))) or is_in_class(
+                self._notes, left, right
             )
+            wrong |= TEXT in kinds[1] and bool(kinds[0] - {TEXT})
+            wrong |= OwnType.BYTES in kinds[1] and bool(kinds[0] - {NUMBER, OwnType.BYTES})
             wrong |= _is_none(right)
-            if kinds[1] & {OwnType.SET, OwnType.MAPPING}:
+            if kinds[1] & {OwnType.SET, OwnType.FROZEN, OwnType.MAPPING}:
                 self._elements.is_key(value, left, facts)
         elif operator in (Operator.EQUAL, Operator.UNEQUAL, Operator.SAME, Operator.NOT_SAME):
             wrong = False
@@ -289,8 +298,9 @@ class TypeErrors:
             wrong |= operator in _OF_BITS and any(map(self._floats.has, (left, right)))
             is_times = operator is Operator.MULTIPLY and self._floats.has(right)
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
-        if operator is Operator.FLOOR_MODULO and isinstance(left, e.Literal):
-            wrong |= isinstance(left.value, str) and self._puts(left.value, right, facts)
+        if operator is Operator.FLOOR_MODULO and TEXT in kinds[0]:
+            texts = texts_of(self._notes.origins, left, self._notes.function.name)
+            wrong |= not texts or any(self._puts(text, right, facts) for text in texts)
         if wrong:
             self._notes.fails(value, _WRONG)
         if operator in (Operator.IN, Operator.NOT_IN):
@@ -320,12 +330,19 @@ class TypeErrors:
             found = refuses(text, [self.kinds.asked(v, facts) for v in values])
         else:
             values = [value]
-            found = kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
+            tuples = [t for t in self.kinds.types(value, facts) if own_type(t) is OwnType.TUPLE]
+            found = any(self._puts_parts(text, each) for each in tuples)
+            found |= kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
         if conversions(text) is None and not self._has_names(text, value):
             return True
         is_float = any(map(self._floats.has, numbers_of(text, values, _WHOLE)))
         is_object = any(self.kinds.is_object(v, facts) for v in numbers_of(text, values))
         return found or is_float or is_object
+
+    def _puts_parts(self, text: str, type_: ValueType | None) -> bool:
+        """Whether `%` may not put the parts of a tuple into a text."""
+        parts = type_.parts if isinstance(type_, ContainerType) else None
+        return parts is None or refuses(text, [frozenset(map(own_type, each)) for each in parts])
 
     def _has_names(self, text: str, value: e.Expression) -> bool:
         """Whether a mapping is written here with all that a text takes from it, which is texts."""

@@ -18,6 +18,9 @@ class TypeQueries(Protocol):
     def of_name(self, key: Key) -> ValueTypes:
         """The types of what is stored under a name."""
 
+    def of_member(self, name: str, owner: str | None) -> ValueTypes:
+        """The types of an attribute, of objects of a class if methods of that ask their own."""
+
     def of_stored(self, stored: Source) -> ValueTypes:
         """The types of what is stored somewhere."""
 

@@ -19,6 +19,7 @@ class OwnType(Enum):
     LIST = "list"
     TUPLE = "tuple"
     SET = "set"
+    FROZEN = "frozenset"
     MAPPING = "dict"
     QUEUE = "deque"
     ARRAY = "array"  # the elements of a message's field: a list, a tuple or an array of numbers
@@ -44,9 +45,13 @@ class ContainerType:
 
 @dataclass(frozen=True, slots=True)
 class LibraryType:
-    """An object of a library's class of which a table has the attributes, by its full name."""
+    """An object of a library's class of which a table has the attributes, by its full name.
+
+    A parameter of a node is declared with a value of the types that it `holds`.
+    """
 
     name: str
+    holds: ValueTypes = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

@@ -81,7 +81,7 @@ def _test(ctx: Lowering, pattern: Node, subject: e.Temporary, names: list[Node])
     match pattern.type:
         case "case_pattern" if not inner:  # `_`
             return e.Literal(True, TRUTH, place=place)
-        case "case_pattern" if text_of(pattern).startswith("-"):
+        case "case_pattern" if pattern.children[0].type == "-":
             return _equal(ctx, subject, _negative(ctx, inner[0]), pattern)
         case "case_pattern":
             return _test(ctx, inner[0], subject, names)
@@ -115,9 +115,13 @@ def _negative(ctx: Lowering, node: Node) -> e.Expression:
 def _either(
     ctx: Lowering, patterns: list[Node], subject: e.Temporary, names: list[Node], node: Node
 ) -> e.Expression:
-    if any(c.type == "-" for c in node.children):
-        raise NoLowering("a negative number among alternatives", node)
-    tests = [_test(ctx, p, subject, names) for p in patterns]
+    before = dict(zip(node.children[1:], node.children, strict=False))
+    tests = [
+        _equal(ctx, subject, _negative(ctx, p), p)
+        if p in before and before[p].type == "-"
+        else _test(ctx, p, subject, names)
+        for p in patterns
+    ]
     if any(c.type == "_" for c in node.children):
         tests.append(e.Literal(True, TRUTH))
     if names:

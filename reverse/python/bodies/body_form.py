@@ -84,8 +84,8 @@ class PyForm:
         table = LibraryOutcomes(
             Language.PYTHON,
             trusts_others=True,
-            # What generated code declares is known; people's code has types that nobody wrote.
-            trusts_types=not self._without_runtime,
+            trusts_types=False,
+            trusts_attributes=self._without_runtime,
             fields=self._fields,
         )
         return OutcomeAnalysis(self.program, table, lambda name: False)
