@@ -72,7 +72,7 @@ class Function:
 
 
 def innermost(functions: Iterable[Function], place: Span) -> Function | None:
-    """The function that a place is in, not around another one that it is in; None if there is none."""
+    """The function that a place is in, and none that is around that one; None if it is in none."""
     around = (f for f in functions if f.place.holds(place))
     return min(around, key=lambda f: f.place.end - f.place.start, default=None)
 

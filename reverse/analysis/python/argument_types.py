@@ -126,7 +126,7 @@ class ArgumentTypes:
         found = set[str]()
         for name in self._program.functions:
             around = self._program.function(name)
-            known = {id(each) for node in walk(around) for each in self._known_uses(node)}
+            known = {id(each) for node in walk(around) for each in self._known_uses(node, name)}
             for node in walk(around):
                 match node:
                     case e.Attribute(name=named) | e.Global(name=named) if named in last:
@@ -139,15 +139,20 @@ class ArgumentTypes:
                     found |= self._graph.value(node, around).functions
         return frozenset(found)
 
-    def _known_uses(self, node: object) -> Iterator[e.Expression]:
+    def _known_uses(self, node: object, function: str) -> Iterator[e.Expression]:
         """The values in a node that name functions of which it is known what they get there."""
         match node:
             case s.Assign(_, e.Closure() as value):  # which defines it
                 yield value
             case s.Assign(e.Temporary(), value):
                 yield value
-            case s.Call(_, s.ValueCallee(value)):
+            case s.Call(_, s.ValueCallee(value), arguments):
                 yield value
+                made_by = self._origins.of(value, function)  # `@lru_cache(maxsize=None)`
+                if made_by and all(
+                    isinstance(o, LibraryOrigin) and o.name in KEEPING for o in made_by
+                ):
+                    yield from (a.value for a in arguments)
             case s.Call(_, s.LibraryCallee(name), arguments) if name in _KNOWN_USERS:
                 yield from (a.value for a in arguments)
             case _:
