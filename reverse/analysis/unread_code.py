@@ -9,6 +9,7 @@ of it. What a library has, and got nothing of the node, can reach nothing of it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Set as AbstractSet
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.makers import Maker, Makers
@@ -58,9 +59,13 @@ class UnreadPlace:
 
 
 class UnreadCode:
-    """Which places of a program of C++ may run what was not read, and why."""
+    """Which places of a program of C++ may run what was not read, and why.
 
-    def __init__(self, origins: Origins) -> None:
+    What `known` functions run of themselves is known: those of the run-time part run what they got.
+    """
+
+    def __init__(self, origins: Origins, known: AbstractSet[str] = frozenset()) -> None:
+        self._known = known
         self._origins = origins
         self._graph = origins.graph
         self._program = origins.graph.program
@@ -103,7 +108,7 @@ class UnreadCode:
             while waiting and not found:
                 current = waiting.pop()
                 found += [_UNDEFINED] if current in self._program.undefined else []
-                is_here = current in self._program
+                is_here = current in self._program and current not in self._known
                 for node in walk(self._program.function(current)) if is_here else ():
                     why = self._why(node, current)
                     found += [] if why is None else [why]

@@ -84,7 +84,9 @@ class CppForm:
     @cached_property
     def places(self) -> FormPlaces:
         """What stands at places of the trees."""
-        unread = UnreadCode(self._outcomes.origins)
+        every = self._lowering.world.symbols.functions.values()
+        runtime = frozenset(f.name for f in every if f.code.cpp in self._known)
+        unread = UnreadCode(self._outcomes.origins, runtime)
         return FormPlaces(self._lowering, self._program, unread)
 
     @cached_property
