@@ -29,7 +29,7 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.walk import walk
 
 
-class Maker(IntEnum):
+class ObjectMaker(IntEnum):
     """Who made an object, from what is best known to what is least."""
 
     PROGRAM = 0  # the code that was read, which says its class
@@ -56,9 +56,9 @@ class Makers:
     def __init__(self, origins: Origins) -> None:
         self._origins = origins
         self._program = origins.graph.program
-        self._rounds = Rounds[Key, Maker](self._variable, Maker.PROGRAM)
+        self._rounds = Rounds[Key, ObjectMaker](self._variable, ObjectMaker.PROGRAM)
 
-    def of(self, value: e.Expression, function: str) -> Maker:
+    def of(self, value: e.Expression, function: str) -> ObjectMaker:
         """Who made the object that a value of a function is, or leads to."""
         match value:
             case e.AddressOf(of) | e.Dereference(of) | e.Convert(_, of) | e.Copy(of) | e.Move(of):
@@ -66,27 +66,27 @@ class Makers:
             case e.Conditional(_, then, otherwise):
                 return max(self.of(then, function), self.of(otherwise, function))
             case _ if isinstance(value, _VALUES) or _is_object(getattr(value, "type", t.UNKNOWN)):
-                return Maker.PROGRAM
+                return ObjectMaker.PROGRAM
             case e.Index(of):
                 return self.of(of, function)
             case e.LibraryReference():
-                return Maker.LIBRARY
+                return ObjectMaker.LIBRARY
         key = key_of(value, function)
         if key is None or (isinstance(key, CapturedVariable) and key.name == "this"):
-            return Maker.OTHERS if key is None else Maker.PROGRAM
+            return ObjectMaker.OTHERS if key is None else ObjectMaker.PROGRAM
         return self._rounds.of(key)
 
-    def _variable(self, key: Key, before: Maker) -> Maker:
+    def _variable(self, key: Key, before: ObjectMaker) -> ObjectMaker:
         if isinstance(key, CapturedVariable) and self._index(key) is not None:
             return max(before, self._parameter(key))
         stored = [each for each in self._stored(key) if not _is_nothing(each[1])]
-        return max((before, *map(self._of_stored, stored)) if stored else (Maker.OTHERS,))
+        return max((before, *map(self._of_stored, stored)) if stored else (ObjectMaker.OTHERS,))
 
     def _stored(self, key: Key) -> Iterator[Source]:
         yield from self._origins.graph.stores.sources(key)
         yield from self._put.get(key, ())
 
-    def _of_stored(self, stored: Source) -> Maker:
+    def _of_stored(self, stored: Source) -> ObjectMaker:
         function, value = stored
         match value:
             case CallResult(call):
@@ -94,13 +94,13 @@ class Makers:
             case ElementOf(of) | PartOf(of):
                 return self.of(of, function)
             case ObjectValue():
-                return Maker.PROGRAM
+                return ObjectMaker.PROGRAM
             case _ if isinstance(value, e.Expression):
                 return self.of(value, function)
             case _:
-                return Maker.OTHERS
+                return ObjectMaker.OTHERS
 
-    def _result(self, call: s.Call, function: str) -> Maker:
+    def _result(self, call: s.Call, function: str) -> ObjectMaker:
         """Who makes what a call gives."""
         match call.callee:
             case s.FunctionCallee(name):
@@ -112,20 +112,20 @@ class Makers:
             case s.LibraryCallee(name, receiver) | s.MethodCallee(receiver, name):
                 last = name.partition("<")[0].rpartition("::")[2]
                 if last in _PLUGINS:
-                    return Maker.OTHERS
+                    return ObjectMaker.OTHERS
                 if receiver is not None:
                     holder = self.of(receiver, function)
-                    return holder if last in _HOLDING else max(holder, Maker.LIBRARY)
+                    return holder if last in _HOLDING else max(holder, ObjectMaker.LIBRARY)
                 if last.endswith("_cast") and call.arguments:
                     return self.of(call.arguments[-1].value, function)
-        return Maker.LIBRARY
+        return ObjectMaker.LIBRARY
 
-    def _given_by(self, name: str) -> Maker:
+    def _given_by(self, name: str) -> ObjectMaker:
         if name not in self._program:
-            return Maker.LIBRARY
+            return ObjectMaker.LIBRARY
         returned = [n.value for n in walk(self._program.function(name)) if isinstance(n, s.Return)]
         found = (self.of(v, name) for v in returned if v is not None)
-        return max(found, default=Maker.PROGRAM)
+        return max(found, default=ObjectMaker.PROGRAM)
 
     # --- parameters, and what is put into containers ----------------------------------------------
 
@@ -136,7 +136,7 @@ class Makers:
         names = [p.name for p in self._program.function(key.function).parameters]
         return names.index(key.name) if key.name in names else None
 
-    def _parameter(self, key: CapturedVariable) -> Maker:
+    def _parameter(self, key: CapturedVariable) -> ObjectMaker:
         """What callers give; of callbacks, what the library gives that calls them."""
         index = self._index(key)
         found = [
@@ -145,8 +145,8 @@ class Makers:
             if index is not None and index < len(given)
         ]
         if key.function in self._handed:
-            found.append(Maker.LIBRARY)
-        return max(found, default=Maker.OTHERS)
+            found.append(ObjectMaker.LIBRARY)
+        return max(found, default=ObjectMaker.OTHERS)
 
     @cached_property
     def _given(self) -> dict[str, list[tuple[str, list[e.Expression]]]]:

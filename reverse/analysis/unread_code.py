@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 
 from rebsync.records import dataclass
-from rebsync.reverse.analysis.makers import Maker, Makers
+from rebsync.reverse.analysis.makers import Makers, ObjectMaker
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.stores import AnyValue, key_of
 from rebsync.reverse.analysis.unread_objects import UnreadObjects, led_to
@@ -47,7 +47,7 @@ _PLAIN_BASES |= {"enable_shared_from_this"}
 
 
 @dataclass(frozen=True, slots=True)
-class UnreadPlace:
+class UnreadRun:
     """A place that may run what was not read; `called` is the function that is to blame, if any.
 
     That is the name of one that has a body, of a method, or of the variable that holds one.
@@ -71,22 +71,22 @@ class UnreadCode:
         self._program = origins.graph.program
         self._makers = Makers(origins)
         self.objects = UnreadObjects(origins.graph)
-        self._found: dict[str, tuple[UnreadPlace, ...]] = {}
+        self._found: dict[str, tuple[UnreadRun, ...]] = {}
         self._why_of: dict[str, str | None] = {}
 
-    def of(self, name: str) -> tuple[UnreadPlace, ...]:
+    def of(self, name: str) -> tuple[UnreadRun, ...]:
         """The places in a function that may run what was not read, and why."""
         if name not in self._found:
             self._found[name] = tuple(self._places(name))
         return self._found[name]
 
-    def _places(self, name: str) -> Iterator[UnreadPlace]:
+    def _places(self, name: str) -> Iterator[UnreadRun]:
         for node in walk(self._program.function(name)):
             why = self._why(node, name) or next(
                 filter(None, map(self._reason, self.run(node))), None
             )
             if why is not None:
-                yield UnreadPlace(getattr(node, "place", NOWHERE), why, self._blamed(node))
+                yield UnreadRun(getattr(node, "place", NOWHERE), why, self._blamed(node))
 
     def _blamed(self, node: Node) -> str:
         match node:
@@ -197,7 +197,7 @@ class UnreadCode:
             case s.MethodCallee(receiver):
                 if next(self.functions(callee), None) is None:
                     return _UNDEFINED
-                is_made = self._makers.of(receiver, function) is Maker.PROGRAM
+                is_made = self._makers.of(receiver, function) is ObjectMaker.PROGRAM
                 return None if is_made else _OVERRIDDEN
             case s.ValueCallee(value):
                 return self._value(value, function)
@@ -213,7 +213,7 @@ class UnreadCode:
         if isinstance(of, t.Record) and of.name in self._program.forward:
             return _UNDEFINED
         is_trusted = libraries.is_library(name) or last in libraries.looking()
-        if not is_trusted and self._makers.of(receiver, function) is Maker.OTHERS:
+        if not is_trusted and self._makers.of(receiver, function) is ObjectMaker.OTHERS:
             return _GIVEN
         return None if last in _COUNTING else self._operates((receiver, *values), function)
 

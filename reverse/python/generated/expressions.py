@@ -23,7 +23,7 @@ from rebsync.reverse.python.generated.expression_reader import ModelExpressionRe
 from rebsync.reverse.python.generated.failing import may_fail
 from rebsync.reverse.python.generated.helpers import arguments_for
 from rebsync.reverse.python.generated.kinds import float_literal
-from rebsync.reverse.python.generated.names import Callee, Chosen
+from rebsync.reverse.python.generated.names import Callee, ChosenCallee
 from rebsync.reverse.python.generated.py_types import (
     call_parts,
     in_double_quotes,
@@ -285,7 +285,7 @@ class Expressions(ModelExpressionReader):
         return self._run(node, callee(self, field(node, "function")), arguments)
 
     def _run(self, node: Node, called: Callee, arguments: list[Node]) -> m.Expression:
-        if isinstance(called, Chosen):
+        if isinstance(called, ChosenCallee):
             then, other = (self._run(node, c, arguments) for c in (called.then, called.otherwise))
             return idioms.grouped(
                 node, m.Conditional(called.asked, then, other, self.py.span(node))

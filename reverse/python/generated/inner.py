@@ -16,7 +16,7 @@ from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.callees import callee
 from rebsync.reverse.python.generated.closures import arguments_of
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
-from rebsync.reverse.python.generated.names import Chosen, Closure
+from rebsync.reverse.python.generated.names import ChosenCallee, Closure
 from rebsync.reverse.python.generated.py_types import call_parts, type_of
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
 from rebsync.reverse.syntax.ancestors import climb
@@ -69,7 +69,7 @@ def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> list[m.S
     if not _is_bound_once(value, name):
         return None
     found = callee(expressions, value)
-    if isinstance(found, Chosen):
+    if isinstance(found, ChosenCallee):
         local = reader.free(f"{name}_then", pattern=f"{name}_then{{}}")
         expressions.locals[f"chosen as {local}"] = local
         expressions.types[local] = BOOLEAN

@@ -242,7 +242,7 @@ class NamedConstants:
     def of_run_time(self, name: str) -> str:
         """What the run-time part calls something, whatever the module does: `v.int32`."""
         whole = imported_as(self.module, name)
-        for at in (match.start() for match in re.finditer(r"\.\b", whole)):
+        for at in sorted((match.start() for match in re.finditer(r"\.\b", whole)), reverse=True):
             module = module_named(self.code.code, whole[:at], self.module) if at else None
             if module is not None and is_runtime_file(module.py.source):
                 return whole[at + 1 :]

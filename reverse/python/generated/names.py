@@ -79,7 +79,7 @@ class Closure:
 
 
 @dataclass(frozen=True, slots=True)
-class Chosen:
+class ChosenCallee:
     """One of two functions, as a condition says."""
 
     asked: m.Expression
@@ -87,4 +87,4 @@ class Chosen:
     otherwise: Callee
 
 
-Callee: TypeAlias = "str | Chosen"
+Callee: TypeAlias = "str | ChosenCallee"
