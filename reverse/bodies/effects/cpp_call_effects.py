@@ -169,7 +169,9 @@ def _function(effects: EffectReader, call: CppCall, name: str) -> bool:
         case None | Ignored():
             if _is_calm_helper(effects, call):
                 return True
-            if is_unknown_function(effects.scope, effects.inner, call):
+            form = effects.scope.form  # which knows other names: `using Clock = ...;`
+            is_other = form is not None and form.places.only_looks(effects.cpp, call.node)
+            if not is_other and is_unknown_function(effects.scope, effects.inner, call):
                 raise effects.touches(call.node, f'nobody here knows what "{call.name}" does')
             return False
         case Called() | Inline() as known:

@@ -17,12 +17,15 @@ from rebsync.reverse.ir.cpp.lowering import CppLowering
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol, VariableSymbol
 from rebsync.reverse.ir.program import Program
 from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.libraries.effects import of_function
+from rebsync.reverse.libraries.routines import Effect, Language
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, text_of
 from rebsync.source import Span
 
 _FUNCTIONS = frozenset({"function_definition", "lambda_expression"})
+_LOOKING = frozenset({Effect.NONE, Effect.CLOCK})
 
 _AROUND = ("unary_expression", "parenthesized_expression", "condition_clause")
 _DECLARING = ("init_declarator", "declaration", "field_declaration")
@@ -139,6 +142,14 @@ class FormPlaces:
         names = {f for n in found for f in self._unread.functions(n.callee)}
         known = self._symbols.functions
         return [known[n].code for n in sorted(names) if n in known]
+
+    def only_looks(self, cpp: Cpp, call: Node) -> bool:
+        """Whether a call is of a function of a library that changes nothing, by its full name."""
+        callees = [n.callee for n in self._at(cpp, call) if isinstance(n, s.Call)]
+        return bool(callees) and all(
+            isinstance(c, s.LibraryCallee) and of_function(Language.CPP, c.name).effect in _LOOKING
+            for c in callees
+        )
 
     def type_of(self, cpp: Cpp, node: Node) -> t.Type:
         """The type of an expression."""
