@@ -17,13 +17,15 @@ from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 def imported_as(module: Scope, name: str) -> str:
     """What a name of a module is of, as `threading.Lock`, with dots too; empty if it is not
-    imported, or not alone.
+    imported, or not alone, or only under a condition, as what types are checked with.
     """
     head, dot, rest = name.partition(".")
     bindings = module.names.get(head, [])
     if len(bindings) != 1 or bindings[0].how != "import":
         return ""
     node, item = bindings[0].node, bindings[0].value
+    if node.parent != module.node:
+        return ""
     is_alias = item.type == "aliased_import"
     if node.type == "import_statement" and not is_alias:
         return name
