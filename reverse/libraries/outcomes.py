@@ -40,10 +40,16 @@ _ANY_EXCEPTION = frozenset(
 
 
 MessageFields: TypeAlias = Callable[[str], Mapping[str, str] | None]
+MessageConstant: TypeAlias = Callable[[str, str], int | str | None]
 
 
 def no_fields(type_: str) -> Mapping[str, str] | None:
     """The fields of messages where none are known."""
+    return None
+
+
+def no_constant(type_: str, name: str) -> int | str | None:
+    """The constants of messages where none are known."""
     return None
 
 
@@ -81,7 +87,8 @@ class LibraryOutcomes:
     known type have what is asked of them: messages, in functions of sensors and in users' blocks.
     So are attributes (`trusts_attributes`) where the run-time part is not in the program.
     `messages` are classes in C++ of which headers are included that hold nothing but a message.
-    `fields` gives the fields of a type of messages with their types, by their names in ROS.
+    `fields` gives the fields of a type of messages with their types, by their names in ROS, and
+    `constant` what such a type gives a name.
     """
 
     language: Language
@@ -91,6 +98,7 @@ class LibraryOutcomes:
     trusts_attributes: bool = True
     messages: frozenset[str] = frozenset()
     fields: MessageFields = no_fields
+    constant: MessageConstant = no_constant
 
     @property
     def _named(self) -> Mapping[str, CallOutcome]:

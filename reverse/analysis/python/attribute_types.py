@@ -105,7 +105,7 @@ class AttributeTypes:
                 fields = self._origins.table.fields(of) or {}
                 if name == "_connection_header":
                     return frozenset((ContainerType(OwnType.MAPPING, A_TEXT, A_TEXT),))
-                return self.field(fields[name]) if name in fields else ANY_TYPE
+                return self.field(fields[name]) if name in fields else self._constant(of, name)
             case LibraryType("argparse.Namespace"):
                 return self._parsers.of(name)
             case LibraryType(_, holds) if holds and name == "value":
@@ -131,6 +131,21 @@ class AttributeTypes:
             for found in classes[each].properties if each in classes else ():
                 if found.name == name and found.getter is not None:
                     yield found.getter
+
+    def of_library(self, name: str) -> ValueTypes:
+        """The types of what a library has under a full name: a constant of a message, or others."""
+        of, _, last = name.rpartition(".")
+        message = message_name(of)
+        return self.of_class(held_in(name)) if message is None else self._constant(message, last)
+
+    def _constant(self, message: str, name: str) -> ValueTypes:
+        match self._origins.table.constant(message, name):
+            case int():
+                return A_NUMBER
+            case str():
+                return A_TEXT
+            case _:
+                return ANY_TYPE
 
     def field(self, type_: str) -> ValueTypes:
         """The types of the values of a field of a message, by its type in ROS."""

@@ -62,7 +62,6 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import COMPARISONS, Operator
 from rebsync.reverse.ir.program import FunctionKind, Parameter, ParameterKind
 from rebsync.reverse.ir.walk import walk
-from rebsync.reverse.libraries.attributes import held_in
 
 _CONTAINERS = {
     t.ContainerKind.SEQUENCE: OwnType.LIST,
@@ -133,7 +132,7 @@ class InferredTypes:
             case e.Attribute(of, name):
                 return self.attributes.of(self.of(of, function), of, name, function)
             case e.LibraryReference(name):
-                return self.attributes.of_class(held_in(name))
+                return self.attributes.of_library(name)
             case e.Local() | e.Temporary() | e.Captured() | e.Global():
                 if owner := self.attributes.receiver(value, function):
                     return frozenset((InstanceType(owner),))

@@ -87,6 +87,7 @@ class PyForm:
             trusts_types=False,
             trusts_attributes=self._without_runtime,
             fields=self._fields,
+            constant=self._types.constant,
         )
         return OutcomeAnalysis(self.program, table, lambda name: False)
 
