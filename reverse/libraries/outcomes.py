@@ -9,7 +9,7 @@ function of any other library gets values, and gives one.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -41,6 +41,7 @@ _ANY_EXCEPTION = frozenset(
 
 MessageFields: TypeAlias = Callable[[str], Mapping[str, str] | None]
 MessageConstant: TypeAlias = Callable[[str, str], int | str | None]
+SetValues: TypeAlias = Callable[[str], Sequence[int | str | None]]
 
 
 def no_fields(type_: str) -> Mapping[str, str] | None:
@@ -51,6 +52,11 @@ def no_fields(type_: str) -> Mapping[str, str] | None:
 def no_constant(type_: str, name: str) -> int | str | None:
     """The constants of messages where none are known."""
     return None
+
+
+def no_values(name: str) -> Sequence[int | str | None]:
+    """The values of parameters where no launch file is known."""
+    return ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +94,8 @@ class LibraryOutcomes:
     So are attributes (`trusts_attributes`) where the run-time part is not in the program.
     `messages` are classes in C++ of which headers are included that hold nothing but a message.
     `fields` gives the fields of a type of messages with their types, by their names in ROS, and
-    `constant` what such a type gives a name.
+    `constant` what such a type gives a name. `set_to` are the values that launch files give
+    parameters with the same last name: whole numbers and texts, None for others.
     """
 
     language: Language
@@ -99,6 +106,7 @@ class LibraryOutcomes:
     messages: frozenset[str] = frozenset()
     fields: MessageFields = no_fields
     constant: MessageConstant = no_constant
+    set_to: SetValues = no_values
 
     @property
     def _named(self) -> Mapping[str, CallOutcome]:

@@ -246,14 +246,19 @@ class GivenTypes:
                 return NO_TYPES
 
     def _of_parameter(self, call: s.Call, function: str) -> ValueTypes | None:
-        """The types of a parameter that a call gives: of its default, as people take it for."""
+        """The types of a parameter that a call gives: of its default, as people take it for.
+
+        Without a default they are those of what launch files set.
+        """
         asked = parameter_of(call)
-        if asked is None or asked[2] is None or asked[1] not in (Access.GET, Access.DECLARE):
+        if asked is None or asked[1] not in (Access.GET, Access.DECLARE):
             return None
         name = call.callee.name if isinstance(call.callee, s.MethodCallee) else ""
         if name and result_of(f"{NODE}.{name}"):  # which gives an object that has it
             return None
-        return self._types.of(asked[2], function) or ANY_TYPE
+        set_to = self._origins.table.set_to(asked[0])
+        values = map(e.Literal, set_to) if asked[2] is None else (asked[2],)
+        return union(self._types.of(value, function) or ANY_TYPE for value in values) or ANY_TYPE
 
 
 def _of_elements(name: str, given: Sequence[ValueTypes]) -> ValueTypes | None:
