@@ -148,6 +148,12 @@ class GivenTypes:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, NO_TYPES),))
             case "collections.Counter" if not call.arguments:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, A_NUMBER),))
+            case "numpy.zeros" | "numpy.ones" if len(call.arguments) == 1 and given == [A_NUMBER]:
+                return self._attributes.of_class("numbers")
+            case "numpy.append" if len(call.arguments) == len(given) == 2:
+                numbers = self._attributes.of_class("numbers")
+                known = union(given) <= numbers | A_NUMBER
+                return NO_TYPES if NO_TYPES in given else numbers if known else ANY_TYPE
             case "builtins.sum" if len(given) > 1:
                 return ANY_TYPE
             case "functools.reduce" if given:
