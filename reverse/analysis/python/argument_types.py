@@ -154,6 +154,8 @@ class ArgumentTypes:
                     yield from (a.value for a in arguments)
             case s.Call(_, s.LibraryCallee(name), arguments) if name in _KNOWN_USERS:
                 yield from (a.value for a in arguments)
+            case s.DefineClass(_, _, bases):  # whose constructor calls of the class run
+                yield from (a.value for a in bases if a.name is None)
             case _:
                 pass
         target = getattr(node, "target", None)

@@ -32,6 +32,7 @@ from rebsync.reverse.libraries.attributes import PARAMETER, attributes_of, held_
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
 _OWN = {**{kind.value: kind for kind in OwnType}, "defaultdict": OwnType.MAPPING}
+_NUMBERED = frozenset({"enum.IntEnum", "enum.IntFlag"})
 
 
 class AttributeTypes:
@@ -88,6 +89,22 @@ class AttributeTypes:
             case _:
                 return None
         return around.owner if name == around.receiver else None
+
+    def operands(self, types: ValueTypes) -> ValueTypes:
+        """The types of operands: members of enumerations of numbers are the numbers."""
+        return frozenset(
+            OwnType.NUMBER
+            if isinstance(each, InstanceType) and self._is_number(each.name)
+            else each
+            for each in types
+        )
+
+    def _is_number(self, name: str) -> bool:
+        line = (name, *self._graph.bases(name))
+        classes = (self._program.classes[each] for each in line if each in self._program.classes)
+        return not _NUMBERED.isdisjoint(line) and all(
+            not each.operators and None not in each.bases for each in classes
+        )
 
     def _enumerations(self, types: ValueTypes) -> bool:
         return all(isinstance(type_, InstanceType) and self._has_members(type_) for type_ in types)

@@ -119,7 +119,8 @@ class InferredTypes:
             case e.Binary(operator) if operator in COMPARISONS:
                 return A_NUMBER
             case e.Binary(operator, left, right):
-                return computed(operator, self.of(left, function), self.of(right, function))
+                operands = (self.attributes.operands(self.of(v, function)) for v in (left, right))
+                return computed(operator, *operands)
             case e.Unary(_, of):
                 return A_NUMBER if self.of(of, function) == A_NUMBER else ANY_TYPE
             case e.Index(of, e.Slice()):

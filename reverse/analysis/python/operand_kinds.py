@@ -89,7 +89,10 @@ class OperandKinds:
             case e.Binary(operator) if operator in COMPARISONS:
                 return A_NUMBER
             case e.Binary(operator, left, right):
-                return computed(operator, self.types(left, facts), self.types(right, facts))
+                known = self._types.attributes
+                return computed(
+                    operator, *(known.operands(self.types(v, facts)) for v in (left, right))
+                )
             case e.Index(of, index) if not isinstance(index, e.Slice):
                 at = index.value if isinstance(index, e.Literal) else None
                 return at_index(self.types(of, facts), at)
