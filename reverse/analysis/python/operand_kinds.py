@@ -89,10 +89,9 @@ class OperandKinds:
             case e.Binary(operator) if operator in COMPARISONS:
                 return A_NUMBER
             case e.Binary(operator, left, right):
-                known = self._types.attributes
-                return computed(
-                    operator, *(known.operands(self.types(v, facts)) for v in (left, right))
-                )
+                as_operands = self._types.attributes.operands
+                given = (as_operands(self.types(each, facts)) for each in (left, right))
+                return computed(operator, *given)
             case e.Index(of, index) if not isinstance(index, e.Slice):
                 at = index.value if isinstance(index, e.Literal) else None
                 return at_index(self.types(of, facts), at)
