@@ -58,6 +58,9 @@ _THREAD = """
 _OF_TOPICS = (
     "data_class get_num_connections impl md5sum name reg_type resolved_name type unregister"
 )
+_OF_VALUES = """
+    bool_value integer_value double_value string_value byte_array_value bool_array_value
+    integer_array_value double_array_value string_array_value"""
 _TIME = "from_sec from_seconds is_zero nsecs secs set canon to_nsec to_sec to_time now"
 
 _TIMES = ("rospy.Time", "rospy.Duration", "time", "duration")  # the last two in messages
@@ -88,6 +91,7 @@ _ATTRIBUTES: Mapping[str, str] = {
         set_ros_time_override sleep_for sleep_until""",
     "rclpy.parameter.Parameter": """
         Type from_parameter_msg get_parameter_value name to_parameter_msg type_ value""",
+    "rcl_interfaces/ParameterValue": f"type {_OF_VALUES}",
     "rclpy.time.Time": "clock_type from_msg nanoseconds seconds_nanoseconds to_msg",
     "rclpy.duration.Duration": "from_msg get_c_duration nanoseconds to_msg",
     "rclpy.logging.Logger": """
@@ -182,6 +186,8 @@ _HOLDS: Mapping[str, str] = {
     **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
     **{f"numpy.{name}": "number" for name in ("pi", "e", "inf", "nan")},
     "sys.argv": "texts",
+    **{f"rcl_interfaces/ParameterValue.{name}_value": "number" for name in ("bool", "integer")},
+    "rcl_interfaces/ParameterValue.string_value": "str",
     "rclpy.timer.Timer.timer_period_ns": "number",
     "rclpy.qos.qos_profile_sensor_data": "rclpy.qos.QoSProfile",
     "rclpy.qos.qos_profile_system_default": "rclpy.qos.QoSProfile",

@@ -9,7 +9,7 @@ function of any other library gets values, and gives one.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -40,11 +40,23 @@ _ANY_EXCEPTION = frozenset(
 
 
 MessageFields: TypeAlias = Callable[[str], Mapping[str, str] | None]
+MessageConstant: TypeAlias = Callable[[str, str], int | str | None]
+SetValues: TypeAlias = Callable[[str], Sequence[int | str | None]]
 
 
 def no_fields(type_: str) -> Mapping[str, str] | None:
     """The fields of messages where none are known."""
     return None
+
+
+def no_constant(type_: str, name: str) -> int | str | None:
+    """The constants of messages where none are known."""
+    return None
+
+
+def no_values(name: str) -> Sequence[int | str | None]:
+    """The values of parameters where no launch file is known."""
+    return ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +93,9 @@ class LibraryOutcomes:
     known type have what is asked of them: messages, in functions of sensors and in users' blocks.
     So are attributes (`trusts_attributes`) where the run-time part is not in the program.
     `messages` are classes in C++ of which headers are included that hold nothing but a message.
-    `fields` gives the fields of a type of messages with their types, by their names in ROS.
+    `fields` gives the fields of a type of messages with their types, by their names in ROS, and
+    `constant` what such a type gives a name. `set_to` are the values that launch files give
+    parameters with the same last name: whole numbers and texts, None for others.
     """
 
     language: Language
@@ -91,6 +105,8 @@ class LibraryOutcomes:
     trusts_attributes: bool = True
     messages: frozenset[str] = frozenset()
     fields: MessageFields = no_fields
+    constant: MessageConstant = no_constant
+    set_to: SetValues = no_values
 
     @property
     def _named(self) -> Mapping[str, CallOutcome]:

@@ -110,9 +110,8 @@ class ArgumentTypes:
         found: dict[str, list[tuple[str, e.Expression]]] = {}
         for name in self._program.functions:
             for node in walk(self._program.function(name)):
-                asked = parameter_of(node) if isinstance(node, s.Call) else None
-                if asked is not None and asked[1] is Access.DECLARE:
-                    found.setdefault(asked[0], []).append((name, asked[2] or e.Literal(None)))
+                for asked, default in _declared(node):
+                    found.setdefault(asked, []).append((name, default))
         return found
 
     @cached_property
@@ -155,6 +154,8 @@ class ArgumentTypes:
                     yield from (a.value for a in arguments)
             case s.Call(_, s.LibraryCallee(name), arguments) if name in _KNOWN_USERS:
                 yield from (a.value for a in arguments)
+            case s.DefineClass(_, _, bases):  # whose constructor calls of the class run
+                yield from (a.value for a in bases if a.name is None)
             case _:
                 pass
         target = getattr(node, "target", None)
@@ -244,7 +245,7 @@ class ArgumentTypes:
         """The functions that one of Python's calls for each element, with what these get."""
         match call:
             case s.Call(_, s.LibraryCallee(name), (function, container)) if name in _FOR_EACH:
-                values = [function.value]
+                values, elements = [function.value], container.value
             case s.Call(_, s.LibraryCallee("functools.reduce"), (function, container, *first)):
                 element = ElementOf(container.value)
                 for called in self._graph.value(function.value, around).functions:
@@ -252,12 +253,14 @@ class ArgumentTypes:
                     yield called, [[element, result, *(a.value for a in first)], [element]]
                 return
             case s.Call(_, s.LibraryCallee(), (container, *more)):
-                values = [a.value for a in more if a.name == "key"]
+                values, elements = [a.value for a in more if a.name == "key"], container.value
+            case s.Call(_, s.MethodCallee(elements, "sort"), named):
+                values = [a.value for a in named if a.name == "key"]
             case _:
                 return
         for value in values:
             for called in self._graph.value(value, around).functions:
-                yield called, [[ElementOf(container.value)]]
+                yield called, [[ElementOf(elements)]]
 
     @cached_property
     def _subscribed(self) -> dict[tuple[str, str], list[str]]:
@@ -308,6 +311,27 @@ def parameter_of(call: s.Call) -> tuple[str, Access, e.Expression | None] | None
             return text, routine.access, default
         case _:
             return None
+
+
+def _declared(node: object) -> Iterator[tuple[str, e.Expression]]:
+    """The parameters that a call declares, each with its default."""
+    match node:
+        case s.Call(
+            _,
+            s.MethodCallee(_, "declare_parameters"),
+            (s.CallArgument(e.Literal("")), s.CallArgument(e.Build(_, entries))),
+        ):
+            for entry in entries:
+                match entry:
+                    case e.Build(_, (e.Literal(str() as name), default, *_)):
+                        if not isinstance(default, e.Spread):
+                            yield name, default
+                    case _:
+                        pass
+        case s.Call() if (asked := parameter_of(node)) and asked[1] is Access.DECLARE:
+            yield asked[0], asked[2] or e.Literal(None)
+        case _:
+            pass
 
 
 def _routine(call: s.Call) -> Routine | None:

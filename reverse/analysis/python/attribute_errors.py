@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.foreign_values import ForeignValues
-from rebsync.reverse.analysis.origins import ANYTHING, ClassOrigin
+from rebsync.reverse.analysis.origins import ANYTHING, ClassOrigin, LibraryOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.operand_kinds import ATTRIBUTES, OperandKinds
 from rebsync.reverse.analysis.python.value_types import (
@@ -41,6 +41,7 @@ _REFUSED = "gets other arguments than it takes"
 _LACKS = "has no such attribute"
 _UNDEFINED = "names what nothing defines"
 _OF_MODULES = frozenset({"__name__", "__file__", "__doc__", "__package__", "__spec__"})
+_HANDING = frozenset({"contextlib.closing", "contextlib.nullcontext"})
 _DEEPEST = 5  # names that follow each other
 _HOOKS = ("__getattr__", "__getattribute__")
 _OF_CLASSES = frozenset(dir(type)) | {"__members__"}
@@ -79,6 +80,8 @@ class AttributeErrors:
             return True
         if depth == _DEEPEST or self._foreign.has(value, function):
             return depth != _DEEPEST
+        if isinstance(value, e.Temporary) and self._is_entered(value, function):
+            return True
         key = key_of(value, function)
         sources = self._rules.types.sources(key) if key is not None else []
         if isinstance(key, CapturedVariable):
@@ -88,6 +91,15 @@ class AttributeErrors:
         if sources:
             return all(self._is_made_there(each, depth + 1) for each in sources)
         return isinstance(value, e.Attribute) and self._is_made(value.object, function, depth + 1)
+
+    def _is_entered(self, value: e.Temporary, function: str) -> bool:
+        """Whether a context of a library gives a value, which is no object of another."""
+        nodes = walk(self._program.function(function))
+        contexts = [n.context for n in nodes if isinstance(n, s.With) and n.target == value]
+        held = frozenset().union(*(self._notes.origins.of(c, function) for c in contexts))
+        return bool(held) and all(
+            isinstance(origin, LibraryOrigin) and origin.name not in _HANDING for origin in held
+        )
 
     def _is_made_there(self, source: Source, depth: int) -> bool:
         function, value = source

@@ -32,6 +32,7 @@ from rebsync.reverse.libraries.attributes import PARAMETER, attributes_of, held_
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS
 
 _OWN = {**{kind.value: kind for kind in OwnType}, "defaultdict": OwnType.MAPPING}
+_NUMBERED = frozenset({"enum.IntEnum", "enum.IntFlag"})
 
 
 class AttributeTypes:
@@ -89,6 +90,22 @@ class AttributeTypes:
                 return None
         return around.owner if name == around.receiver else None
 
+    def operands(self, types: ValueTypes) -> ValueTypes:
+        """The types of operands: members of enumerations of numbers are the numbers."""
+        return frozenset(
+            OwnType.NUMBER
+            if isinstance(each, InstanceType) and self._is_number(each.name)
+            else each
+            for each in types
+        )
+
+    def _is_number(self, name: str) -> bool:
+        line = (name, *self._graph.bases(name))
+        classes = (self._program.classes[each] for each in line if each in self._program.classes)
+        return not _NUMBERED.isdisjoint(line) and all(
+            not each.operators and None not in each.bases for each in classes
+        )
+
     def _enumerations(self, types: ValueTypes) -> bool:
         return all(isinstance(type_, InstanceType) and self._has_members(type_) for type_ in types)
 
@@ -105,7 +122,7 @@ class AttributeTypes:
                 fields = self._origins.table.fields(of) or {}
                 if name == "_connection_header":
                     return frozenset((ContainerType(OwnType.MAPPING, A_TEXT, A_TEXT),))
-                return self.field(fields[name]) if name in fields else ANY_TYPE
+                return self.field(fields[name]) if name in fields else self._constant(of, name)
             case LibraryType("argparse.Namespace"):
                 return self._parsers.of(name)
             case LibraryType(_, holds) if holds and name == "value":
@@ -131,6 +148,21 @@ class AttributeTypes:
             for found in classes[each].properties if each in classes else ():
                 if found.name == name and found.getter is not None:
                     yield found.getter
+
+    def of_library(self, name: str) -> ValueTypes:
+        """The types of what a library has under a full name: a constant of a message, or others."""
+        of, _, last = name.rpartition(".")
+        message = message_name(of)
+        return self.of_class(held_in(name)) if message is None else self._constant(message, last)
+
+    def _constant(self, message: str, name: str) -> ValueTypes:
+        match self._origins.table.constant(message, name):
+            case int():
+                return A_NUMBER
+            case str():
+                return A_TEXT
+            case _:
+                return ANY_TYPE
 
     def field(self, type_: str) -> ValueTypes:
         """The types of the values of a field of a message, by its type in ROS."""

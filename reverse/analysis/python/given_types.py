@@ -148,6 +148,12 @@ class GivenTypes:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, NO_TYPES),))
             case "collections.Counter" if not call.arguments:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, A_NUMBER),))
+            case "numpy.zeros" | "numpy.ones" if len(call.arguments) == 1 and given == [A_NUMBER]:
+                return self._attributes.of_class("numbers")
+            case "numpy.append" if len(call.arguments) == len(given) == 2:
+                numbers = self._attributes.of_class("numbers")
+                known = union(given) <= numbers | A_NUMBER
+                return NO_TYPES if NO_TYPES in given else numbers if known else ANY_TYPE
             case "builtins.sum" if len(given) > 1:
                 return ANY_TYPE
             case "functools.reduce" if given:
@@ -246,14 +252,19 @@ class GivenTypes:
                 return NO_TYPES
 
     def _of_parameter(self, call: s.Call, function: str) -> ValueTypes | None:
-        """The types of a parameter that a call gives: of its default, as people take it for."""
+        """The types of a parameter that a call gives: of its default, as people take it for.
+
+        Without a default they are those of what launch files set.
+        """
         asked = parameter_of(call)
-        if asked is None or asked[2] is None or asked[1] not in (Access.GET, Access.DECLARE):
+        if asked is None or asked[1] not in (Access.GET, Access.DECLARE):
             return None
         name = call.callee.name if isinstance(call.callee, s.MethodCallee) else ""
         if name and result_of(f"{NODE}.{name}"):  # which gives an object that has it
             return None
-        return self._types.of(asked[2], function) or ANY_TYPE
+        set_to = self._origins.table.set_to(asked[0])
+        values = map(e.Literal, set_to) if asked[2] is None else (asked[2],)
+        return union(self._types.of(value, function) or ANY_TYPE for value in values) or ANY_TYPE
 
 
 def _of_elements(name: str, given: Sequence[ValueTypes]) -> ValueTypes | None:

@@ -62,7 +62,6 @@ from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import COMPARISONS, Operator
 from rebsync.reverse.ir.program import FunctionKind, Parameter, ParameterKind
 from rebsync.reverse.ir.walk import walk
-from rebsync.reverse.libraries.attributes import held_in
 
 _CONTAINERS = {
     t.ContainerKind.SEQUENCE: OwnType.LIST,
@@ -120,7 +119,8 @@ class InferredTypes:
             case e.Binary(operator) if operator in COMPARISONS:
                 return A_NUMBER
             case e.Binary(operator, left, right):
-                return computed(operator, self.of(left, function), self.of(right, function))
+                operands = (self.attributes.operands(self.of(v, function)) for v in (left, right))
+                return computed(operator, *operands)
             case e.Unary(_, of):
                 return A_NUMBER if self.of(of, function) == A_NUMBER else ANY_TYPE
             case e.Index(of, e.Slice()):
@@ -133,7 +133,7 @@ class InferredTypes:
             case e.Attribute(of, name):
                 return self.attributes.of(self.of(of, function), of, name, function)
             case e.LibraryReference(name):
-                return self.attributes.of_class(held_in(name))
+                return self.attributes.of_library(name)
             case e.Local() | e.Temporary() | e.Captured() | e.Global():
                 if owner := self.attributes.receiver(value, function):
                     return frozenset((InstanceType(owner),))

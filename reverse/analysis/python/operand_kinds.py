@@ -89,7 +89,9 @@ class OperandKinds:
             case e.Binary(operator) if operator in COMPARISONS:
                 return A_NUMBER
             case e.Binary(operator, left, right):
-                return computed(operator, self.types(left, facts), self.types(right, facts))
+                as_operands = self._types.attributes.operands
+                given = (as_operands(self.types(each, facts)) for each in (left, right))
+                return computed(operator, *given)
             case e.Index(of, index) if not isinstance(index, e.Slice):
                 at = index.value if isinstance(index, e.Literal) else None
                 return at_index(self.types(of, facts), at)
@@ -179,8 +181,10 @@ class OperandKinds:
         if isinstance(key, Member):
             here = self._notes.function
             found = [s for s in found if not is_of_other(self._graph, here, value, key, s[0])]
-        if Holds(value) in facts:
+        if Holds(value) in facts and found:
             found = [s for s in found if not _is_nothing(s[1])]
+            if not found and not self._types.parameter(key):
+                return NO_TYPES  # this place is never reached
         if isinstance(key, Member) and IsBound(value) in facts:
             # What makes objects ran before this function stored something there.
             kinds = {n: self._graph.program.function(n).kind for n, _ in found}
@@ -209,11 +213,5 @@ def _answers(type_: ValueType | None) -> bool:
 
 
 def _is_nothing(value: object) -> bool:
-    """Whether a stored value counts as false."""
-    match value:
-        case e.Literal(constant):
-            return not constant
-        case e.Build(_, ()) | e.BuildMapping(_, ()):
-            return True
-        case _:
-            return False
+    """Whether a stored value counts as false; containers may be filled later."""
+    return isinstance(value, e.Literal) and not value.value

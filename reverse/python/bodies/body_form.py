@@ -23,7 +23,7 @@ from rebsync.reverse.ir.python.lowering import python_program
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries import python
 from rebsync.reverse.libraries.endless import FINITE
-from rebsync.reverse.libraries.outcomes import LibraryOutcomes
+from rebsync.reverse.libraries.outcomes import LibraryOutcomes, SetValues, no_values
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.size_effects import CHANGING_OBJECT
 from rebsync.reverse.syntax.py_index import FUNCTION, PyCode, Scope
@@ -52,11 +52,13 @@ class PyForm:
         code: PyCode,
         types: MessageTypes,
         *,
+        set_to: SetValues = no_values,
         without_runtime: bool = False,
         typed: Callable[[Program], Program] = lambda program: program,
     ) -> None:
         self._code = code
         self._types = types
+        self._set_to = set_to
         self._without_runtime = without_runtime
         self._typed = typed
 
@@ -87,6 +89,8 @@ class PyForm:
             trusts_types=False,
             trusts_attributes=self._without_runtime,
             fields=self._fields,
+            constant=self._types.constant,
+            set_to=self._set_to,
         )
         return OutcomeAnalysis(self.program, table, lambda name: False)
 

@@ -9,6 +9,7 @@ from rebsync.records import dataclass
 from rebsync.reverse.files.python_files import SETUP
 from rebsync.reverse.graph import FromParameter, ParameterFact
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
+from rebsync.reverse.launch.parameter_sections import ANY
 from rebsync.reverse.nodes.node_names import Names
 from rebsync.reverse.nodes.node_units import Start
 from rebsync.reverse.nodes.node_values import Instance
@@ -40,6 +41,15 @@ class Started:
         """Whether the launch file starts any of some units."""
         launched = self.launch.nodes if self.launch is not None else ()
         return any(self._runs(node, unit) for unit in units for node in launched)
+
+    def set_to(self, name: str) -> list[int | str | None]:
+        """The values of the parameters with the same last name, of any node; None for others."""
+        if self.launch is None:
+            return []
+        every = (self.launch.parameters, *(node.parameters for node in self.launch.nodes))
+        last = name.rpartition("/")[2].lstrip("~")
+        found = (p for of in every for p in of if p.name.rpartition("/")[2] in (last, ANY))
+        return [p.value if isinstance(p.value, int | str) else None for p in found]
 
     def instances(self, unit: PyUnit, units: Sequence[PyUnit], names: Names) -> Iterator[Instance]:
         """The rebecs of a unit: one also where nothing starts it, which is idle if others start."""

@@ -88,7 +88,7 @@ class PySystem:
     form: PyForm = with_default(init=False)
 
     def __post_init__(self) -> None:
-        self.form = PyForm(self.values.code, self.types)
+        self.form = PyForm(self.values.code, self.types, set_to=self.started.set_to)
 
     def read(self) -> PyNodes:
         """All of them; what has no place in the model is listed."""
