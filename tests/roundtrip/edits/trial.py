@@ -41,7 +41,7 @@ FILES = (
     *("gate12_cpp.toml", "gate12_python.toml", "gate13_cpp.toml", "gate13_python.toml"),
     *("looked_up.toml", "told_python.toml", "imports.toml", "captures.toml"),
     *("results.toml", "surroundings.toml", "undefined.toml", "needless_python.toml"),
-    *("gate15b_python.toml",),
+    *("gate15b_python.toml", "gate15_cpp.toml", "gate15_python.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
