@@ -21,6 +21,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.looked_through import is_library
 from rebsync.source import NOWHERE, Span
 
 _UNDEFINED = "no file that was read defines it"
@@ -212,7 +213,7 @@ class UnreadCode:
             return self._inherits(of.name, last)
         if isinstance(of, t.Record) and of.name in self._program.forward:
             return _UNDEFINED
-        is_trusted = libraries.is_library(name) or last in libraries.looking()
+        is_trusted = is_library(name) or last in libraries.looking()
         if not is_trusted and self._makers.of(receiver, function) is ObjectMaker.OTHERS:
             return _GIVEN
         return None if last in _COUNTING else self._operates((receiver, *values), function)
@@ -235,7 +236,7 @@ class UnreadCode:
         line = {owner, *self._graph.bases(owner)} & self._program.classes.keys()
         above = (b or "" for c in line for b in self._program.classes[c].bases)
         bases = (b for b in above if b not in self._program.classes)
-        unread = (b.rpartition("::")[2] for b in bases if not libraries.is_library(b))
+        unread = (b.rpartition("::")[2] for b in bases if not is_library(b))
         is_plain = name in libraries.node_methods() or name in libraries.looking()
         return None if is_plain or _PLAIN_BASES.issuperset(unread) else _INHERITED
 

@@ -14,6 +14,7 @@ from rebsync.reverse.bodies.effects.cpp_call_effects import is_calm
 from rebsync.reverse.bodies.effects.cpp_effect_reader import EffectReader
 from rebsync.reverse.bodies.scope import Called, Ignored, Inline, meant_by
 from rebsync.reverse.libraries import cpp as libraries
+from rebsync.reverse.libraries.looked_through import is_library
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.syntax.cpp_declarations import unscoped
@@ -66,7 +67,7 @@ def _is_harmless(effects: EffectReader, type_: Node, calls: Sequence[Node]) -> b
             )
         case None if type_.type == "qualified_identifier":
             known_so = _outcomes().function("".join(text_of(type_).split()))
-            return libraries.is_library(text_of(type_)) and not (known_so.raises or known_so.acts)
+            return is_library(text_of(type_)) and not (known_so.raises or known_so.acts)
         case None | Ignored():
             return name in libraries.looking()
         case _:

@@ -328,16 +328,6 @@ def looking() -> frozenset[str]:
     return frozenset(looks - acting().keys())
 
 
-def is_library(name: str) -> bool:
-    """Whether a full name is of a library that the tables know, or of a message."""
-    first, scope, rest = name.removeprefix("::").partition("::")
-    if not scope:
-        return False
-    known = {x.removesuffix("::") for x in scopes()} | copying_scopes()
-    is_message = any(f"{kind}::" in rest for kind in ("msg", "srv", "action"))
-    return first in known or is_message or first.endswith(("_msgs", "_srvs"))
-
-
 # --- files --------------------------------------------------------------------------------------
 
 

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import re
 
+from rebsync.reverse.libraries import cpp
+
 # Outermost namespaces: of client libraries, of what they send, of what transforms and plans.
 _SCOPES = frozenset(
     {
@@ -64,3 +66,13 @@ def is_looked_through(name: str) -> bool:
     if name.startswith(_QUIET):
         return True
     return not last or scope in _SCOPES or _MESSAGES.match(name) is not None
+
+
+def is_library(name: str) -> bool:
+    """Whether a full name is of a library that the tables know, or of a message."""
+    first, scope, rest = name.removeprefix("::").partition("::")
+    if not scope:
+        return False
+    known = {x.removesuffix("::") for x in cpp.scopes()} | cpp.copying_scopes()
+    is_message = any(f"{kind}::" in rest for kind in ("msg", "srv", "action"))
+    return first in known or is_message or first.endswith(("_msgs", "_srvs"))

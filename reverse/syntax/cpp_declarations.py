@@ -31,8 +31,8 @@ TYPES = frozenset({"class_specifier", "struct_specifier", "enum_specifier"})
 CONVERSION = "operator "  # what names of conversion functions begin with
 _CONSTANT = frozenset({b"const", b"constexpr"})
 _OVERRIDING = frozenset({b"override", b"final"})
-_REFERRING = frozenset({"pointer_declarator", "reference_declarator"})
-_DECLARATORS = _REFERRING | {"array_declarator", "parenthesized_declarator"}
+REFERRING = frozenset({"pointer_declarator", "reference_declarator"})
+_DECLARATORS = REFERRING | {"array_declarator", "parenthesized_declarator"}
 _DECLARATOR, _BODY, _TYPE = FIELDS["declarator"], FIELDS["body"], FIELDS["type"]
 # Declarators, each with the value that follows it.
 Declared: TypeAlias = "list[tuple[Node, Node | None]]"
@@ -178,7 +178,7 @@ def function_of(cpp: Cpp, node: Node, owner: str) -> CppFunction | None:
     if kind not in ("function_definition", "field_declaration", "declaration"):
         return None
     declarator = node.child_by_field_id(_DECLARATOR)
-    while declarator is not None and declarator.type in _REFERRING:
+    while declarator is not None and declarator.type in REFERRING:
         declarator = declarator.named_children[-1] if declarator.named_children else None
     body = node.child_by_field_id(_BODY) if kind == "function_definition" else None
     if kind == "declaration" and declarator is not None and only_braces(node):
@@ -259,15 +259,6 @@ def declared_name(declarator: Node) -> Node | None:
         inner = declarator.child_by_field_name("declarator")
         declarator = inner if inner is not None else declarator.named_children[-1]
     return declarator if declarator.type in ("identifier", "field_identifier") else None
-
-
-def variable_name(declarator: Node) -> Node | None:
-    """The same of pointers and references to functions too: `(*f)(int)`."""
-    inner = declarator.child_by_field_name("declarator")
-    if declarator.type != "function_declarator" or inner is None:
-        return declared_name(declarator)
-    is_led = inner.type == "parenthesized_declarator" and inner.named_children
-    return declared_name(inner) if is_led and inner.named_children[-1].type in _REFERRING else None
 
 
 def members_of(body: Node) -> Iterator[Node]:

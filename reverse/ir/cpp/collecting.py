@@ -8,6 +8,7 @@ from dataclasses import field
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.ir.cpp.declarators import variable_name
 from rebsync.reverse.ir.cpp.symbols import (
     AliasSymbol,
     ClassSymbol,
@@ -22,7 +23,6 @@ from rebsync.reverse.syntax.cpp_declarations import (
     CppFunction,
     conversion_function,
     function_of,
-    variable_name,
     with_values,
 )
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of

@@ -19,6 +19,7 @@ from rebsync.reverse.ir.cpp.context import (
     lowers_statement,
     unsupported,
 )
+from rebsync.reverse.ir.cpp.declarators import variable_name
 from rebsync.reverse.ir.cpp.elision import by_value
 from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
 from rebsync.reverse.ir.cpp.names import field_of
@@ -32,7 +33,6 @@ from rebsync.reverse.ir.cpp.objects import (
 )
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.ir.operators import Conversion, Operator
-from rebsync.reverse.syntax.cpp_declarations import variable_name
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 from rebsync.source import Span
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from tree_sitter import Node
 
 from rebsync.reverse.syntax.ancestors import ancestors
+from rebsync.reverse.syntax.cpp_declarations import REFERRING, declared_name
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
 
 
@@ -41,3 +42,12 @@ def inner_declarator(node: Node) -> Node | None:
     """The inner declarator of a reference, which the grammar has in no field."""
     inner = [c for c in named(node) if c.type != "type_qualifier"]
     return inner[-1] if inner else None
+
+
+def variable_name(declarator: Node) -> Node | None:
+    """The name of a variable, also of one that points or refers to functions: `(*f)(int)`."""
+    inner = declarator.child_by_field_name("declarator")
+    if declarator.type != "function_declarator" or inner is None:
+        return declared_name(declarator)
+    is_led = inner.type == "parenthesized_declarator" and inner.named_children
+    return declared_name(inner) if is_led and inner.named_children[-1].type in REFERRING else None

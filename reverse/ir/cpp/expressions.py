@@ -196,7 +196,7 @@ def unary_expression(context: Context, node: Node) -> Value:
     """A sign before an operand."""
     sign, place = context.cpp.operator(node), context.place(node)
     value = lower_value(context, part(node, "argument"))
-    name = "operator!" if sign == "not" else f"operator{sign}"
+    name = f"operator{'!' if sign == 'not' else sign}"
     called = context.world.operator(context, name, [value], place)
     return unary(context, sign, value, place) if called is None else called
 
@@ -251,8 +251,7 @@ def comma(context: Context, node: Node) -> Value:
     """The left operand for what it does, then the right one; or the operator of a class."""
     left = discarded(context, part(node, "left"))
     right = lower_value(context, part(node, "right"))
-    found = context.world.operator(context, "operator,", [left, right], context.place(node))
-    return right if found is None else found
+    return context.world.operator(context, "operator,", [left, right], context.place(node)) or right
 
 
 def discarded(context: Context, node: Node) -> Value:

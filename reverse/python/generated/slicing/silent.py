@@ -192,8 +192,8 @@ def silent_in(
     hidden = hidden_names(code, owner.module)
     looks = looks_of(code, (c.module for c in line), makers, hidden)
     taken |= looks.functions
-    made = {name: value for name, value in made_once(functions) if name not in taken}
-    members = {name: value for name, value in made.items() if not is_of_node(name)}
+    made = ((name, value) for name, value in made_once(functions) if name not in taken)
+    members = {name: value for name, value in made if not is_of_node(name)}
     publishers = {} if PUBLISHER_METHOD in looks.functions else members
     variables = {name: type_ for r in roles for name, (_, type_, _) in r.state.items()}
     shown = {
@@ -203,8 +203,7 @@ def silent_in(
     messages = ToldMessages(types, variables, looks, shown)
     exceptions = ToldExceptions.of(code, form, messages)
     timers = Timers.of(code, handed, looks, exceptions)
-    looks = replace(looks, logging=timers.logging)
-    timers = replace(timers, looks=looks)
+    timers = replace(timers, looks=(looks := replace(looks, logging=timers.logging)))
     asked = Answering.of(code, owner.module, handed, members, looks, exceptions)
     plain = frozenset(n for n, v in members.items() if _is_plain(v, looks))
     made_of = {*(t.replace("/", ".msg.") for t in types.values())}
@@ -226,9 +225,9 @@ def silent_in(
         frozenset(name for r in roles for name in r.describing),
     )
     found = replace(found, texts=found.texts - found.rest)
+    giving = makers | {f"self.{name}" for name in found.describing}
     speaking = found.members | looks.loggers | looks.logging.keys() | found.counters
-    makers |= {f"self.{name}" for name in found.describing}
-    found = replace(found, locals=candidate_locals(code, functions.values(), speaking, makers))
+    found = replace(found, locals=candidate_locals(code, functions.values(), speaking, giving))
     beside = {n for r in roles for n in (*r.shims, *r.ticking)}
     found = _consistent(found, modules, beside)
     timers = found.timers.telling(code, handed, found.holds)
