@@ -275,7 +275,8 @@ def test_without_a_compiler(tmp_path: Path) -> None:
     asked = rebsync("verify", "m.rebeca", "--engine", "compiled", cwd=tmp_path, env=nothing)
     assert asked.status == 2
     assert "RS931" in asked.err
-    options = ("--format", "json", "--max-time", "1s")
+    # a bound of states, as a busy machine leaves nothing of a second before it looks for a compiler
+    options = ("--format", "json", "--max-states", "60000")
     auto = rebsync("verify", "m.rebeca", *options, cwd=tmp_path, env=nothing)
     result = json.loads(auto.out)
     assert (auto.status, result["engine"]) == (4, "interpreted")
