@@ -16,6 +16,7 @@ settings.register_profile("quick", max_examples=30, deadline=None, suppress_heal
 settings.register_profile(
     "few", max_examples=4, deadline=None, derandomize=True, suppress_health_check=_SLOW
 )
+settings.register_profile("fewer", max_examples=18, deadline=None, suppress_health_check=_SLOW)
 settings.register_profile("long", max_examples=1000, deadline=None, suppress_health_check=_SLOW)
 settings.load_profile(os.environ.get("REBSYNC_HYPOTHESIS", "quick"))
 
