@@ -19,6 +19,7 @@ from rebsync.reverse.analysis.python.value_types import (
     OwnType,
     ValueType,
     ValueTypes,
+    copied,
     elements_of,
     pair,
     sequence,
@@ -146,6 +147,9 @@ class GivenTypes:
                 return sequence(None, self.mapped(plain[0], function))
             case "builtins.dict" if not call.arguments:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, NO_TYPES),))
+            case "builtins.dict.fromkeys" if given:
+                values = given[1] if len(given) > 1 else frozenset((OwnType.NONE,))
+                return frozenset((ContainerType(OwnType.MAPPING, elements_of(given[0]), values),))
             case "collections.Counter" if not call.arguments:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, A_NUMBER),))
             case "numpy.zeros" | "numpy.ones" if len(call.arguments) == 1 and given == [A_NUMBER]:
@@ -191,7 +195,7 @@ class GivenTypes:
             case ContainerType() if name in ("pop", "popleft"):
                 return elements_of(frozenset((type_,)))
             case ContainerType() if name == "copy":
-                return frozenset((type_,))
+                return copied(frozenset((type_,)))
             case ContainerType() if name in _NUMBERED:
                 return A_NUMBER
             case LibraryType(of, answers) if answers and name == "call_async":
@@ -219,7 +223,7 @@ class GivenTypes:
             case "most_common":
                 return sequence(_LIST, pair(keys, values))
             case "copy":
-                return frozenset((type_,))
+                return copied(frozenset((type_,)))
             case "get" | "pop" | "setdefault":
                 others = [a.value for a in call.arguments[1:] if not a.stars]
                 defaults = union(self._types.of(value, function) for value in others)
