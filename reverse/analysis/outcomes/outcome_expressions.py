@@ -13,7 +13,7 @@ from rebsync.reverse.analysis.facts import (
     tested,
 )
 from rebsync.reverse.analysis.foreign_values import ForeignValues
-from rebsync.reverse.analysis.held_values import held_by, texts_of
+from rebsync.reverse.analysis.held_values import held_by
 from rebsync.reverse.analysis.numbers.constant_numbers import ConstantNumbers, is_floating
 from rebsync.reverse.analysis.numbers.least_numbers import LeastNumbers
 from rebsync.reverse.analysis.numbers.magnitudes import Magnitudes
@@ -202,7 +202,7 @@ class OutcomeExpressions:
 
     def texts(self, value: e.Expression) -> list[str]:
         """The texts that a value may be; none if that is not known."""
-        return texts_of(self.origins, value, self.function)
+        return self.notes.texts_of(value)
 
     def is_nonzero(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a number is known not to be zero."""

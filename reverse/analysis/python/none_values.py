@@ -11,6 +11,7 @@ from rebsync.reverse.analysis.facts import Facts, Holds, IsThere, names_of, test
 from rebsync.reverse.analysis.held_values import is_of_other, is_own
 from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
+from rebsync.reverse.analysis.python.format_strings import numbers_of, styles_in
 from rebsync.reverse.analysis.python.unpacked_values import UnpackedValues
 from rebsync.reverse.analysis.python.value_types import ContainerType, OwnType
 from rebsync.reverse.analysis.stores import CallResult, Stored, key_of
@@ -66,6 +67,11 @@ class NoneValues:
                 self.check(of, value, facts, "asks None for an attribute")
             case e.Index(of) | e.Binary(Operator.IN | Operator.NOT_IN, _, of):
                 self.check(of, value, facts)
+            case e.Binary(Operator.FLOOR_MODULO, left, e.Build(_, parts)):
+                for text in self._notes.texts_of(left):
+                    for part in numbers_of(text, parts):
+                        if not isinstance(part, e.Spread):
+                            self.check(part, value, facts)
             case e.Binary(operator, left, right) if operator not in _OF_ANYTHING:
                 self.check(left, value, facts)
                 self.check(right, value, facts)
@@ -77,6 +83,16 @@ class NoneValues:
                         self.check(piece.value, value, facts)
             case _:
                 pass
+
+    def filled(self, node: s.Call, text: e.Expression, facts: Facts) -> None:
+        """Notes that `format` puts None into a text in a style that it has not."""
+        given: dict[object, e.Expression] = dict(
+            enumerate(a.value for a in node.arguments if a.name is None)
+        )
+        given |= {a.name: a.value for a in node.arguments if a.name is not None}
+        for piece in {p for each in self._notes.texts_of(text) for p, _ in styles_in(each)}:
+            if piece in given:
+                self.check(given[piece], node, facts)
 
     def given(self, value: e.Expression, facts: Facts) -> ParameterNeed | None:
         """The parameter of the function that a value is, if nothing says that it is not None."""

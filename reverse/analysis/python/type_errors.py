@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from rebsync.reverse.analysis.facts import Facts, stored
-from rebsync.reverse.analysis.held_values import texts_of
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.attribute_errors import AttributeErrors
@@ -139,8 +138,11 @@ class TypeErrors:
         match node.callee:
             case s.ValueCallee(value):
                 self._is_called(node, value, facts)
-            case s.MethodCallee(e.Literal(str() as text), "format"):
-                self._fills(node, text, plain, facts)
+            case s.MethodCallee(of, "format") if texts := self._notes.texts_of(of):
+                for text in texts:
+                    self._fills(node, text, plain, facts)
+            case s.MethodCallee(_, name, _, str() as after):
+                self._attributes.asks_base(node, after, name)
             case s.MethodCallee(receiver, name, _, None):
                 self._attributes.asks(node, receiver, name, facts)
                 self._attributes.takes_nothing(node, receiver, name, facts)
@@ -271,8 +273,6 @@ class TypeErrors:
             case _:
                 return own_type(type_) in taken
 
-    # --- operators -------------------------------------------------------------------------------
-
     def _computes(
         self,
         value: e.Binary,
@@ -302,7 +302,7 @@ class TypeErrors:
             is_times = operator is Operator.MULTIPLY and self.floats.has(right)
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
         if operator is Operator.FLOOR_MODULO and TEXT in kinds[0]:
-            texts = texts_of(self._notes.origins, left, self._notes.function.name)
+            texts = self._notes.texts_of(left)
             wrong |= not texts or any(self._puts(text, right, facts) for text in texts)
         if wrong:
             self._notes.fails(value, _WRONG)
