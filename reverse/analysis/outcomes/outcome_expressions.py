@@ -341,7 +341,7 @@ class OutcomeExpressions:
 
 def _is_whole(value: e.Expression) -> bool:
     """Whether a number that the source has is a whole one, of any type."""
-    return isinstance(value, e.Literal) and value.value == round(value.value)  # type: ignore[arg-type,operator]
+    return isinstance(value, e.Literal) and value.value == round(value.value)  # type: ignore[arg-type]
 
 
 def _as_key(value: e.Index) -> e.Expression:

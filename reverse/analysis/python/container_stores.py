@@ -15,6 +15,7 @@ from rebsync.reverse.analysis.python.type_queries import TypeQueries
 from rebsync.reverse.analysis.python.value_types import (
     ANY_KEY,
     ANY_TYPE,
+    CHANGING,
     NO_TYPES,
     ContainerType,
     OwnType,
@@ -37,7 +38,6 @@ from rebsync.reverse.ir.program import Program
 from rebsync.reverse.ir.walk import Node, walk
 
 _LIST, _QUEUE, _SET, _MAPPING = OwnType.LIST, OwnType.QUEUE, OwnType.SET, OwnType.MAPPING
-_CHANGING = (_LIST, _QUEUE, _SET, _MAPPING)
 # By the name of each method that puts something into its object: what that may be.
 _METHODS = {
     **dict.fromkeys(("append", "extend", "insert"), (_LIST, _QUEUE)),
@@ -69,7 +69,7 @@ class Put:
 
     function: str
     container: e.Expression
-    owns: tuple[OwnType, ...] = _CHANGING
+    owns: tuple[OwnType, ...] = CHANGING
     value: e.Expression | None = None
     key: e.Expression | None = None
     is_all: bool = False
@@ -101,7 +101,7 @@ class ContainerStores:
             for type_ in self._types.of(put.container, put.function):
                 if type_ is None:
                     into |= {(own, own) for own in put.owns}
-                elif isinstance(type_, ContainerType) and type_.own in _CHANGING:
+                elif isinstance(type_, ContainerType) and type_.own in CHANGING:
                     into |= {(site, type_.own) for site in type_.sites}
             for site, own in into:
                 sites = frozenset((site,))
@@ -146,7 +146,7 @@ class ContainerStores:
         if not isinstance(type_, ContainerType):
             return type_
         type_ = inside(type_, lambda types: self._filled(types, held))
-        if type_.own not in _CHANGING:
+        if type_.own not in CHANGING:
             return type_
         for site in (*type_.sites, type_.own):
             more = held.get(frozenset((site,)))
@@ -160,7 +160,7 @@ class ContainerStores:
 def _put(node: Node, function: str) -> Iterator[Put]:
     match node:
         case s.Insert(container, value, key):
-            yield Put(function, container, _CHANGING, value, key)
+            yield Put(function, container, CHANGING, value, key)
         case s.Assign(e.Index(container, e.Slice()), value):
             yield Put(function, container, (_LIST,), value, is_all=True)
         case s.Assign(e.Index(container, index), value):
@@ -181,7 +181,7 @@ def _put(node: Node, function: str) -> Iterator[Put]:
             pass
     match node:
         case s.CompoundAssign(container, operator, value) if operator in _ADDING:
-            yield Put(function, container, _CHANGING, value, is_all=True)
+            yield Put(function, container, CHANGING, value, is_all=True)
         case _:
             pass
 

@@ -115,7 +115,7 @@ class InferredTypes:
                 return NO_TYPES
             case e.Literal(int() | float()) | e.Unary(Operator.NOT):
                 return A_NUMBER
-            case e.Literal(str()) | e.Format():
+            case e.Literal(str()) | e.Format() | e.Global(_, "__name__" | "__file__"):
                 return A_TEXT
             case e.Literal(bytes()):
                 return frozenset((OwnType.BYTES,))

@@ -79,6 +79,7 @@ ANY_TYPE: ValueTypes = frozenset((None,))
 NO_TYPES: ValueTypes = frozenset()
 A_NUMBER: ValueTypes = frozenset((OwnType.NUMBER,))
 A_TEXT: ValueTypes = frozenset((OwnType.TEXT,))
+CHANGING = (OwnType.LIST, OwnType.QUEUE, OwnType.SET, OwnType.MAPPING)  # which are filled later
 ANY_KEY = object()  # of an item whose key the source does not write
 
 
@@ -190,7 +191,11 @@ def sited(types: ValueTypes, name: object, depth: int = 0) -> ValueTypes:
 
 def _sited(type_: ContainerType, name: object, depth: int) -> ContainerType:
     found = inside(type_, lambda types: sited(types, name, depth + 1))
-    return found if found.sites else replace(found, sites=frozenset(((name, depth, found.own),)))
+    return (
+        found
+        if found.sites or found.own not in CHANGING
+        else replace(found, sites=frozenset(((name, depth, found.own),)))
+    )
 
 
 def copied(types: ValueTypes) -> ValueTypes:
