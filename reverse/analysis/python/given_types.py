@@ -29,7 +29,7 @@ from rebsync.reverse.analysis.python.value_types import (
 from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.libraries.attributes import NODE, OF_NUMBERS_ALONE, SYSTEM_TIME, result_of
+from rebsync.reverse.libraries.attributes import NODE, OF_NUMBERS_ALONE, OTHERWISE, result_of
 from rebsync.reverse.libraries.routines import Access
 
 _COMPUTING = OF_NUMBERS_ALONE | {"builtins.divmod"}
@@ -138,6 +138,7 @@ class GivenTypes:
 
     def _of_library(self, call: s.Call, name: str, function: str) -> ValueTypes:
         plain = [a.value for a in call.arguments if a.name is None and not a.stars]
+        named = {a.name for a in call.arguments}
         given = [self._types.of(value, function) for value in plain]
         found = _of_elements(name, given)
         if found is not None:
@@ -147,8 +148,8 @@ class GivenTypes:
                 return sequence(None, self.mapped(plain[0], function))
             case "builtins.dict" if not call.arguments:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, NO_TYPES),))
-            case "rclpy.time.Time" if all(a.name != "clock_type" for a in call.arguments):
-                return frozenset((LibraryType(SYSTEM_TIME),))
+            case _ if name in OTHERWISE and OTHERWISE[name][0] not in named:
+                return frozenset((LibraryType(OTHERWISE[name][1]),))
             case "builtins.dict.fromkeys" if given:
                 values = given[1] if len(given) > 1 else frozenset((OwnType.NONE,))
                 return frozenset((ContainerType(OwnType.MAPPING, elements_of(given[0]), values),))

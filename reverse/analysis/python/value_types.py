@@ -191,11 +191,9 @@ def sited(types: ValueTypes, name: object, depth: int = 0) -> ValueTypes:
 
 def _sited(type_: ContainerType, name: object, depth: int) -> ContainerType:
     found = inside(type_, lambda types: sited(types, name, depth + 1))
-    return (
-        found
-        if found.sites or found.own not in CHANGING
-        else replace(found, sites=frozenset(((name, depth, found.own),)))
-    )
+    if found.sites or found.own not in CHANGING:
+        return found
+    return replace(found, sites=frozenset(((name, depth, found.own),)))
 
 
 def copied(types: ValueTypes) -> ValueTypes:
