@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from rebsync.records import dataclass
 from rebsync.reverse.analysis.element_counts import ElementCounts
+from rebsync.reverse.analysis.held_values import texts_of
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -122,6 +123,10 @@ class ProblemNotes:
     def take(self, problems: Iterable[Problem | Called]) -> None:
         """Notes what was found elsewhere, or what functions run."""
         self.found |= set(problems)
+
+    def texts_of(self, value: e.Expression) -> list[str]:
+        """The texts that a value may be; none if that is not known."""
+        return texts_of(self.origins, value, self.function.name)
 
     def is_parameter(self, value: e.Expression) -> bool:
         """Whether an expression is what the function gets for a parameter."""

@@ -9,7 +9,6 @@ from typing import TypeAlias
 from rebsync.records import dataclass
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.program import Function, Program
 from rebsync.reverse.ir.walk import walk
 
@@ -143,23 +142,6 @@ class Stores:
             yield from found
 
     @cached_property
-    def holding_none(self) -> frozenset[Key]:
-        """The names of containers in which None is stored as an element."""
-        self._see_whole()
-        found = {
-            key for key, stored in self._values.items() if any(_has_none(v) for _, v in stored)
-        }
-        for name in self._seen:
-            for node in walk(self._program.function(name)):
-                match node:
-                    case s.Assign(e.Index(of), value) if _is_none(value):
-                        key = key_of(of, name)
-                        found |= set() if key is None else {key}
-                    case _:
-                        pass
-        return frozenset(found)
-
-    @cached_property
     def absent_by_default(self) -> Mapping[str, frozenset[str]]:
         """By each function the parameters that are None where no argument is for them."""
         self._see_whole()
@@ -239,21 +221,6 @@ def key_of(target: e.Expression, function: str) -> Key | None:
 
 def _is_none(value: object) -> bool:
     return isinstance(value, e.Literal) and value.value is None
-
-
-def _has_none(value: Value) -> bool:
-    """Whether a new container has None as an element."""
-    match value:
-        case e.Build(_, elements):
-            return any(map(_is_none, elements))
-        case e.BuildMapping(_, entries):
-            return any(_is_none(p[1]) for p in entries if not isinstance(p, e.Spread))
-        case e.Binary(Operator.MULTIPLY, of):
-            return _has_none(of)
-        case CallResult(s.Call(_, s.LibraryCallee("builtins.dict.fromkeys"), arguments)):
-            return len(arguments) < 2 or _is_none(arguments[1].value)
-        case _:
-            return False
 
 
 def _stores(function: Function) -> Iterator[tuple[Key, Value]]:

@@ -63,6 +63,15 @@ _OF_VALUES = """
     integer_array_value double_array_value string_array_value"""
 _TIME = "from_sec from_seconds is_zero nsecs secs set canon to_nsec to_sec to_time now"
 
+# A time that is made without a clock: it has no operator with one of a node's clock.
+_SYSTEM_TIME = "rclpy.time.Time of the system"
+# By a class the argument without which it makes an object of another.
+OTHERWISE = {"rclpy.time.Time": ("clock_type", _SYSTEM_TIME)}
+_CLIENT_TIMES = (
+    ("time", "duration"),
+    ("rclpy.time.Time", "rclpy.duration.Duration"),
+    (_SYSTEM_TIME, "rclpy.duration.Duration"),
+)
 _TIMES = ("rospy.Time", "rospy.Duration", "time", "duration")  # the last two in messages
 
 # By the full name of a class the attributes of its objects, beside those of all objects.
@@ -92,7 +101,10 @@ _ATTRIBUTES: Mapping[str, str] = {
     "rclpy.parameter.Parameter": """
         Type from_parameter_msg get_parameter_value name to_parameter_msg type_ value""",
     "rcl_interfaces/ParameterValue": f"type {_OF_VALUES}",
-    "rclpy.time.Time": "clock_type from_msg nanoseconds seconds_nanoseconds to_msg",
+    **dict.fromkeys(
+        ("rclpy.time.Time", _SYSTEM_TIME),
+        "clock_type from_msg nanoseconds seconds_nanoseconds to_msg",
+    ),
     "rclpy.duration.Duration": "from_msg get_c_duration nanoseconds to_msg",
     "rclpy.logging.Logger": """
         contexts debug error fatal get_child get_effective_level info is_enabled_for log
@@ -151,7 +163,9 @@ _GIVES: Mapping[str, str] = {
     **dict.fromkeys((f"{NODE}.get_name", f"{NODE}.get_namespace"), "str"),
     "rclpy.logging.get_logger": "rclpy.logging.Logger",
     "rclpy.clock.Clock.now": "rclpy.time.Time",
-    "rclpy.time.Time.to_msg": "builtin_interfaces/Time",
+    **dict.fromkeys(
+        ("rclpy.time.Time.to_msg", f"{_SYSTEM_TIME}.to_msg"), "builtin_interfaces/Time"
+    ),
     "rclpy.duration.Duration.to_msg": "builtin_interfaces/Duration",
     **dict.fromkeys(("rospy.Time.now", "rospy.get_rostime", "rospy.Time.from_sec"), "rospy.Time"),
     "rospy.Duration.from_sec": "rospy.Duration",
@@ -183,7 +197,7 @@ PARAMETER = "rclpy.parameter.Parameter"
 FLOAT_METHODS = frozenset({"to_sec", "total_seconds", "timestamp", "rospy.get_time"})
 # By the full name of an attribute the class of its value.
 _HOLDS: Mapping[str, str] = {
-    **{f"rclpy.{name}.nanoseconds": "number" for name in ("time.Time", "duration.Duration")},
+    **{f"{of}.nanoseconds": "number" for pair in _CLIENT_TIMES[1:] for of in pair},
     **{f"numpy.{name}": "number" for name in ("pi", "e", "inf", "nan")},
     "sys.argv": "texts",
     **{f"rcl_interfaces/ParameterValue.{name}_value": "number" for name in ("bool", "integer")},
@@ -210,7 +224,6 @@ _HOLDS: Mapping[str, str] = {
 }
 # Those of messages are of the same classes.
 SAME_TIMES = {"rospy.Time": "time", "rospy.Duration": "duration"}
-_CLIENT_TIMES = (("time", "duration"), ("rclpy.time.Time", "rclpy.duration.Duration"))
 TIMES = frozenset({*SAME_TIMES, *(name for pair in _CLIENT_TIMES for name in pair)})
 _SPAN, _MOMENT, _DAY = "datetime.timedelta", "datetime.datetime", "datetime.date"
 # What an operator gives for times, by the classes of its operands.

@@ -16,6 +16,7 @@ FAILURES: Mapping[str, tuple[str, str]] = {
     "has a step of zero": ("", "builtins.ValueError"),
     "shifts by less than zero": ("", "builtins.ValueError"),
     "is too great": ("", "builtins.OverflowError"),
+    "may be a complex number": ("", "builtins.TypeError"),
     "has a style that is none": ("", "builtins.ValueError"),
     "lacks the argument": ("", "builtins.IndexError"),
     "is empty": ("std::bad_optional_access", "builtins.AttributeError"),

@@ -32,6 +32,8 @@ class LibrarySignature:
 
 _TIME = "datetime.datetime"
 _UNITS = "days seconds microseconds milliseconds minutes hours weeks"
+_ROS_TIMES = "rospy.Time genpy.Time rospy.rostime.Time"
+_SPANS = "rospy.Duration genpy.Duration rospy.rostime.Duration"
 # The kinds are said in `analysis/python/library_arguments.py`.
 _FUNCTIONS: tuple[tuple[str, str], ...] = (
     (
@@ -270,12 +272,25 @@ _METHODS: tuple[tuple[str, str], ...] = (
     ("last:any?", "dict.popitem"),
     ("hashable last:any?", "dict.move_to_end"),
 )
+# What constructors of client libraries take: times are not negative.
+_CLIENTS: tuple[tuple[str, str], ...] = (
+    ("secs:number?", _SPANS),
+    ("secs:whole? nsecs:whole?", _SPANS),
+    ("secs:length?", _ROS_TIMES),
+    ("secs:natural? nsecs:natural?", _ROS_TIMES),
+    ("number", "rospy.Duration.from_sec genpy.Duration.from_sec"),
+    ("length", "rospy.Time.from_sec rospy.Time.from_seconds genpy.Time.from_sec"),
+    ("seconds=seconds nanoseconds=number", "rclpy.duration.Duration"),
+    ("seconds=length nanoseconds=length clock_type=any", "rclpy.time.Time"),
+    ("message", "rclpy.duration.Duration.from_msg rclpy.time.Time.from_msg"),
+    ("message clock_type:any", "rclpy.time.Time.from_msg"),
+)
 
 
 @derived
 def _signatures() -> Mapping[str, tuple[LibrarySignature, ...]]:
     found: dict[str, tuple[LibrarySignature, ...]] = {}
-    for text, names in (*_FUNCTIONS, *_METHODS):
+    for text, names in (*_FUNCTIONS, *_METHODS, *_CLIENTS):
         read = _read(text)
         for name in names.split():
             found[name] = (*found.get(name, ()), read)

@@ -83,6 +83,8 @@ class OutcomeCalls:
                 self.expressions.check(receiver, facts)
                 asked = "asks None for an attribute"
                 self.expressions.none.check(receiver, node, facts, asked)
+                if node.callee.name == "format":
+                    self.expressions.none.filled(node, receiver, facts)
                 self._method(node, node.callee, facts)
         for name in made_by(self.origins, node) if self._is_cpp else ():
             self._enters(node, name)

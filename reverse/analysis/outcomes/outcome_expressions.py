@@ -13,7 +13,7 @@ from rebsync.reverse.analysis.facts import (
     tested,
 )
 from rebsync.reverse.analysis.foreign_values import ForeignValues
-from rebsync.reverse.analysis.held_values import held_by, texts_of
+from rebsync.reverse.analysis.held_values import held_by
 from rebsync.reverse.analysis.numbers.constant_numbers import ConstantNumbers, is_floating
 from rebsync.reverse.analysis.numbers.least_numbers import LeastNumbers
 from rebsync.reverse.analysis.numbers.magnitudes import Magnitudes
@@ -26,6 +26,7 @@ from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.python.none_values import NoneValues
 from rebsync.reverse.analysis.python.type_errors import TypeErrors
 from rebsync.reverse.analysis.python.unset_names import UnsetNames
+from rebsync.reverse.analysis.python.value_types import OwnType
 from rebsync.reverse.analysis.stores import key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
@@ -154,7 +155,7 @@ class OutcomeExpressions:
             self.notes.fails(value, "divides the least number by -1")
 
     def _computes(self, value: e.Binary, facts: Facts) -> None:
-        """Shifts and powers: by a negative number, or greater than any float."""
+        """Shifts and powers: by a negative number, greater than any float, complex ones; None."""
         match value:
             case e.Binary(Operator.SHIFT_LEFT | Operator.SHIFT_RIGHT, _, right):
                 if not self.is_positive(right, facts):
@@ -166,6 +167,12 @@ class OutcomeExpressions:
                 is_written = isinstance(right, e.Literal)
                 if not self._is_bounded(right, facts) or (is_written and not is_finite(value)):
                     self.notes.fails(value, "is too great")
+                is_root = self.types.floats.has(right) and not _is_whole(right)
+                if is_root and not self.is_positive(left, facts):
+                    self.notes.fails(value, "may be a complex number")
+            case e.Binary(Operator.IN | Operator.NOT_IN, left, right):
+                if OwnType.TEXT in self.types.kinds.of(right, facts):
+                    self.none.check(left, value, facts)
             case _:
                 pass
 
@@ -195,7 +202,7 @@ class OutcomeExpressions:
 
     def texts(self, value: e.Expression) -> list[str]:
         """The texts that a value may be; none if that is not known."""
-        return texts_of(self.origins, value, self.function)
+        return self.notes.texts_of(value)
 
     def is_nonzero(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a number is known not to be zero."""
@@ -330,6 +337,11 @@ class OutcomeExpressions:
 
     def _is_of(self, kinds: frozenset[Origin], *names: str) -> bool:
         return bool(kinds) and kinds <= {LibraryOrigin(name, True) for name in names}
+
+
+def _is_whole(value: e.Expression) -> bool:
+    """Whether a number that the source has is a whole one, of any type."""
+    return isinstance(value, e.Literal) and value.value == round(value.value)  # type: ignore[arg-type]
 
 
 def _as_key(value: e.Index) -> e.Expression:

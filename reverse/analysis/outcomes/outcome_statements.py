@@ -152,6 +152,7 @@ class OutcomeWalk:
             case s.Insert(container, value, key):
                 self.value(value, facts)
                 self.value(key, facts)
+                self._expressions.types.inserts(node, facts)
                 return without(facts, container)
             case s.Delete(e.Index(container)):
                 self.value(node.target, facts)

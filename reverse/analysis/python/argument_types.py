@@ -161,7 +161,8 @@ class ArgumentTypes:
         target = getattr(node, "target", None)
         yield from [] if target is None else [target]
         if isinstance(node, s.Call):
-            yield from (a.value for a in node.arguments if a.name == "key")
+            if self._orders(node):
+                yield from (a.value for a in node.arguments if a.name == "key")
             yield from (callback for _, callback in _other_callbacks(node))
             for kind in (Kind.SUBSCRIPTION, Kind.SERVICE):
                 yield from (callback for _, callback in _asked(node, kind))
@@ -252,15 +253,25 @@ class ArgumentTypes:
                     result = CallResult(s.Call(None, s.FunctionCallee(called), ()))
                     yield called, [[element, result, *(a.value for a in first)], [element]]
                 return
-            case s.Call(_, s.LibraryCallee(), (container, *more)):
+            case s.Call(_, s.LibraryCallee(), (container, *more)) if self._orders(call):
                 values, elements = [a.value for a in more if a.name == "key"], container.value
-            case s.Call(_, s.MethodCallee(elements, "sort"), named):
+            case s.Call(_, s.MethodCallee(elements, "sort"), named) if self._orders(call):
                 values = [a.value for a in named if a.name == "key"]
             case _:
                 return
         for value in values:
             for called in self._graph.value(value, around).functions:
                 yield called, [[ElementOf(elements)]]
+
+    def _orders(self, call: s.Call) -> bool:
+        """Whether what a call gets as its `key` is called with elements, by Python's own."""
+        match call.callee:
+            case s.LibraryCallee(name):
+                return self._origins.table.is_of_language(name)
+            case s.MethodCallee(_, name):
+                return name == "sort" and not self._origins.methods_of_any(name)
+            case _:
+                return False
 
     @cached_property
     def _subscribed(self) -> dict[tuple[str, str], list[str]]:

@@ -67,6 +67,22 @@ class AttributeErrors:
         if lacks or self._is_of_none(of, name, facts) or (None in types and self._is_open(of)):
             self._notes.fails(node, _LACKS)
 
+    def asks_base(self, node: s.Call, after: str, name: str) -> None:
+        """Notes that no class behind another has a method; a mixin is none of its own."""
+        graph = self._notes.origins.graph
+        below = sorted(graph.subclasses.get(after, set()) - {after}) or [after]
+        lines = [[each, *graph.bases(each)] for each in below]
+        if any(self._lacks_behind(x[x.index(after) + 1 :], name) for x in lines if after in x):
+            self._notes.fails(node, _LACKS)
+
+    def _lacks_behind(self, line: list[str], name: str) -> bool:
+        """Whether none of some classes has a method, as far as these are known."""
+        known = [self._program.classes[c] for c in line if c in self._program.classes]
+        is_own = any(name == n for c in known for n, _ in c.methods) or name in _OF_OBJECTS
+        is_open = any(None in c.bases for c in known)
+        others = [attributes_of(c) or (name,) for c in line if c not in self._program.classes]
+        return not is_own and not is_open and all(name not in each for each in others)
+
     def _is_open(self, of: e.Expression) -> bool:
         """Whether nothing is known of a value: not which library, or class, it is of."""
         name = self._notes.function.name

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.held_values import held_by
@@ -74,7 +74,7 @@ class ElementErrors:
             case s.LibraryCallee("builtins.sum"):
                 # It begins with 0, or with what it gets.
                 first = given[1] if len(given) > 1 else A_NUMBER
-                self._fits(node, _inside(given), {OwnType.NUMBER} if first == A_NUMBER else None)
+                self._fits(node, _inside(given), set(map(own_type, first)))
             case s.MethodCallee(receiver, "join") if self._kinds.types(receiver, facts) == A_TEXT:
                 self._fits(node, _inside(given), {OwnType.TEXT})
             case s.LibraryCallee(name) if name in _SETS:
@@ -113,7 +113,14 @@ class ElementErrors:
                 return
         self._hashes(value, union(self._kinds.types(key, facts) for key in keys))
 
-    def is_key(self, node: e.Expression, key: e.Expression, facts: Facts) -> None:
+    def inserted(self, node: s.Insert, facts: Facts) -> None:
+        """Notes that an element that is put into a set, or its key in a mapping, has no hash."""
+        is_set = OwnType.SET in self._kinds.of(node.container, facts)
+        key = node.value if node.key is None and is_set else node.key
+        if key is not None:
+            self.is_key(node, key, facts)
+
+    def is_key(self, node: s.Statement | e.Expression, key: e.Expression, facts: Facts) -> None:
         """Notes that the key of a mapping may have no hash."""
         self._hashes(node, self._kinds.types(key, facts))
 
@@ -132,9 +139,11 @@ class ElementErrors:
         if not is_hashable(self._kinds.known(types), self._decorators.has_hash):
             self._notes.fails(node, _WRONG)
 
-    def _fits(self, node: s.Statement, types: ValueTypes, taken: set[OwnType] | None) -> None:
+    def _fits(
+        self, node: s.Statement, types: ValueTypes, taken: Collection[OwnType | None]
+    ) -> None:
         own = frozenset(map(own_type, self._kinds.known(types)))
-        if taken is not None and own - taken:
+        if not own.issubset(taken) or None in own:
             self._notes.fails(node, _WRONG)
 
 

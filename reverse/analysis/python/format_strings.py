@@ -29,7 +29,9 @@ def has_pieces(text: str, by_place: int, names: Collection[str]) -> bool:
 
 def _fields(text: str) -> Iterator[str]:
     """The names of what is to be filled in, those within styles included."""
-    for _, field, style, _ in Formatter().parse(text):
+    for _, field, style, conversion in Formatter().parse(text):
+        if conversion not in (None, *AS_TEXT):
+            raise ValueError(conversion)
         if field is not None:
             yield field
             yield from _fields(style or "")
@@ -38,20 +40,20 @@ def _fields(text: str) -> Iterator[str]:
 OF_NUMBERS = frozenset("bcdeEfFgGnoxX%")  # letters of styles that only numbers have
 
 
-def numbers_in(text: str) -> Iterator[tuple[int | str, str]]:
-    """What a text has to be filled in with as a number, with the letter: by place, or by name."""
+def styles_in(text: str) -> Iterator[tuple[int | str, str]]:
+    """The styles in which a text has to be filled in, with the pieces: by place, or by name."""
     try:
         pieces = list(Formatter().parse(text))
     except ValueError:
         return
     for at, (_, field, style, conversion) in enumerate(p for p in pieces if p[1] is not None):
-        if style and style[-1] in OF_NUMBERS and "{" not in style and not conversion:
+        if style and "{" not in style and not conversion:
             if not field:
-                yield at, style[-1]
+                yield at, style
             elif field.isidentifier():
-                yield field, style[-1]
+                yield field, style
             elif field.isdecimal():
-                yield int(field), style[-1]
+                yield int(field), style
 
 
 AS_TEXT = frozenset("sra")  # letters of conversions that take anything

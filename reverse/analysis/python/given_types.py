@@ -19,6 +19,7 @@ from rebsync.reverse.analysis.python.value_types import (
     OwnType,
     ValueType,
     ValueTypes,
+    copied,
     elements_of,
     pair,
     sequence,
@@ -28,7 +29,7 @@ from rebsync.reverse.analysis.python.value_types import (
 from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.libraries.attributes import NODE, OF_NUMBERS_ALONE, result_of
+from rebsync.reverse.libraries.attributes import NODE, OF_NUMBERS_ALONE, OTHERWISE, result_of
 from rebsync.reverse.libraries.routines import Access
 
 _COMPUTING = OF_NUMBERS_ALONE | {"builtins.divmod"}
@@ -137,6 +138,7 @@ class GivenTypes:
 
     def _of_library(self, call: s.Call, name: str, function: str) -> ValueTypes:
         plain = [a.value for a in call.arguments if a.name is None and not a.stars]
+        named = {a.name for a in call.arguments}
         given = [self._types.of(value, function) for value in plain]
         found = _of_elements(name, given)
         if found is not None:
@@ -146,6 +148,11 @@ class GivenTypes:
                 return sequence(None, self.mapped(plain[0], function))
             case "builtins.dict" if not call.arguments:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, NO_TYPES),))
+            case _ if name in OTHERWISE and OTHERWISE[name][0] not in named:
+                return frozenset((LibraryType(OTHERWISE[name][1]),))
+            case "builtins.dict.fromkeys" if given:
+                values = given[1] if len(given) > 1 else frozenset((OwnType.NONE,))
+                return frozenset((ContainerType(OwnType.MAPPING, elements_of(given[0]), values),))
             case "collections.Counter" if not call.arguments:
                 return frozenset((ContainerType(OwnType.MAPPING, NO_TYPES, A_NUMBER),))
             case "numpy.zeros" | "numpy.ones" if len(call.arguments) == 1 and given == [A_NUMBER]:
@@ -191,7 +198,7 @@ class GivenTypes:
             case ContainerType() if name in ("pop", "popleft"):
                 return elements_of(frozenset((type_,)))
             case ContainerType() if name == "copy":
-                return frozenset((type_,))
+                return copied(frozenset((type_,)))
             case ContainerType() if name in _NUMBERED:
                 return A_NUMBER
             case LibraryType(of, answers) if answers and name == "call_async":
@@ -219,7 +226,7 @@ class GivenTypes:
             case "most_common":
                 return sequence(_LIST, pair(keys, values))
             case "copy":
-                return frozenset((type_,))
+                return copied(frozenset((type_,)))
             case "get" | "pop" | "setdefault":
                 others = [a.value for a in call.arguments[1:] if not a.stars]
                 defaults = union(self._types.of(value, function) for value in others)

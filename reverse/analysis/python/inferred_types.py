@@ -6,8 +6,9 @@ drawn from them, given for parameters and given back. What comes from elsewhere 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import replace
+from enum import Enum
 from typing import TypeAlias
 from weakref import proxy
 
@@ -17,12 +18,13 @@ from rebsync.reverse.analysis.held_values import is_of_other_class
 from rebsync.reverse.analysis.origins import Origins
 from rebsync.reverse.analysis.python.argument_types import ArgumentTypes
 from rebsync.reverse.analysis.python.attribute_types import AttributeTypes
-from rebsync.reverse.analysis.python.container_stores import ContainerStores, Put
+from rebsync.reverse.analysis.python.container_stores import ContainerStores
 from rebsync.reverse.analysis.python.given_types import GivenTypes
 from rebsync.reverse.analysis.python.operator_types import given_by
 from rebsync.reverse.analysis.python.value_types import (
     A_NUMBER,
     A_TEXT,
+    ANY_KEY,
     ANY_TYPE,
     NO_TYPES,
     ContainerType,
@@ -32,6 +34,7 @@ from rebsync.reverse.analysis.python.value_types import (
     ValueType,
     ValueTypes,
     at_index,
+    copied,
     elements_of,
     joined_items,
     limited,
@@ -41,6 +44,7 @@ from rebsync.reverse.analysis.python.value_types import (
     pair,
     sequence,
     union,
+    written,
 )
 from rebsync.reverse.analysis.stores import (
     ANY_VALUE,
@@ -71,7 +75,6 @@ _CONTAINERS = {
     t.ContainerKind.MAPPING: OwnType.MAPPING,
 }
 _ADDED = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.QUEUE})
-_CHANGING = frozenset({OwnType.LIST, OwnType.SET, OwnType.MAPPING, OwnType.QUEUE})
 _DEEPEST = 3  # containers in one another; what is deeper is of any type
 
 
@@ -83,7 +86,13 @@ class OwnMember:
     name: str
 
 
-Node: TypeAlias = Key | OwnMember | str  # a name, or the function whose result is meant
+class _Contents(Enum):
+    """What is put into any container."""
+
+    ALL = "all"
+
+
+Node: TypeAlias = Key | OwnMember | str | _Contents  # a name, or a function for its result
 
 
 class InferredTypes:
@@ -93,8 +102,8 @@ class InferredTypes:
         self._origins = origins
         self._graph = origins.graph
         self._arguments = arguments
-        self._containers = ContainerStores(origins.graph)
         own = proxy(self)  # they are parts of this: no circle keeps the trees of a program
+        self._containers = ContainerStores(origins.graph.program, own, _DEEPEST)
         self.attributes = AttributeTypes(origins, own)
         self._calls = GivenTypes(origins, own, self.attributes, arguments)
         self._rounds = Rounds[Node, ValueTypes](self._found, NO_TYPES)
@@ -106,7 +115,7 @@ class InferredTypes:
                 return NO_TYPES
             case e.Literal(int() | float()) | e.Unary(Operator.NOT):
                 return A_NUMBER
-            case e.Literal(str()) | e.Format():
+            case e.Literal(str()) | e.Format() | e.Global(_, "__name__" | "__file__"):
                 return A_TEXT
             case e.Literal(bytes()):
                 return frozenset((OwnType.BYTES,))
@@ -124,7 +133,7 @@ class InferredTypes:
             case e.Unary(_, of):
                 return A_NUMBER if self.of(of, function) == A_NUMBER else ANY_TYPE
             case e.Index(of, e.Slice()):
-                return self.of(of, function)
+                return copied(self.of(of, function))
             case e.Index(of, index):
                 at = index.value if isinstance(index, e.Literal) else None
                 return at_index(self.of(of, function), at)
@@ -152,8 +161,8 @@ class InferredTypes:
     ) -> ValueTypes:
         values = list(elements)
         if own is OwnType.TUPLE and not any(isinstance(v, e.Spread) for v in values):
-            return pair(*(self._element(v, function) for v in values))
-        return sequence(own, *(self._element(v, function) for v in values))
+            return pair(*(self.element(v, function) for v in values))
+        return sequence(own, *(self.element(v, function) for v in values))
 
     def _mapped(
         self, entries: Iterable[tuple[e.Expression, e.Expression] | e.Spread], function: str
@@ -163,13 +172,15 @@ class InferredTypes:
         for entry in entries:
             if isinstance(entry, e.Spread):
                 keys, values = keys | ANY_TYPE, values | ANY_TYPE
+                items = joined_items(items, [(ANY_KEY, ANY_TYPE)])
                 continue
-            found = self._element(entry[1], function)
-            keys, values = keys | self._element(entry[0], function), values | found
+            found = self.element(entry[1], function)
+            keys, values = keys | self.element(entry[0], function), values | found
             items = joined_items(items, written(entry[0], found))
         return frozenset((ContainerType(OwnType.MAPPING, keys, values, None, items),))
 
-    def _element(self, value: e.Expression | e.Spread, function: str) -> ValueTypes:
+    def element(self, value: e.Expression | e.Spread, function: str) -> ValueTypes:
+        """The types of what stands in a container, None among them."""
         match value:
             case e.Spread(of):
                 return elements_of(self.of(of, function))
@@ -179,29 +190,12 @@ class InferredTypes:
                 return self.of(value, function)
 
     def with_puts(self, key: Key, types: ValueTypes) -> ValueTypes:
-        """The types of a container's name with what is put into it under that name."""
-        puts = self._containers.puts(key)
-        if not puts:
-            return types
-        return frozenset(self._filled(type_, puts) for type_ in types)
+        """The types of what is stored under a name, with what is put into that under any."""
+        return self._containers.filled(key, types)
 
-    def _filled(self, type_: ValueType | None, puts: list[Put]) -> ValueType | None:
-        if not (isinstance(type_, ContainerType) and type_.own in _CHANGING):
-            return type_
-        elements, values, items = type_.elements, type_.values, type_.items
-        for put in puts:
-            found = self._element(put.value, put.function)
-            if put.is_all:
-                elements |= elements_of(found)
-            elif put.key is None:
-                elements |= found
-            elif type_.own is OwnType.MAPPING:
-                elements |= self._element(put.key, put.function)
-                values |= found
-                items = joined_items(items, written(put.key, found))
-            else:
-                elements |= found
-        return replace(type_, elements=elements, values=values, items=items)
+    def contents(self) -> ValueTypes:
+        """What is put into containers, each time as one of its site."""
+        return self._rounds.of(_Contents.ALL)
 
     # --- names -----------------------------------------------------------------------------------
 
@@ -212,6 +206,8 @@ class InferredTypes:
     def _found(self, node: Node, before: ValueTypes) -> ValueTypes:
         """The types of what is stored under a name, or a function gives, of a bounded depth."""
         match node:
+            case _Contents():
+                return self._containers.contents(before)
             case str():
                 found = self._result(node)
             case OwnMember(owner, name):
@@ -230,9 +226,8 @@ class InferredTypes:
             functions = {function for function, _ in sources}
             others = {f for f in functions if is_of_other_class(self._graph, owner, key, f)}
             sources = [each for each in sources if each[0] not in others]
-        if not sources:
-            return self.parameter(key) or ANY_TYPE
-        return self.with_puts(key, union(map(self.of_stored, sources)) | self.parameter(key))
+        found = union(map(self.of_stored, sources)) | self.parameter(key)
+        return self.with_puts(key, found if sources else found or ANY_TYPE)
 
     def sources(self, key: Key) -> list[Source]:
         """All that is stored under a name, but for what a function gets for a parameter."""
@@ -301,19 +296,13 @@ class InferredTypes:
         body = self._graph.program.function(name)
         if body.kind is FunctionKind.GENERATOR:
             given = [n for n in walk(body) if isinstance(n, s.Yield)]
-            found = (self._element(n.value, name) for n in given if n.value is not None)
+            found = (self.element(n.value, name) for n in given if n.value is not None)
             has_inner = any(n.delegates for n in given)
             return sequence(None, union(found) if not has_inner else ANY_TYPE)
         if body.kind is not FunctionKind.FUNCTION:
             return ANY_TYPE
         values = (n.value for n in walk(body) if isinstance(n, s.Return))
         return union(self.of(value, name) for value in values if value is not None)
-
-
-def written(key: e.Expression, types: ValueTypes) -> Iterator[tuple[object, ValueTypes]]:
-    """An item of a mapping, if the source writes its key."""
-    if isinstance(key, e.Literal):
-        yield key.value, types
 
 
 def computed(operator: Operator, left: ValueTypes, right: ValueTypes) -> ValueTypes:
@@ -330,7 +319,7 @@ def computed(operator: Operator, left: ValueTypes, right: ValueTypes) -> ValueTy
         return A_NUMBER
     kinds = frozenset(map(own_type, left))
     if operator is Operator.ADD and kinds == frozenset(map(own_type, right)) and kinds <= _ADDED:
-        return left | right
+        return copied(left | right)
     if operator is Operator.FLOOR_MODULO and left == A_TEXT:
         return left
     if operator is Operator.MULTIPLY and right == A_NUMBER and kinds <= _ADDED:
@@ -339,4 +328,6 @@ def computed(operator: Operator, left: ValueTypes, right: ValueTypes) -> ValueTy
 
 
 def _repeated(type_: ValueType | None) -> ValueType | None:
-    return replace(type_, parts=None) if isinstance(type_, ContainerType) else type_
+    return (
+        replace(type_, parts=None, sites=frozenset()) if isinstance(type_, ContainerType) else type_
+    )

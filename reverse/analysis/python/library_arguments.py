@@ -13,7 +13,13 @@ from typing import TYPE_CHECKING, TypeAlias
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.held_values import held_by
 from rebsync.reverse.analysis.python.float_numbers import FloatNumbers
-from rebsync.reverse.analysis.python.operator_types import ITERABLE, SEQUENCES, SIZED, is_hashable
+from rebsync.reverse.analysis.python.operator_types import (
+    ITERABLE,
+    SEQUENCES,
+    SIZED,
+    are_ordered,
+    is_hashable,
+)
 from rebsync.reverse.analysis.python.plain_values import is_copied, is_written
 from rebsync.reverse.analysis.python.value_types import (
     ContainerType,
@@ -31,6 +37,7 @@ from rebsync.reverse.analysis.stores import CallResult
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.calls import Callee
+from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.libraries.python_signatures import LibrarySignature, signatures
 from rebsync.reverse.libraries.routines import Language
 
@@ -42,12 +49,14 @@ _Test: TypeAlias = Callable[[e.Expression, str, Facts], bool]
 _REFUSED = "gets other arguments than it takes"
 _WRONG = "is of another type"
 _BEYOND = "may refuse what it gets"
+_LONGEST = 2**63 / 10**9  # s, of what has nanoseconds
 _NUMBER, _TEXT = OwnType.NUMBER, OwnType.TEXT
 # The types that a kind has; those that are missing here have none of Python's own.
 _OWN: Mapping[str, Collection[OwnType]] = {
-    **dict.fromkeys(("number", "whole", "length", "share"), (_NUMBER,)),
+    **dict.fromkeys(("number", "whole", "length", "natural", "seconds", "share"), (_NUMBER,)),
     **dict.fromkeys(("text", "separator", "letter", "pattern", "replacement"), (_TEXT,)),
     "bytes": (OwnType.BYTES,),
+    "message": (OwnType.MESSAGE,),
     "list": (OwnType.LIST,),
     **dict.fromkeys(("tuple", "texts_of_tuple"), (OwnType.TUPLE,)),
     "mapping": (OwnType.MAPPING,),
@@ -128,7 +137,8 @@ class LibraryArguments:
         match callee:
             case s.LibraryCallee(name, None):
                 is_own = self._notes.table.is_of_language(name)
-                return [name] if is_own and self._has_end(name) else []
+                is_known = self._has_end(name) if is_own else bool(signatures(name))
+                return [name] if is_known else []
             case s.MethodCallee(receiver, name, None, None):
                 classes = map(_class_of, self._kinds.types(receiver, facts))
                 return sorted(f"{each}.{name}" for each in set(classes) if each)
@@ -164,7 +174,7 @@ class LibraryArguments:
                 return is_written(types, is_sorted=kind == "orderly")
             case "shallow" | "deep":
                 return is_copied(types, self._is_copied_object, is_deep=kind == "deep")
-            case "whole" if self._floats.has(value):
+            case "whole" | "natural" if self._floats.has(value):
                 return False
         return all(self._is_type(type_, kind) for type_ in types)
 
@@ -212,7 +222,9 @@ class LibraryArguments:
             return False
         texts = self._expressions.texts(value)
         match kind:
-            case "length" | "share":
+            case "seconds" if isinstance(value, e.Literal):
+                return isinstance(value.value, int | float) and abs(value.value) < _LONGEST
+            case "length" | "natural" | "share":
                 return self._expressions.is_positive(value, facts) or self._is_given(value)
             case "separator":
                 return bool(texts) and all(texts)
@@ -272,8 +284,12 @@ class LibraryArguments:
         return any(
             each.required <= len(types)
             and all(self._has_kind(of, each.kind(at)) for at, of in enumerate(known))
+            and ("value" not in each.places or are_ordered(union(known), self._has_order))
             for each in signatures(name)
         )
+
+    def _has_order(self, name: str) -> bool:
+        return not self._objects.class_lacks(name, Operator.LESS)
 
     def _has_kind(self, types: ValueTypes, kinds: str) -> bool:
         """Whether values of some types are of one of the kinds that an argument may be of."""

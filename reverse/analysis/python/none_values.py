@@ -11,7 +11,9 @@ from rebsync.reverse.analysis.facts import Facts, Holds, IsThere, names_of, test
 from rebsync.reverse.analysis.held_values import is_of_other, is_own
 from rebsync.reverse.analysis.origins import LibraryOrigin
 from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
+from rebsync.reverse.analysis.python.format_strings import numbers_of, styles_in
 from rebsync.reverse.analysis.python.unpacked_values import UnpackedValues
+from rebsync.reverse.analysis.python.value_types import ContainerType, OwnType
 from rebsync.reverse.analysis.stores import CallResult, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -27,6 +29,7 @@ _OF_ANYTHING = frozenset(
 )
 _OF_NUMBERS = (Operator.NEGATE, Operator.PLUS, Operator.INVERT)
 _DEEPEST = 3
+_DRAWING = frozenset({"get", "pop", "popleft", "setdefault"})  # methods that give an element
 _FIRST = frozenset({FunctionKind.CONSTRUCTOR, FunctionKind.CLASS, FunctionKind.MODULE})
 
 
@@ -64,6 +67,11 @@ class NoneValues:
                 self.check(of, value, facts, "asks None for an attribute")
             case e.Index(of) | e.Binary(Operator.IN | Operator.NOT_IN, _, of):
                 self.check(of, value, facts)
+            case e.Binary(Operator.FLOOR_MODULO, left, e.Build(_, parts)):
+                for text in self._notes.texts_of(left):
+                    for part in numbers_of(text, parts):
+                        if not isinstance(part, e.Spread):
+                            self.check(part, value, facts)
             case e.Binary(operator, left, right) if operator not in _OF_ANYTHING:
                 self.check(left, value, facts)
                 self.check(right, value, facts)
@@ -75,6 +83,16 @@ class NoneValues:
                         self.check(piece.value, value, facts)
             case _:
                 pass
+
+    def filled(self, node: s.Call, text: e.Expression, facts: Facts) -> None:
+        """Notes that `format` puts None into a text in a style that it has not."""
+        given: dict[object, e.Expression] = dict(
+            enumerate(a.value for a in node.arguments if a.name is None)
+        )
+        given |= {a.name: a.value for a in node.arguments if a.name is not None}
+        for piece in {p for each in self._notes.texts_of(text) for p, _ in styles_in(each)}:
+            if piece in given:
+                self.check(given[piece], node, facts)
 
     def given(self, value: e.Expression, facts: Facts) -> ParameterNeed | None:
         """The parameter of the function that a value is, if nothing says that it is not None."""
@@ -88,10 +106,11 @@ class NoneValues:
         """Whether a parameter is None where no argument is for it."""
         return parameter in self._graph.stores.absent_by_default.get(function, ())
 
-    def has_none(self, container: e.Expression) -> bool:
-        """Whether None may be stored in a container as an element."""
-        key = key_of(container, self._name)
-        return key is not None and key in self._graph.stores.holding_none
+    def has_none(self, container: e.Expression, function: str = "") -> bool:
+        """Whether None may be stored in a container of a function as an element."""
+        types = self._notes.counts.rules.types.of(container, function or self._name)
+        own = [each for each in types if isinstance(each, ContainerType)]
+        return any(OwnType.NONE in each.elements | each.values for each in own)
 
     def may_be(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a value may be None."""
@@ -200,6 +219,8 @@ class NoneValues:
                 return self._is_nothing((function, other), depth)
             case CallResult(call):
                 return self._gives_nothing(call, function, depth)
+            case e.Index(of):
+                return self.has_none(of, function)
             case e.Temporary() | e.Local() if depth < _DEEPEST:
                 key = key_of(value, function)
                 found = [*(self._graph.stores.of(key) if key is not None else ())]
@@ -215,6 +236,10 @@ class NoneValues:
                 return len(call.arguments) < 2 or not name.endswith("get")
             case s.MethodCallee(receiver, "get") if len(call.arguments) == 1:
                 return self._origins.of(receiver, function) == {LibraryOrigin("dict", True)}
+            case s.MethodCallee(receiver, name) if name in _DRAWING and self.has_none(
+                receiver, function
+            ):
+                return True
             case s.MethodCallee(receiver, name) if self._may_give_none(receiver, name, function):
                 return True
             case callee:

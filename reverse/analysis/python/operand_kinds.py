@@ -20,6 +20,7 @@ from rebsync.reverse.analysis.python.value_types import (
     A_NUMBER,
     ANY_TYPE,
     NO_TYPES,
+    ContainerType,
     InstanceType,
     LibraryType,
     OwnType,
@@ -76,10 +77,12 @@ class OperandKinds:
         known = [fact.types for fact in facts if isinstance(fact, IsOf) and fact.value == value]
         if isinstance(value, e.Local) and value.name in self._notes.function.captured:
             known = []  # functions within store there as well
+        key = key_of(value, self._name)
+        if key is None:  # what stands in a container may have been changed under another name
+            known = [k for k in known if not any(isinstance(each, ContainerType) for each in k)]
         if known:
             told = sorted((types for types in known if None not in types), key=len)
             types = told[0] if told else self._declared(value) or ANY_TYPE
-            key = key_of(value, self._name)
             return types if key is None else self._types.with_puts(key, types)
         if declared := self._declared(value):
             return declared
@@ -190,10 +193,8 @@ class OperandKinds:
             kinds = {n: self._graph.program.function(n).kind for n, _ in found}
             kinds.pop(self._name, None)
             found = [s for s in found if kinds.get(s[0]) not in _FIRST]
-        given = self._types.parameter(key)
-        if not found:
-            return given or ANY_TYPE
-        return self._types.with_puts(key, union(map(self._types.of_stored, found)) | given)
+        types = union(map(self._types.of_stored, found)) | self._types.parameter(key)
+        return self._types.with_puts(key, types if found else types or ANY_TYPE)
 
     @cached_property
     def _tested(self) -> frozenset[str]:

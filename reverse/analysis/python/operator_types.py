@@ -49,7 +49,7 @@ def takes(operator: Operator, left: OwnType | None, right: OwnType | None) -> bo
         case Operator.MULTIPLY:
             return {left, right} in [{_NUMBER, each} for each in _ADDED]
         case Operator.FLOOR_MODULO:
-            return left in (OwnType.TEXT, OwnType.BYTES)
+            return left is OwnType.TEXT
         case _ if operator in ORDERED:
             return (left is right and left not in _WITHOUT_ORDER) or {left, right} <= _SETS
         case _ if operator in _OF_SETS:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from rebsync.reverse.analysis.facts import Facts, stored
-from rebsync.reverse.analysis.held_values import texts_of
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.attribute_errors import AttributeErrors
@@ -20,9 +19,9 @@ from rebsync.reverse.analysis.python.format_strings import (
     OF_NUMBERS,
     conversions,
     names_in,
-    numbers_in,
     numbers_of,
     refuses,
+    styles_in,
     takes_texts,
 )
 from rebsync.reverse.analysis.python.log_arguments import LogArguments
@@ -80,7 +79,7 @@ class TypeErrors:
         self._elements = ElementErrors(notes, self.kinds)
         self._messages = MessageErrors(notes, self.kinds)
         self._logs = LogArguments(notes, self.kinds)
-        self._floats = FloatNumbers(notes)
+        self.floats = FloatNumbers(notes)
         self._objects = notes.counts.rules.objects
         self._is_python = notes.table.language is Language.PYTHON
 
@@ -109,7 +108,7 @@ class TypeErrors:
             case e.Unary(Operator.NEGATE | Operator.PLUS | Operator.INVERT as operator, of):
                 self._answers(value, of, operator)
                 self._needs(value, of, {NUMBER}, facts)
-                if operator is Operator.INVERT and self._floats.has(of):
+                if operator is Operator.INVERT and self.floats.has(of):
                     self._notes.fails(value, _WRONG)
             case e.Index(of, index):
                 self._at(value, of, index, facts)
@@ -139,8 +138,11 @@ class TypeErrors:
         match node.callee:
             case s.ValueCallee(value):
                 self._is_called(node, value, facts)
-            case s.MethodCallee(e.Literal(str() as text), "format"):
-                self._fills(node, text, plain, facts)
+            case s.MethodCallee(of, "format") if texts := self._notes.texts_of(of):
+                for text in texts:
+                    self._fills(node, text, plain, facts)
+            case s.MethodCallee(_, name, _, str() as after):
+                self._attributes.asks_base(node, after, name)
             case s.MethodCallee(receiver, name, _, None):
                 self._attributes.asks(node, receiver, name, facts)
                 self._attributes.takes_nothing(node, receiver, name, facts)
@@ -187,14 +189,12 @@ class TypeErrors:
                 return False
 
     def _fills(self, node: s.Call, text: str, plain: list[e.Expression], facts: Facts) -> None:
-        """Values that `format` puts into a text as numbers."""
+        """Values that `format` puts into a text in some style, which None has not."""
         given: dict[int | str | None, e.Expression] = dict(enumerate(plain))
         given |= {a.name: a.value for a in node.arguments if a.name is not None}
-        for piece, letter in numbers_in(text):
+        for piece, style in styles_in(text):
             if piece in given:
-                self._needs(node, given[piece], {NUMBER}, facts)
-                if letter in _OF_WHOLE and self._floats.has(given[piece]):
-                    self._notes.fails(node, _WRONG)
+                self._styled(node, given[piece], e.Literal(style), facts)
 
     def iterates(self, node: s.Statement, value: e.Expression, facts: Facts) -> None:
         """Notes that something is gone through that has no elements."""
@@ -241,6 +241,11 @@ class TypeErrors:
         if self.kinds.of(target.object, facts) == {OwnType.MAPPING}:
             self._elements.is_key(target, target.index, facts)
 
+    def inserts(self, node: s.Insert, facts: Facts) -> None:
+        """Notes that what a comprehension puts into a set or mapping has no hash."""
+        if self._is_python:
+            self._elements.inserted(node, facts)
+
     def _is_called(self, node: s.Call, value: e.Expression, facts: Facts) -> None:
         """What is called is no value of Python's own; what else it is, is asked of the call."""
         if self.kinds.of(value, facts) - {None} or self.kinds.is_object(value, facts):
@@ -268,8 +273,6 @@ class TypeErrors:
             case _:
                 return own_type(type_) in taken
 
-    # --- operators -------------------------------------------------------------------------------
-
     def _computes(
         self,
         value: e.Binary,
@@ -295,11 +298,11 @@ class TypeErrors:
             wrong = any(not takes(operator, a, b) for a in kinds[0] for b in kinds[1])
             wrong |= any(self._refuses(operator, a, b) for a in types[0] for b in types[1])
             wrong |= operator in ORDERED and not self._elements.are_comparable(*types)
-            wrong |= operator in _OF_BITS and any(map(self._floats.has, (left, right)))
-            is_times = operator is Operator.MULTIPLY and self._floats.has(right)
+            wrong |= operator in _OF_BITS and any(map(self.floats.has, (left, right)))
+            is_times = operator is Operator.MULTIPLY and self.floats.has(right)
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
         if operator is Operator.FLOOR_MODULO and TEXT in kinds[0]:
-            texts = texts_of(self._notes.origins, left, self._notes.function.name)
+            texts = self._notes.texts_of(left)
             wrong |= not texts or any(self._puts(text, right, facts) for text in texts)
         if wrong:
             self._notes.fails(value, _WRONG)
@@ -335,7 +338,7 @@ class TypeErrors:
             found |= kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
         if conversions(text) is None and not self._has_names(text, value):
             return True
-        is_float = any(map(self._floats.has, numbers_of(text, values, _WHOLE)))
+        is_float = any(map(self.floats.has, numbers_of(text, values, _WHOLE)))
         is_object = any(self.kinds.is_object(v, facts) for v in numbers_of(text, values))
         return found or is_float or is_object
 
@@ -365,7 +368,7 @@ class TypeErrors:
             return
         if kinds and kinds <= SEQUENCES | {OwnType.QUEUE, OwnType.MODEL_ARRAY}:
             self._needs(value, index, {NUMBER}, facts)
-            if self._floats.has(index):
+            if self.floats.has(index):
                 self._notes.fails(value, _WRONG)
         elif kinds == {OwnType.MAPPING}:
             self._elements.is_key(value, index, facts)
@@ -387,7 +390,7 @@ class TypeErrors:
             self._needs(node, value, {TEXT}, facts)
         elif letter in OF_NUMBERS:
             self._needs(node, value, {NUMBER}, facts)
-            if letter in _OF_WHOLE and self._floats.has(value):
+            if letter in _OF_WHOLE and self.floats.has(value):
                 self._notes.fails(node, _WRONG)
         else:
             self._needs(node, value, {NUMBER, TEXT}, facts)

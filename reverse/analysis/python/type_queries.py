@@ -26,3 +26,9 @@ class TypeQueries(Protocol):
 
     def result(self, function: str) -> ValueTypes:
         """The types of what a function of the program gives."""
+
+    def element(self, value: e.Expression | e.Spread, function: str) -> ValueTypes:
+        """The types of what stands in a container, None among them."""
+
+    def contents(self) -> ValueTypes:
+        """What is put into containers, each time as one of its site."""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from enum import Enum
 from typing import TypeAlias
 
 from rebsync.records import dataclass
+from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
 
 
@@ -33,7 +35,8 @@ class ContainerType:
     """A container with the types of its elements; those of a mapping are its keys.
 
     `own` is None for what is only gone through, as ranges. A tuple of known length has `parts`,
-    and a mapping has `items` by the keys that the source writes.
+    and a mapping has `items` by the keys that the source writes, or by any. Its `sites` say where
+    it may have been stored first, whatever it is called now.
     """
 
     own: OwnType | None
@@ -41,6 +44,7 @@ class ContainerType:
     values: ValueTypes = frozenset((None,))
     parts: tuple[ValueTypes, ...] | None = None
     items: frozenset[tuple[object, ValueTypes]] = frozenset()
+    sites: frozenset[object] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +79,8 @@ ANY_TYPE: ValueTypes = frozenset((None,))
 NO_TYPES: ValueTypes = frozenset()
 A_NUMBER: ValueTypes = frozenset((OwnType.NUMBER,))
 A_TEXT: ValueTypes = frozenset((OwnType.TEXT,))
+CHANGING = (OwnType.LIST, OwnType.QUEUE, OwnType.SET, OwnType.MAPPING)  # which are filled later
+ANY_KEY = object()  # of an item whose key the source does not write
 
 
 def own_type(type_: ValueType | None) -> OwnType | None:
@@ -131,7 +137,8 @@ def _at(type_: ValueType | None, index: object) -> ValueTypes:
     match type_:
         case ContainerType(OwnType.MAPPING, _, values, _, items):
             found = [of for key, of in items if key == index]
-            return found[0] if found else _of_one(values, index)
+            others = [of for key, of in items if key is ANY_KEY]
+            return union(found + others) if found else _of_one(values, index)
         case ContainerType(_, _, _, tuple() as parts) if isinstance(index, int):
             return parts[index] if -len(parts) <= index < len(parts) else ANY_TYPE
         case ContainerType(_, elements):
@@ -165,13 +172,34 @@ def _shallow(type_: ValueType | None, depth: int) -> ValueType | None:
     if not isinstance(type_, ContainerType):
         return type_
     if not depth:
-        return ContainerType(type_.own, ANY_TYPE)
-    parts = None
-    if type_.parts is not None:
-        parts = tuple(limited(part, depth - 1) for part in type_.parts)
-    elements, values = (limited(t, depth - 1) for t in (type_.elements, type_.values))
-    items = frozenset((key, limited(of, depth - 1)) for key, of in type_.items)
-    return ContainerType(type_.own, elements, values, parts, items)
+        return ContainerType(type_.own, ANY_TYPE, sites=type_.sites)
+    return inside(type_, lambda types: limited(types, depth - 1))
+
+
+def inside(type_: ContainerType, change: Callable[[ValueTypes], ValueTypes]) -> ContainerType:
+    """A container with a change of what is in it."""
+    parts = None if type_.parts is None else tuple(map(change, type_.parts))
+    items = frozenset((key, change(of)) for key, of in type_.items)
+    elements, values = change(type_.elements), change(type_.values)
+    return replace(type_, elements=elements, values=values, parts=parts, items=items)
+
+
+def sited(types: ValueTypes, name: object, depth: int = 0) -> ValueTypes:
+    """Types in which containers that were stored nowhere before have a name as their site."""
+    return frozenset(_sited(t, name, depth) if isinstance(t, ContainerType) else t for t in types)
+
+
+def _sited(type_: ContainerType, name: object, depth: int) -> ContainerType:
+    found = inside(type_, lambda types: sited(types, name, depth + 1))
+    if found.sites or found.own not in CHANGING:
+        return found
+    return replace(found, sites=frozenset(((name, depth, found.own),)))
+
+
+def copied(types: ValueTypes) -> ValueTypes:
+    """Types of new containers with the same elements."""
+    known = {t: replace(t, sites=frozenset()) for t in types if isinstance(t, ContainerType)}
+    return frozenset(known.get(t, t) if isinstance(t, ContainerType) else t for t in types)
 
 
 def merged(types: ValueTypes) -> ValueTypes:
@@ -189,7 +217,8 @@ def _joined(one: ContainerType, other: ContainerType) -> ContainerType:
     if one.parts is not None and other.parts is not None and len(one.parts) == len(other.parts):
         parts = tuple(merged(a | b) for a, b in zip(one.parts, other.parts, strict=True))
     elements, values = merged(one.elements | other.elements), merged(one.values | other.values)
-    return ContainerType(one.own, elements, values, parts, joined_items(one.items, other.items))
+    items, sites = joined_items(one.items, other.items), one.sites | other.sites
+    return ContainerType(one.own, elements, values, parts, items, sites)
 
 
 def joined_items(
@@ -200,6 +229,11 @@ def joined_items(
     for key, types in other:
         found[key] = merged(found.get(key, NO_TYPES) | types)
     return frozenset(found.items())
+
+
+def written(key: e.Expression, types: ValueTypes) -> Iterator[tuple[object, ValueTypes]]:
+    """An item of a mapping by the key that the source writes, or by any."""
+    yield key.value if isinstance(key, e.Literal) else ANY_KEY, types
 
 
 def of_declared(type_: t.Type) -> ValueTypes:
