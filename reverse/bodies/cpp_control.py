@@ -191,7 +191,7 @@ def _returned_empty(
 
 
 def _result(reader: CppStatementReader, node: Node) -> m.Type | None:
-    """The type that the function around a statement gives; None where the model has none like it."""
+    """The type of the model that the function around a statement gives, if it has one like it."""
     around = next((n for n in ancestors(node) if n.type in _FUNCTIONS), node)
     declarator = around.child_by_field_name("declarator")
     type_ = around.child_by_field_name("type")
