@@ -15,7 +15,10 @@ from rebsync.reverse.bodies.effects.cpp_effects import Effects
 from rebsync.reverse.bodies.effects.cpp_unset_locals import SCALARS
 from rebsync.reverse.bodies.scope import Outside, Record, Variable
 from rebsync.reverse.bodies.written import annotations_in
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
+
+_FUNCTIONS = frozenset({"function_definition", "lambda_expression"})
 
 
 def branches(
@@ -180,11 +183,21 @@ def _returned_empty(
     kept = reader.returns
     if kept is None and _ends_function(node):
         return
-    type_ = kept.type if isinstance(kept, Variable) else None if kept else reader.scope.returns
+    type_ = kept.type if isinstance(kept, Variable) else None if kept else _result(reader, node)
     zero = zero_of(type_) if type_ is not None and type_.name in SCALARS else None
     if zero is None and not isinstance(kept, Outside):
         raise reader.unread(node, "the model does not know which value this is")
     yield m.Return(zero, annotations, reader.cpp.span(node))
+
+
+def _result(reader: CppStatementReader, node: Node) -> m.Type | None:
+    """The type of the model that the function around a statement gives, if it has one like it."""
+    around = next((n for n in ancestors(node) if n.type in _FUNCTIONS), node)
+    declarator = around.child_by_field_name("declarator")
+    type_ = around.child_by_field_name("type")
+    is_plain = declarator is not None and declarator.type == "function_declarator"
+    kept = reader.scope.carried(type_) if type_ is not None and is_plain else None
+    return reader.scope.returns if kept is None or kept.bits or kept.wide else kept.type
 
 
 def _ends_function(node: Node) -> bool:

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from tree_sitter import Node
 
+from rebsync.reverse.ir import types as t
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import REFERRING, declared_name
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, text_of
+
+_NOT_ONE_ELEMENT = frozenset({"initializer_list", "initializer_pair", "parameter_pack_expansion"})
+_TEXTS = frozenset({"string_literal", "concatenated_string", "raw_string_literal"})
 
 
 def has_const(type_: Node) -> bool:
@@ -51,3 +55,24 @@ def variable_name(declarator: Node) -> Node | None:
         return declared_name(declarator)
     is_led = inner.type == "parenthesized_declarator" and inner.named_children
     return declared_name(inner) if is_led and inner.named_children[-1].type in REFERRING else None
+
+
+def deduced_length(declarator: Node, element: t.Type) -> int | None:
+    """How many elements its braces give to an array of unknown bound ([dcl.init.aggr]).
+
+    None for parameters, and where braces may be elided or a text is the elements.
+    """
+    around = declarator.parent
+    is_pointer = around is not None and around.type == "pointer_declarator"
+    while around is not None and around.type == "pointer_declarator":
+        around = around.parent
+    value = around.child_by_field_name("value") if around is not None else None
+    if value is None or value.type != "initializer_list" or value.has_error:
+        return None
+    is_text = is_pointer or isinstance(element, t.Text)
+    if not is_text and not isinstance(element, t.Integer | t.Float | t.Truth):
+        return None
+    odd = _NOT_ONE_ELEMENT if is_text else _NOT_ONE_ELEMENT | _TEXTS
+    parts = named(value)
+    is_odd = any(n.type in odd or n.type.startswith("preproc") for n in parts)
+    return None if is_odd else len(parts) or None

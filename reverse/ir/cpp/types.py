@@ -12,6 +12,7 @@ from tree_sitter import Node
 from rebsync.records import dataclass
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.declarators import (
+    deduced_length,
     has_const,
     inner_declarator,
     is_pointer_to_function,
@@ -137,6 +138,8 @@ class TypeReader:
             lengths.append(None if size is None else self.constant(size, scope, cpp))
             current = current.child_by_field_name("declarator")
         inner = self._wrapped(cpp, scope, of, current, is_constant).type
+        if lengths == [None]:
+            lengths = [deduced_length(node, inner)]
         for length in lengths:
             if length is None:
                 return Declared(t.Reference(inner, may_be_null=True), is_constant=is_constant)
