@@ -135,7 +135,8 @@ static void settle(struct search *s, const struct pending *p, const uint64_t *wo
     judge(s, s->count++, words, p->deadlock);
 }
 
-/* Looks up and stores what has gathered, in its order. */
+/* Looks up and stores what has gathered, in its order. The first violation ends the search before the
+ * state whose step it is: of later ones there are steps that are not counted. */
 static void flush(struct search *s)
 {
     uint32_t count = s->pending;
@@ -144,7 +145,10 @@ static void flush(struct search *s)
         settle(s, s->batch + i, s->batch_words + (size_t)i * s->words);
         if (!s->violated)
             continue;
-        s->transitions -= s->beginning ? 0 : count - i - 1;
+        if (!s->beginning) {
+            s->transitions -= count - i - 1;
+            s->expanded -= (uint32_t)s->expanded - s->batch[i].parent;
+        }
         longjmp(s->escape->to, VIOLATED);
     }
 }
