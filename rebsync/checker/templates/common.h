@@ -24,7 +24,7 @@ enum { BATCH = 64, OBSERVED = 1024, TABLE = 256 };
 enum { MEMO = 1024, MEMO_AT_MOST = 1 << 18, MEMO_BESIDE = 1 << 16 };
 enum { SLOTS = 1 << 14, TURNS = 256 };
 enum { STEP = 64, STRETCH = 4096, LEAST = 1 << 21, BESIDE = 8 };
-enum { PORTION = 512, PORTIONS = 64, ROUND = 1 << 17, ROUND_AT_LEAST = 2048 };
+enum { PORTION = 512, PORTIONS = 64, ROUND = 1 << 20, ROUND_AT_LEAST = 2048 };
 #endif
 
 #define NEVER INT64_MAX
