@@ -29,6 +29,9 @@ enum { PORTION = 512, PORTIONS = 64, ROUND = 1 << 20, ROUND_AT_LEAST = 2048 };
 
 #define NEVER INT64_MAX
 
+/* Bytes of memory that go from one processor to another together, with what is fetched beside them. */
+enum { LINES = 128 };
+
 static int64_t clock_now(void)
 {
     struct timespec now;
@@ -96,6 +99,13 @@ static void *zeroed(struct escape *out, size_t count, size_t size)
     if (!made)
         give_up(out);
     return in_large_pages(made, count * size);
+}
+
+/* The same for what begins where lines do; NULL without memory. */
+static void *zeroed_lines(size_t count, size_t size)
+{
+    void *made = aligned_alloc(LINES, count * size);
+    return made ? memset(made, 0, count * size) : NULL;
 }
 
 static int32_t *copied(struct escape *out, const int32_t *numbers, size_t count)

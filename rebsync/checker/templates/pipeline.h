@@ -16,7 +16,7 @@
 
 /* Steps on their way from one thread to the other. */
 struct portion {
-    _Alignas(128) struct batch batch;
+    _Alignas(LINES) struct batch batch;
     int wide, last; /* afterwards numbers do not fit their fields any more; nothing comes */
 };
 
@@ -41,8 +41,8 @@ struct pipeline {
     int wide;
     enum answer answer;
     struct escape expanding, storing;
-    _Alignas(128) _Atomic uint64_t filled;
-    _Alignas(128) _Atomic uint64_t stored;
+    _Alignas(LINES) _Atomic uint64_t filled;
+    _Alignas(LINES) _Atomic uint64_t stored;
     _Atomic int given_up; /* nothing is stored any more */
 };
 
@@ -147,19 +147,17 @@ static void expand_round(struct pipeline *p, size_t states)
 /* Looks up and stores the steps of a portion; memory for those behind is on its way meanwhile. */
 static void store_portion(struct search *s, const struct batch *b)
 {
-    enum { FAR = 16, NEAR = 8 };
-    uint64_t hashes[FAR];
-    for (uint32_t i = 0; i < b->count + FAR; i++) {
-        if (i >= FAR) {
-            const uint64_t *words = b->words + (size_t)(i - FAR) * s->words;
-            settle(s, b->steps + i - FAR, words, (struct sought){hashes[i % FAR]});
+    enum { AHEAD = 16 };
+    uint64_t hashes[AHEAD];
+    for (uint32_t i = 0; i < b->count + AHEAD; i++) {
+        if (i >= AHEAD) {
+            const uint64_t *words = b->words + (size_t)(i - AHEAD) * s->words;
+            settle(s, b->steps + i - AHEAD, words, (struct sought){hashes[i % AHEAD], 0});
             if (s->violated)
                 longjmp(s->escape->to, VIOLATED);
         }
         if (i < b->count)
-            hashes[i % FAR] = hash_ahead(s, b->words + (size_t)i * s->words);
-        if (i >= NEAR && i < b->count + NEAR)
-            fetch_known(s, hashes[(i - NEAR) % FAR]);
+            hashes[i % AHEAD] = hash_ahead(s, b->words + (size_t)i * s->words);
     }
 }
 
@@ -287,15 +285,13 @@ static void free_pipeline(struct pipeline *p)
 
 static void make_pipeline(struct search *s)
 {
-    struct pipeline *p = s->pipeline = aligned_alloc(128, sizeof *p);
+    struct pipeline *p = s->pipeline = zeroed_lines(1, sizeof *p);
     if (!p)
         give_up(s->escape);
-    memset(p, 0, sizeof *p);
     p->search = s;
-    p->portions = aligned_alloc(128, PORTIONS * sizeof *p->portions);
+    p->portions = zeroed_lines(PORTIONS, sizeof *p->portions);
     if (!p->portions)
         give_up(s->escape);
-    memset(p->portions, 0, PORTIONS * sizeof *p->portions);
     for (size_t i = 0; i < PORTIONS; i++)
         p->portions[i].batch = make_batch(s, PORTION);
     p->packed = zeroed(s->escape, ROUND, sizeof *p->packed);

@@ -48,7 +48,7 @@ struct search *rebsync_new(const struct model *model, int semantics, int compact
                            const int32_t *invariants, int invariant_count,
                            const int32_t *persistent, int persistent_count)
 {
-    struct search *s = calloc(1, sizeof *s);
+    struct search *s = zeroed_lines(1, sizeof *s);
     if (!s)
         return NULL;
     s->model = model;

@@ -77,7 +77,7 @@ struct search {
     struct field *fields;
     uint32_t words;
     int wide; /* a number does not fit its field any more */
-    struct vector states, parents, times;
+    _Alignas(LINES) struct vector states, parents, times; /* from here on: of who stores */
     uint64_t count, expanded, transitions, dropped, level_end, initials;
     uint64_t depth;
     uint32_t *table;

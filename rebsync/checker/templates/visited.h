@@ -18,16 +18,24 @@ static int fits(struct search *s, const uint32_t *ids)
     return 1;
 }
 
+/* Packs a state; fields lie one behind the other. */
 static inline void pack(struct search *s, const uint32_t *ids, uint64_t *words)
 {
-    for (uint32_t w = 0; w < s->words; w++)
-        words[w] = 0;
+    uint64_t word = 0;
+    uint32_t at = 0;
     for (uint32_t r = 0; r < s->rebecs; r++) {
         const struct field *f = s->fields + r;
-        words[f->word] |= (uint64_t)ids[r] << f->shift;
-        if (f->shift + f->width > 64)
-            words[f->word + 1] |= (uint64_t)ids[r] >> (64 - f->shift);
+        if (f->word > at) {
+            words[at++] = word;
+            word = 0;
+        }
+        word |= (uint64_t)ids[r] << f->shift;
+        if (f->shift + f->width > 64) {
+            words[at++] = word;
+            word = (uint64_t)ids[r] >> (64 - f->shift);
+        }
     }
+    words[at] = word;
 }
 
 static inline void unpack_fields(const struct field *fields, uint32_t rebecs, const uint64_t *words, uint32_t *ids)
@@ -73,15 +81,6 @@ static inline uint64_t hash_ahead(struct search *s, const uint64_t *words)
     if (s->slots)
         __builtin_prefetch(s->table + slot_of(s, hash), 1);
     return hash;
-}
-
-/* And then the state with which it will be compared. */
-static inline void fetch_known(struct search *s, uint64_t hash)
-{
-    uint32_t numbers = (uint32_t)((UINT64_C(1) << s->number_bits) - 1);
-    uint32_t entry = s->slots ? s->table[slot_of(s, hash)] : 0;
-    if (entry && !((entry ^ tag_of(s, hash)) & ~numbers))
-        __builtin_prefetch(words_of(s, (entry & numbers) - 1));
 }
 
 /* A batch with room for so many steps, however wide fields become. */
