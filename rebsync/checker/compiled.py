@@ -294,7 +294,7 @@ def _libraries(
 ) -> tuple[ctypes.CDLL, ctypes.CDLL]:
     """The search, and the model."""
     parts = tuple(header(name) for name in ("runtime.c", *native.PARTS))
-    runtime = Unit("runtime", partial(header, "runtime.c"), parts, "-O1")
+    runtime = Unit("runtime", partial(header, "runtime.c"), parts, "-O2")
     search, bodies = libraries((runtime, model_unit(program)), build, wanted)
     native.declare(search)
     return search, bodies

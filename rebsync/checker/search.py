@@ -137,6 +137,7 @@ class Interpreted:
                     raise Stopped(PAUSED)
 
         self._look_at_bounds = partial(look, ends=True)
+        self._stop_at_first(limits)
         with self._looking(look):
             if not self.states:
                 for ordinal, step in enumerate(self.view.initial_states()):
@@ -178,11 +179,10 @@ class Interpreted:
         return limits.out_of_time(seconds) or limits.out_of_memory(memory)
 
     def _expand(self, number: int, limits: Limits) -> None:
-        steps = self.view.steps(self.states[number])
-        self._expanded += 1
-        for ordinal, step in enumerate(steps):
+        for ordinal, step in enumerate(self.view.steps(self.states[number])):
             self._reach(step, number, ordinal, limits)
             self._stop_at_first(limits)
+        self._expanded += 1
 
     def _stop_at_first(self, limits: Limits) -> None:
         if limits.first and any(map(limits.faults.includes, self._events)):

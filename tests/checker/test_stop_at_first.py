@@ -125,7 +125,10 @@ def test_both_engines_end_at_one_state(drawn: Drawn, compacted: bool) -> None:
     assert [compiled.path(e.state) for e in found.events if e.state >= 0] == [
         interpreted.path(e.state) for e in found.events if e.state >= 0
     ]
-    assert compiled.run(limits).reason == FIRST
+    graph = compiled.graph()
+    assert graph == interpreted.graph() or compacted
+    assert graph.first[-1] == len(graph.target)
+    assert compiled.run(limits).reason == interpreted.run(limits).reason == FIRST
 
 
 def _figures(found: Exploration) -> tuple[object, ...]:

@@ -24,10 +24,13 @@ enum { BATCH = 64, OBSERVED = 1024, TABLE = 256 };
 enum { MEMO = 1024, MEMO_AT_MOST = 1 << 18, MEMO_BESIDE = 1 << 16 };
 enum { SLOTS = 1 << 14, TURNS = 256 };
 enum { STEP = 64, STRETCH = 4096, LEAST = 1 << 21, BESIDE = 8 };
-enum { PORTION = 512, PORTIONS = 64, ROUND = 1 << 17, ROUND_AT_LEAST = 2048 };
+enum { PORTION = 512, PORTIONS = 64, ROUND = 1 << 20, ROUND_AT_LEAST = 2048 };
 #endif
 
 #define NEVER INT64_MAX
+
+/* Bytes of memory that go from one processor to another together, with what is fetched beside them. */
+enum { LINES = 128 };
 
 static int64_t clock_now(void)
 {
@@ -96,6 +99,13 @@ static void *zeroed(struct escape *out, size_t count, size_t size)
     if (!made)
         give_up(out);
     return in_large_pages(made, count * size);
+}
+
+/* The same for what begins where lines do; NULL without memory. */
+static void *zeroed_lines(size_t count, size_t size)
+{
+    void *made = aligned_alloc(LINES, count * size);
+    return made ? memset(made, 0, count * size) : NULL;
 }
 
 static int32_t *copied(struct escape *out, const int32_t *numbers, size_t count)

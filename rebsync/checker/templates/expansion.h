@@ -194,43 +194,37 @@ static int expand_persistent(struct kernel *k)
     return -1;
 }
 
-static int may_act(struct kernel *k, uint32_t rebec, int32_t best)
+/* The steps of so many rebecs that act. */
+static int expand_acting(struct kernel *k, uint32_t count)
 {
-    const struct component *c = component(k, rebec, k->ids[rebec]);
-    return c->flags & ABLE && c->rank == best;
-}
-
-/* The steps of all rebecs of the best rank. */
-static int expand_ranked(struct kernel *k, int32_t best)
-{
-    for (uint32_t r = 0; r < k->rebecs; r++)
-        if (may_act(k, r, best) && !know(k, r))
+    for (uint32_t i = 0; i < count; i++)
+        if (!know(k, k->acting[i]))
             return 0;
-    for (uint32_t r = 0; r < k->rebecs; r++)
-        if (may_act(k, r, best))
-            follow_all(k, k->ids, r, component(k, r, k->ids[r])->outcomes);
+    for (uint32_t i = 0; i < count; i++)
+        follow_all(k, k->ids, k->acting[i], component(k, k->acting[i], k->ids[k->acting[i]])->outcomes);
     return 1;
 }
 
-/* Makes all steps of the state k->ids; 0 when a body in it does not end. */
+/* Makes all steps of the state k->ids, those of the best rank; 0 when a body in it does not end. */
 static int expand(struct kernel *k)
 {
     int32_t best = INT32_MAX;
-    int able = 0;
+    uint32_t count = 0;
     k->ordinal = 0;
     for (uint32_t r = 0; r < k->rebecs; r++) {
         const struct component *c = component(k, r, k->ids[r]);
-        if (c->flags & ABLE) {
-            able = 1;
-            best = c->rank < best ? c->rank : best;
-        }
+        if (!(c->flags & ABLE) || c->rank > best)
+            continue;
+        count = c->rank < best ? 0 : count;
+        best = c->rank;
+        k->acting[count++] = r;
     }
-    if (!able) {
+    if (!count) {
         idle(k);
         return 1;
     }
     int alone = k->persistent_count ? expand_persistent(k) : -1;
-    return alone >= 0 ? alone : expand_ranked(k, best);
+    return alone >= 0 ? alone : expand_acting(k, count);
 }
 
 #endif

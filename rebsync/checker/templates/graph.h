@@ -59,7 +59,7 @@ static void flush_steps(struct drawing *d)
             note_step(d, &each->step, -1);
             continue;
         }
-        uint32_t entry = s->table[find(s, s->batch_words + (size_t)i * s->words, each->hash)];
+        uint32_t entry = s->table[find(s, s->batch.words + (size_t)i * s->words, each->hash)];
         if (entry)
             note_step(d, &each->step, (int64_t)(entry & numbers) - 1);
     }
@@ -78,7 +78,7 @@ static void draw(void *visitor, const struct transition *step)
     struct drawn *each = d->batch + d->pending;
     *each = (struct drawn){*step, d->from};
     if (step->state) {
-        uint64_t *words = s->batch_words + (size_t)d->pending * s->words;
+        uint64_t *words = s->batch.words + (size_t)d->pending * s->words;
         pack(s, step->state, words);
         each->hash = hash_words(s, words);
         __builtin_prefetch(s->table + slot_of(s, each->hash));

@@ -51,6 +51,7 @@ static void make_actors(struct kernel *k)
         enlarge_memo(k, &k->actors[r].passed, 1);
     }
     k->next = zeroed(k->escape, k->rebecs, sizeof *k->next);
+    k->acting = zeroed(k->escape, k->rebecs, sizeof *k->acting);
 }
 
 static void make_machine(struct kernel *k)
@@ -125,7 +126,7 @@ void kernel_free(struct kernel *k)
     free_local(&k->result);
     struct machine *m = &k->machine;
     void *parts[] = {
-        k->actors, k->observed, k->views, k->next, k->covered, k->uncounted, k->served,
+        k->actors, k->observed, k->views, k->next, k->acting, k->covered, k->uncounted, k->served,
         m->stack, m->frames, m->choices, m->options, m->sends, k->text.data, k->messages.data,
         k->outcomes.data, k->sends.data, k->message_table, k->persistent, k->names, k->origins,
         k->positions, k->orbit, k->references, k->colours, k->turned, k->watch.cells.data,

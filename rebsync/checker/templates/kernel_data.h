@@ -99,6 +99,7 @@ struct kernel {
 
     const uint32_t *ids; /* the state whose steps are made */
     uint32_t *next;      /* the one that a step leads to */
+    uint32_t *acting;    /* who acts in it */
     int starting;        /* steps are those of constructors */
     uint64_t ordinal;    /* of the step */
     visit *visit;

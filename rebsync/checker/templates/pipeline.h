@@ -14,18 +14,9 @@
 
 #include "storing.h"
 
-/* A step on its way; of one that fails `numbers` are the kind, the instruction and the rebec. */
-struct made {
-    uint64_t code;
-    uint32_t parent;
-    int32_t end;
-    uint32_t numbers[];
-};
-
-enum { GOES_ON, IS_DEADLOCK, FAILS };
-
+/* Steps on their way from one thread to the other. */
 struct portion {
-    uint32_t count;
+    _Alignas(LINES) struct batch batch;
     int wide, last; /* afterwards numbers do not fit their fields any more; nothing comes */
 };
 
@@ -41,17 +32,17 @@ struct pipeline {
     struct search *search;
     struct outset outset;
     uint64_t alone; /* up to this state one thread searches */
-    uint32_t *ids;  /* of the states of a round */
-    char *steps;    /* a ring of portions */
-    size_t size;    /* of a step */
-    struct portion portions[PORTIONS];
-    uint32_t count; /* steps in the portion that is filled */
-    size_t expanded;
+    uint64_t *packed; /* the states of a round, in these fields */
+    struct field *fields;
+    uint32_t *ids; /* of those that are expanded together */
+    struct portion *portions, *filling; /* a ring, and what is being filled */
+    uint64_t first; /* of these; as many have all their steps */
+    size_t made;
     int wide;
     enum answer answer;
     struct escape expanding, storing;
-    _Alignas(128) _Atomic uint64_t filled;
-    _Alignas(128) _Atomic uint64_t stored;
+    _Alignas(LINES) _Atomic uint64_t filled;
+    _Alignas(LINES) _Atomic uint64_t stored;
     _Atomic int given_up; /* nothing is stored any more */
 };
 
@@ -68,11 +59,6 @@ static void wait_a_little(uint32_t *turns)
 #endif
 }
 
-static struct made *step_in(const struct pipeline *p, uint64_t portion, uint32_t step)
-{
-    return (struct made *)(p->steps + (portion % PORTIONS * PORTION + step) * p->size);
-}
-
 /* --- the thread that expands */
 
 /* Waits until at most so many portions wait. */
@@ -80,8 +66,9 @@ static void wait_for(struct pipeline *p, uint64_t waiting)
 {
     uint64_t filled = atomic_load_explicit(&p->filled, memory_order_relaxed);
     for (uint32_t turns = 0; filled - atomic_load_explicit(&p->stored, memory_order_acquire) > waiting;) {
-        if (atomic_load_explicit(&p->given_up, memory_order_relaxed))
-            longjmp(p->expanding.to, 1);
+        int given_up = atomic_load_explicit(&p->given_up, memory_order_relaxed);
+        if (given_up)
+            longjmp(p->expanding.to, given_up);
         wait_a_little(&turns);
     }
 }
@@ -89,13 +76,16 @@ static void wait_for(struct pipeline *p, uint64_t waiting)
 /* Hands over the portion that is filled; there is room for another then. */
 static void hand_over(struct pipeline *p, int last)
 {
-    uint64_t filled = atomic_load_explicit(&p->filled, memory_order_relaxed);
-    p->portions[filled % PORTIONS] = (struct portion){p->count, p->wide, last};
-    atomic_store_explicit(&p->filled, filled + 1, memory_order_release);
-    p->count = 0;
-    if (!last)
-        wait_for(p, p->wide ? 0 : PORTIONS - 1);
+    uint64_t filled = atomic_load_explicit(&p->filled, memory_order_relaxed) + 1;
+    int wide = p->filling->wide = p->wide;
+    p->filling->last = last;
     p->wide = 0;
+    p->filling = p->portions + filled % PORTIONS;
+    atomic_store_explicit(&p->filled, filled, memory_order_release);
+    if (last)
+        return;
+    wait_for(p, wide ? 0 : PORTIONS - 1);
+    p->filling->batch.count = 0;
 }
 
 static void meet_in_round(void *pipeline, uint32_t rebec, uint32_t number)
@@ -107,16 +97,9 @@ static void meet_in_round(void *pipeline, uint32_t rebec, uint32_t number)
 static void send(void *pipeline, const struct transition *step)
 {
     struct pipeline *p = pipeline;
-    if (p->count == PORTION || p->wide)
+    if (p->filling->batch.count == PORTION || p->wide)
         hand_over(p, 0);
-    struct made *made = step_in(p, atomic_load_explicit(&p->filled, memory_order_relaxed), p->count++);
-    made->parent = (uint32_t)(p->outset.search.expanded + p->expanded);
-    made->code = step->code;
-    made->end = step->state ? step->deadlock : FAILS;
-    if (step->state)
-        memcpy(made->numbers, step->state, p->search->rebecs * sizeof *made->numbers);
-    else
-        memcpy(made->numbers, (int32_t[]){step->kind, step->pc, step->rebec}, 3 * sizeof(int32_t));
+    gather(p->search, &p->expanding, &p->filling->batch, p->first + p->made, step);
 }
 
 /* What is told meanwhile is what is stored then. */
@@ -128,31 +111,54 @@ static void look_in_round(int *goes_on)
     asking->search->look(goes_on);
 }
 
+static enum answer expand_states(struct pipeline *p, size_t states)
+{
+    struct search *s = p->search;
+    uint32_t words = p->outset.search.words;
+    enum answer answer = COMPLETE;
+    for (size_t at = 0, count; at < states && answer == COMPLETE; at += count) {
+        count = states - at < BATCH ? states - at : BATCH;
+        for (size_t i = 0; i < count; i++)
+            unpack_fields(p->fields, s->rebecs, p->packed + (at + i) * words, p->ids + i * s->rebecs);
+        p->made = 0;
+        answer = kernel_successors(s->kernel, p->ids, count, &p->made, send, p);
+        p->first += p->made;
+    }
+    p->made = 0;
+    return answer;
+}
+
 static void expand_round(struct pipeline *p, size_t states)
 {
     struct search *s = p->search;
     asking = p;
     kernel_meet(s->kernel, meet_in_round, p);
     kernel_watch(s->kernel, s->look ? look_in_round : NULL);
-    p->answer = COMPLETE;
-    if (!setjmp(p->expanding.to)) {
-        p->answer = kernel_successors(s->kernel, p->ids, states, &p->expanded, send, p);
-        hand_over(p, 1);
-    }
+    p->answer = setjmp(p->expanding.to);
+    if (!p->answer)
+        p->answer = expand_states(p, states);
+    hand_over(p, 1);
     kernel_meet(s->kernel, meet, s);
     kernel_watch(s->kernel, s->look);
 }
 
 /* --- the thread that stores */
 
-static void store_step(struct search *s, const struct made *made)
+/* Looks up and stores the steps of a portion; memory for those behind is on its way meanwhile. */
+static void store_portion(struct search *s, const struct batch *b)
 {
-    const int32_t *failure = (const int32_t *)made->numbers;
-    struct transition step = {made->numbers, made->code, 0, -1, made->end};
-    if (made->end == FAILS)
-        step = (struct transition){NULL, made->code, 0, -1, 0, failure[0], failure[1], failure[2]};
-    s->expanded = made->parent;
-    store(s, &step);
+    enum { AHEAD = 16 };
+    uint64_t hashes[AHEAD];
+    for (uint32_t i = 0; i < b->count + AHEAD; i++) {
+        if (i >= AHEAD) {
+            const uint64_t *words = b->words + (size_t)(i - AHEAD) * s->words;
+            settle(s, b->steps + i - AHEAD, words, (struct sought){hashes[i % AHEAD], 0});
+            if (s->violated)
+                longjmp(s->escape->to, VIOLATED);
+        }
+        if (i < b->count)
+            hashes[i % AHEAD] = hash_ahead(s, b->words + (size_t)i * s->words);
+    }
 }
 
 static void store_portions(struct pipeline *p)
@@ -161,13 +167,14 @@ static void store_portions(struct pipeline *p)
     for (uint64_t at = 0, last = 0; !last; at++) {
         for (uint32_t turns = 0; atomic_load_explicit(&p->filled, memory_order_acquire) == at;)
             wait_a_little(&turns);
-        struct portion portion = p->portions[at % PORTIONS];
-        for (uint32_t i = 0; i < portion.count; i++)
-            store_step(s, step_in(p, at, i));
-        last = portion.last;
-        if (last || portion.wide)
-            flush(s);
-        if (portion.wide)
+        const struct portion *portion = p->portions + at % PORTIONS;
+        const struct batch *b = &portion->batch;
+        last = portion->last;
+        if (b->count)
+            s->expanded = b->steps[b->count - 1].parent;
+        s->transitions += b->count;
+        store_portion(s, b);
+        if (portion->wide)
             repack(s);
         atomic_store_explicit(&p->stored, at + 1, memory_order_release);
     }
@@ -192,10 +199,12 @@ static void begin_round(struct pipeline *p, size_t states)
     b->search = *s;
     kernel_covered(s->kernel, b->served, b->covered, b->largest);
     memcpy(b->measured, s->measured, s->model->measures * sizeof *s->measured);
-    for (size_t i = 0; i < states; i++)
-        unpack(s, words_of(s, s->expanded + i), p->ids + i * s->rebecs);
-    p->expanded = p->filled = p->stored = 0;
-    p->count = p->wide = p->given_up = 0;
+    memcpy(p->packed, words_of(s, s->expanded), states * s->words * sizeof *p->packed);
+    memcpy(p->fields, s->fields, s->rebecs * sizeof *p->fields);
+    p->first = s->expanded;
+    p->made = p->filled = p->stored = 0;
+    p->filling = p->portions;
+    p->filling->batch.count = p->wide = p->given_up = 0;
     s->judged_later = 1;
     s->escape = &p->storing;
 }
@@ -209,7 +218,7 @@ static void take_back(struct pipeline *p)
     s->transitions = b->search.transitions;
     s->expanded = b->search.expanded;
     s->events.count = b->search.events.count;
-    s->pending = s->violated = 0;
+    s->batch.count = s->violated = 0;
     memcpy(s->measured, b->measured, s->model->measures * sizeof *s->measured);
     kernel_forget(s->kernel, b->served, b->covered, b->largest);
     repack(s);
@@ -218,7 +227,7 @@ static void take_back(struct pipeline *p)
 /* How many states are expanded next in one round. */
 static size_t size_of_round(const struct search *s)
 {
-    uint64_t left = s->level_end - s->expanded, most = ROUND / s->rebecs;
+    uint64_t left = s->level_end - s->expanded, most = ROUND / s->words;
     return left < most ? left : most;
 }
 
@@ -251,7 +260,7 @@ static enum answer search_round(struct search *s, uint64_t most)
         return COMPLETE;
     if (p->answer == NO_MEMORY || p->given_up == NO_MEMORY)
         give_up(s->escape);
-    s->expanded = p->outset.search.expanded + p->expanded;
+    s->expanded = p->first + p->made;
     for (uint64_t state = p->outset.search.count; state < s->count; state++)
         judge_values(s, state, words_of(s, state));
     if (s->events.count == p->outset.search.events.count && s->count < most)
@@ -266,21 +275,28 @@ static void free_pipeline(struct pipeline *p)
 {
     if (!p)
         return;
-    void *parts[] = {p->outset.served, p->outset.covered, p->outset.largest, p->outset.measured, p->ids, p->steps, p};
+    for (size_t i = 0; p->portions && i < PORTIONS; i++)
+        free_batch(&p->portions[i].batch);
+    void *parts[] = {p->outset.served, p->outset.covered, p->outset.largest, p->outset.measured, p->packed, p->fields, p->ids,
+                     p->portions, p};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
 }
 
 static void make_pipeline(struct search *s)
 {
-    struct pipeline *p = s->pipeline = aligned_alloc(128, sizeof *p);
+    struct pipeline *p = s->pipeline = zeroed_lines(1, sizeof *p);
     if (!p)
         give_up(s->escape);
-    memset(p, 0, sizeof *p);
     p->search = s;
-    p->size = (sizeof(struct made) + (s->rebecs > 3 ? s->rebecs : 3) * sizeof(uint32_t) + 7) & ~(size_t)7;
-    p->steps = zeroed(s->escape, PORTIONS * PORTION, p->size);
-    p->ids = zeroed(s->escape, ROUND, sizeof *p->ids);
+    p->portions = zeroed_lines(PORTIONS, sizeof *p->portions);
+    if (!p->portions)
+        give_up(s->escape);
+    for (size_t i = 0; i < PORTIONS; i++)
+        p->portions[i].batch = make_batch(s, PORTION);
+    p->packed = zeroed(s->escape, ROUND, sizeof *p->packed);
+    p->fields = zeroed(s->escape, s->rebecs, sizeof *p->fields);
+    p->ids = zeroed(s->escape, BATCH * s->rebecs, sizeof *p->ids);
     p->outset.served = zeroed(s->escape, (size_t)s->model->servers, 1);
     p->outset.covered = zeroed(s->escape, 2 * (size_t)s->model->branches, 1);
     p->outset.largest = zeroed(s->escape, s->rebecs, sizeof(uint32_t));

@@ -17,7 +17,7 @@ static void make_packed(struct search *s)
 {
     s->fields = zeroed(s->escape, s->rebecs, sizeof *s->fields);
     lay_out(s, s->fields, &s->words);
-    s->batch_words = zeroed(s->escape, BATCH * s->words, sizeof *s->batch_words);
+    s->batch = make_batch(s, BATCH);
     s->ids = zeroed(s->escape, s->rebecs, sizeof *s->ids);
     s->unpacked = zeroed(s->escape, s->rebecs, sizeof *s->unpacked);
 }
@@ -31,10 +31,11 @@ static void measure_nothing(struct search *s)
 void rebsync_free(struct search *s)
 {
     void *parts[] = {
-        s->fields, s->batch_words, s->ids, s->unpacked, s->events.data, s->states.data,
+        s->fields, s->ids, s->unpacked, s->events.data, s->states.data,
         s->parents.data, s->times.data, s->table, s->invariants, s->faults, s->measured};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         free(parts[i]);
+    free_batch(&s->batch);
     free_prints(&s->prints);
     free_trail(&s->trail);
     free_frontier(&s->frontier);
@@ -47,7 +48,7 @@ struct search *rebsync_new(const struct model *model, int semantics, int compact
                            const int32_t *invariants, int invariant_count,
                            const int32_t *persistent, int persistent_count)
 {
-    struct search *s = calloc(1, sizeof *s);
+    struct search *s = zeroed_lines(1, sizeof *s);
     if (!s)
         return NULL;
     s->model = model;
@@ -118,7 +119,7 @@ static int begin(struct search *s)
 /* Forgets what was stored of initial states when one of them is never complete. */
 static void undo(struct search *s)
 {
-    s->count = s->pending = s->dropped = 0;
+    s->count = s->batch.count = s->dropped = 0;
     s->parents.count = s->times.count = s->events.count = 0;
     free_prints(&s->prints);
     s->frontier.tail.count = 0;
@@ -154,7 +155,7 @@ static int search_on(struct search *s, uint64_t states, int64_t due)
     for (uint64_t turn = 1;; turn++) {
         if (s->expanded == s->level_end && !go_deeper(s))
             return FINISHED;
-        if (s->count + s->pending >= states) {
+        if (s->count + s->batch.count >= states) {
             flush(s);
             if (s->count >= states)
                 return STATES;
@@ -181,7 +182,7 @@ static void exhaust(struct search *s)
     free(s->table);
     s->table = NULL;
     free_prints(&s->prints);
-    s->pending = 0;
+    s->batch.count = 0;
     s->exhausted = 1;
     if (s->beginning)
         begun(s);

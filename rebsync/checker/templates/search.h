@@ -23,12 +23,24 @@ struct measured {
 
 enum { PREDICATE = 8, DEADLOCK = 9 };
 
-/* States on their way into the visited set; `event` is a failed step instead, or -1. */
+/* A step on its way into the visited set; its state, packed, lies beside it. `kind` is DEADLOCK when
+ * nothing can follow that, or of the failure that is there instead; else 0. */
 struct pending {
+    uint32_t parent, code; /* of a step: its ordinal, and its turn */
+    int32_t pc;
+    int32_t rebec : 27, kind : 5;
+};
+
+struct batch {
+    struct pending *steps;
+    uint64_t *words;
+    uint32_t count;
+};
+
+/* Where a state is sought in the visited set, and when it is reached. */
+struct sought {
     uint64_t hash;
     int64_t time;
-    uint32_t parent, code; /* of a step: its ordinal, and its turn */
-    int32_t event, deadlock;
 };
 
 /* States of the frontier, packed; those in front are expanded. Times are those of arrival. */
@@ -65,7 +77,7 @@ struct search {
     struct field *fields;
     uint32_t words;
     int wide; /* a number does not fit its field any more */
-    struct vector states, parents, times;
+    _Alignas(LINES) struct vector states, parents, times; /* from here on: of who stores */
     uint64_t count, expanded, transitions, dropped, level_end, initials;
     uint64_t depth;
     uint32_t *table;
@@ -77,10 +89,8 @@ struct search {
     int exhausted; /* there was no more memory: the search does not go on */
     int stopped; /* a search that was ended in the middle of a step does not go on */
 
-    struct pending batch[BATCH];
-    struct event failed[BATCH];
-    uint64_t *batch_words;
-    uint32_t pending;
+    struct batch batch;
+    struct sought sought[BATCH];
 
     uint32_t *ids, *unpacked;
     int beginning; /* the states that are stored are initial */

@@ -90,61 +90,73 @@ static void judge(struct search *s, uint64_t state, const uint64_t *words, int d
 /* --- batches */
 
 /* Keeps a state, its step and its time. */
-static void keep(struct search *s, const struct pending *p, const uint64_t *words)
+static void keep(struct search *s, const struct pending *p, const uint64_t *words, int64_t time)
 {
     size_t size = s->words * sizeof *words;
     memcpy((char *)room_for(s->escape, &s->states, (s->count + 1) * size, 1) + s->count * size, words, size);
     *(uint32_t *)added(s->escape, &s->parents, sizeof(uint32_t)) = p->parent;
     if (s->until != NEVER)
-        *(int64_t *)added(s->escape, &s->times, sizeof(int64_t)) = p->time;
+        *(int64_t *)added(s->escape, &s->times, sizeof(int64_t)) = time;
 }
 
 /* The same with fingerprints: the state is kept as long as it waits. */
-static void keep_waiting(struct search *s, const struct pending *p, const uint64_t *words)
+static void keep_waiting(struct search *s, const struct pending *p, const uint64_t *words, int64_t time)
 {
     struct arrival arrival = {s->beginning ? 0 : p->parent, p->code};
     write_arrival(s->escape, &s->trail, arrival);
-    push_state(s, words, p->time);
+    push_state(s, words, time);
 }
 
 /* Puts a state into the set of those seen; 0 when it is there already. */
-static int insert(struct search *s, const struct pending *p, const uint64_t *words)
+static int insert(struct search *s, const uint64_t *words, uint64_t hash)
 {
     if (s->compact)
-        return insert_print(s->escape, &s->prints, p->hash);
-    uint64_t at = find(s, words, p->hash);
+        return insert_print(s->escape, &s->prints, hash);
+    uint64_t at = find(s, words, hash);
     if (s->table[at])
         return 0;
-    s->table[at] = tag_of(s, p->hash) | (uint32_t)(s->count + 1);
+    s->table[at] = tag_of(s, hash) | (uint32_t)(s->count + 1);
     return 1;
 }
 
-static void settle(struct search *s, const struct pending *p, const uint64_t *words)
+/* The state whose step it is, not far before the one that is expanded. */
+static uint64_t parent_of(const struct search *s, const struct pending *p)
 {
-    if (p->event >= 0) {
-        note(s, s->failed[p->event]);
+    return s->expanded - (uint32_t)((uint32_t)s->expanded - p->parent);
+}
+
+static void settle(struct search *s, const struct pending *p, const uint64_t *words, struct sought at)
+{
+    if (p->kind && p->kind != DEADLOCK) {
+        int64_t state = s->beginning ? -1 : (int64_t)parent_of(s, p);
+        note(s, (struct event){p->kind, p->pc, p->rebec, state, p->code});
         return;
     }
     room_for_state(s);
-    if (!insert(s, p, words))
+    if (!insert(s, words, at.hash))
         return;
     if (s->compact)
-        keep_waiting(s, p, words);
+        keep_waiting(s, p, words, at.time);
     else
-        keep(s, p, words);
-    judge(s, s->count++, words, p->deadlock);
+        keep(s, p, words, at.time);
+    judge(s, s->count++, words, p->kind == DEADLOCK);
 }
 
-/* Looks up and stores what has gathered, in its order. */
+/* Looks up and stores what has gathered, in its order. The first violation ends the search before the
+ * state whose step it is: of later ones there are steps that are not counted. */
 static void flush(struct search *s)
 {
-    uint32_t count = s->pending;
-    s->pending = 0;
+    struct batch *b = &s->batch;
+    uint32_t count = b->count;
+    b->count = 0;
     for (uint32_t i = 0; i < count; i++) {
-        settle(s, s->batch + i, s->batch_words + (size_t)i * s->words);
+        settle(s, b->steps + i, b->words + (size_t)i * s->words, s->sought[i]);
         if (!s->violated)
             continue;
-        s->transitions -= s->beginning ? 0 : count - i - 1;
+        if (!s->beginning) {
+            s->transitions -= count - i - 1;
+            s->expanded = parent_of(s, b->steps + i);
+        }
         longjmp(s->escape->to, VIOLATED);
     }
 }
@@ -162,55 +174,18 @@ static const uint64_t *front(struct search *s)
     return packed_in(s, head, head->expanded);
 }
 
-/* Makes room in the batch for a step, and in words for its state. */
-static inline void room_in_batch(struct search *s, uint64_t code)
+/* Puts a step into a batch that has room for it; where its state is packed. */
+static inline const uint64_t *gather(struct search *s, struct escape *out, struct batch *b, uint64_t parent,
+                                     const struct transition *step)
 {
-    if (code > UINT32_MAX)
-        give_up(s->escape);
-    if (s->pending == BATCH)
-        flush(s);
-    if (s->wide) {
-        flush(s);
-        repack(s);
-    }
-}
-
-/* Puts a step into the batch; the state whose step it is comes behind those expanded. */
-static inline struct pending *gather(struct search *s, uint64_t code)
-{
-    struct pending *p = s->batch + s->pending++;
-    p->parent = s->beginning ? (uint32_t)code : (uint32_t)s->expanded;
-    p->code = (uint32_t)code;
-    p->event = -1;
-    s->transitions += !s->beginning;
-    return p;
-}
-
-static void store_state(struct search *s, const struct transition *step, int64_t time)
-{
-    room_in_batch(s, step->code);
-    uint64_t *words = s->batch_words + (size_t)s->pending * s->words;
-    struct pending *p = gather(s, step->code);
-    pack(s, step->state, words);
-    p->time = time;
-    p->deadlock = step->deadlock;
-    if (s->compact) {
-        p->hash = kernel_fingerprint(s->kernel, step->state);
-        __builtin_prefetch(place_of_print(&s->prints, p->hash), 1);
-    } else {
-        p->hash = hash_words(s, words);
-        if (s->slots)
-            __builtin_prefetch(s->table + slot_of(s, p->hash), 1);
-    }
-}
-
-static void store_failure(struct search *s, const struct transition *step)
-{
-    int64_t state = s->beginning ? -1 : (int64_t)s->expanded, code = (int64_t)step->code;
-    room_in_batch(s, step->code);
-    struct pending *p = gather(s, step->code);
-    p->event = (int32_t)(p - s->batch);
-    s->failed[p->event] = (struct event){step->kind, step->pc, step->rebec, state, code};
+    uint64_t *words = b->words + (size_t)b->count * s->words;
+    int32_t kind = !step->state ? step->kind : step->deadlock ? DEADLOCK : 0;
+    if (step->code > UINT32_MAX)
+        give_up(out);
+    b->steps[b->count++] = (struct pending){(uint32_t)parent, (uint32_t)step->code, step->pc, step->rebec, kind};
+    if (step->state)
+        pack(s, step->state, words);
+    return words;
 }
 
 /* When the state that is expanded was reached. */
@@ -227,19 +202,27 @@ static int64_t time_before(struct search *s)
 static void store(void *search, const struct transition *step)
 {
     struct search *s = search;
-    int64_t time = step->time;
-    if (!step->state) {
-        store_failure(s, step);
-        return;
-    }
-    if (s->until != NEVER) {
-        time += time_before(s);
-        if (time > s->until) {
+    struct sought at = {0, step->time};
+    if (step->state && s->until != NEVER) {
+        at.time += time_before(s);
+        if (at.time > s->until) {
             s->dropped++;
             return;
         }
     }
-    store_state(s, step, time);
+    if (s->batch.count == BATCH || s->wide)
+        flush(s);
+    if (s->wide)
+        repack(s);
+    s->transitions += !s->beginning;
+    const uint64_t *words = gather(s, s->escape, &s->batch, s->beginning ? step->code : s->expanded, step);
+    if (step->state && s->compact) {
+        at.hash = kernel_fingerprint(s->kernel, step->state);
+        __builtin_prefetch(place_of_print(&s->prints, at.hash), 1);
+    } else if (step->state) {
+        at.hash = hash_ahead(s, words);
+    }
+    s->sought[s->batch.count - 1] = at;
 }
 
 #endif

@@ -18,27 +18,40 @@ static int fits(struct search *s, const uint32_t *ids)
     return 1;
 }
 
+/* Packs a state; fields lie one behind the other. */
 static inline void pack(struct search *s, const uint32_t *ids, uint64_t *words)
 {
-    for (uint32_t w = 0; w < s->words; w++)
-        words[w] = 0;
+    uint64_t word = 0;
+    uint32_t at = 0;
     for (uint32_t r = 0; r < s->rebecs; r++) {
         const struct field *f = s->fields + r;
-        words[f->word] |= (uint64_t)ids[r] << f->shift;
-        if (f->shift + f->width > 64)
-            words[f->word + 1] |= (uint64_t)ids[r] >> (64 - f->shift);
+        if (f->word > at) {
+            words[at++] = word;
+            word = 0;
+        }
+        word |= (uint64_t)ids[r] << f->shift;
+        if (f->shift + f->width > 64) {
+            words[at++] = word;
+            word = (uint64_t)ids[r] >> (64 - f->shift);
+        }
     }
+    words[at] = word;
 }
 
-static inline void unpack(struct search *s, const uint64_t *words, uint32_t *ids)
+static inline void unpack_fields(const struct field *fields, uint32_t rebecs, const uint64_t *words, uint32_t *ids)
 {
-    for (uint32_t r = 0; r < s->rebecs; r++) {
-        const struct field *f = s->fields + r;
+    for (uint32_t r = 0; r < rebecs; r++) {
+        const struct field *f = fields + r;
         uint64_t value = words[f->word] >> f->shift;
         if (f->shift + f->width > 64)
             value |= words[f->word + 1] << (64 - f->shift);
         ids[r] = (uint32_t)(value & f->mask);
     }
+}
+
+static inline void unpack(struct search *s, const uint64_t *words, uint32_t *ids)
+{
+    unpack_fields(s->fields, s->rebecs, words, ids);
 }
 
 static inline uint64_t hash_words(struct search *s, const uint64_t *words)
@@ -59,6 +72,33 @@ static inline uint64_t slot_of(struct search *s, uint64_t hash)
 static inline uint32_t tag_of(struct search *s, uint64_t hash)
 {
     return (uint32_t)((uint64_t)(uint32_t)hash << s->number_bits);
+}
+
+/* Lets the slot of a state be on its way. */
+static inline uint64_t hash_ahead(struct search *s, const uint64_t *words)
+{
+    uint64_t hash = hash_words(s, words);
+    if (s->slots)
+        __builtin_prefetch(s->table + slot_of(s, hash), 1);
+    return hash;
+}
+
+/* A batch with room for so many steps, however wide fields become. */
+static struct batch make_batch(struct search *s, uint32_t steps)
+{
+    struct batch made = {malloc(steps * sizeof *made.steps), NULL, 0};
+    made.words = malloc(steps * (s->rebecs / 2 + 1) * sizeof *made.words);
+    if (made.steps && made.words)
+        return made;
+    free(made.steps);
+    free(made.words);
+    give_up(s->escape);
+}
+
+static void free_batch(struct batch *b)
+{
+    free(b->steps);
+    free(b->words);
 }
 
 static void make_table(struct search *s, uint64_t slots)
@@ -124,8 +164,8 @@ static int is_state(struct search *s, const uint32_t *ids, int64_t state)
 {
     if (!fits(s, ids))
         return 0;
-    pack(s, ids, s->batch_words);
-    return !memcmp(s->batch_words, words_of(s, (uint64_t)state), s->words * sizeof(uint64_t));
+    pack(s, ids, s->batch.words);
+    return !memcmp(s->batch.words, words_of(s, (uint64_t)state), s->words * sizeof(uint64_t));
 }
 
 /* --- the layout of states */
@@ -192,10 +232,6 @@ static void repack(struct search *s)
     struct states *head = &s->frontier.head, *tail = &s->frontier.tail;
     uint32_t words;
     lay_out(s, fields, &words);
-    uint64_t *batch = realloc(s->batch_words, BATCH * words * sizeof *batch);
-    if (!batch)
-        give_up(s->escape);
-    s->batch_words = batch;
     repack_all(s, &s->states, s->compact ? 0 : s->count, fields, words);
     repack_all(s, &head->packed, head->count, fields, words);
     repack_all(s, &tail->packed, tail->count, fields, words);
