@@ -25,6 +25,7 @@ from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.generated import arguments
 from rebsync.reverse.python.generated.expressions import Expressions
 from rebsync.reverse.python.generated.filled import fillings_of
+from rebsync.reverse.python.generated.function_names import plain_name
 from rebsync.reverse.python.generated.helpers import (
     called_in,
     first_of,
@@ -39,7 +40,7 @@ from rebsync.reverse.python.generated.overloads import resolved
 from rebsync.reverse.python.generated.posts import own_posts
 from rebsync.reverse.python.generated.py_types import passed_on, type_of
 from rebsync.reverse.python.generated.results import without_result
-from rebsync.reverse.python.generated.roles import PyRoles, PySends, plain_name
+from rebsync.reverse.python.generated.roles import PyRoles, PySends
 from rebsync.reverse.python.generated.slicing.silent import silent_in
 from rebsync.reverse.python.generated.statements import Statements
 from rebsync.reverse.python.generated.widths import WidthContext, hint_of, wanted_of
@@ -357,7 +358,8 @@ class ModelBodies:
             fillings |= fillings_of(self.roles(above), names.sends)
         silent = silent_in(self.code, self.form, line, [*map(self.roles, line)])
         known = replace(names, imported=imported, posts=posts, fillings=fillings)
-        return replace(known, silent=silent, pairs=self.roles(owner).pairs)
+        own = self.roles(owner)
+        return replace(known, silent=silent, pairs=own.pairs, inlined=own.inlined)
 
 
 def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.Type | None:

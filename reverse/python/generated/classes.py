@@ -25,6 +25,7 @@ from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.generated import first_values
 from rebsync.reverse.python.generated.bodies import ModelBodies
 from rebsync.reverse.python.generated.dead_methods import unless_dead
+from rebsync.reverse.python.generated.function_names import plain_name
 from rebsync.reverse.python.generated.marks import is_abstract, is_constructor, is_marked
 from rebsync.reverse.python.generated.module_top import ModuleTop
 from rebsync.reverse.python.generated.named_constants import CodeConstants
@@ -43,7 +44,6 @@ from rebsync.reverse.python.generated.roles import (
     PyRoles,
     PySends,
     is_people_own,
-    plain_name,
     roles_of,
 )
 from rebsync.reverse.python.generated.slicing.numbers import numbers_for_people

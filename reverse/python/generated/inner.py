@@ -6,6 +6,7 @@ locals, or stand for the arguments where it only gives a value.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -13,18 +14,24 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.generated import idioms
+from rebsync.reverse.python.generated.arguments import in_order
 from rebsync.reverse.python.generated.callees import callee
 from rebsync.reverse.python.generated.closures import arguments_of
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
+from rebsync.reverse.python.generated.expressions import Expressions
+from rebsync.reverse.python.generated.helpers import own_name
 from rebsync.reverse.python.generated.names import ChosenCallee, Closure
+from rebsync.reverse.python.generated.pair_methods import takes_time
 from rebsync.reverse.python.generated.py_types import call_parts, type_of
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import SCOPES, calls_in, field, is_label, named, text_of
 from rebsync.static.types import BOOLEAN, INT
 
 _LEAVING = frozenset({"return_statement", "break_statement", "continue_statement"})
+_NOT_INLINED = "only a method that gives nothing, and has no locals, stands for what it does"
 _LOOPS = frozenset({"for_statement", "while_statement"})
 
 
@@ -71,11 +78,7 @@ def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> list[m.S
     found = callee(expressions, value)
     if isinstance(found, ChosenCallee):
         local = reader.free(f"{name}_then", pattern=f"{name}_then{{}}")
-        expressions.locals[f"chosen as {local}"] = local
-        expressions.types[local] = BOOLEAN
-        span = expressions.py.span(value)
-        declarator = m.Declarator(local, found.asked, span)
-        made.append(m.Local(m.Declaration(BOOLEAN, (declarator,), span=span), span=span))
+        made.append(_declared(reader, local, BOOLEAN, found.asked, value))
         found = replace(found, asked=m.Name(local))
     expressions.kept_sends[name] = found
     return made
@@ -128,21 +131,38 @@ def kept_moment(reader: ModelStatementReader, left: Node, value: Node) -> list[m
     is_kept = reader.expressions.of_run_time(called) == "When" and left.type == "identifier"
     if not is_kept or not _is_bound_once(value, text_of(left), passed=True):
         return None
-    expressions, span = reader.expressions, reader.expressions.py.span(value)
-    times, made = idioms.times(expressions, value), list[m.Statement]()
-    taken = {*expressions.locals.values(), *expressions.names.variables.values()}
+    times = idioms.times(reader.expressions, value)
+    made, kept = _times_kept(reader, text_of(left), times, value)
+    reader.expressions.moments[text_of(left)] = kept
+    return [*made]
+
+
+def _times_kept(
+    reader: ModelStatementReader, name: str, times: Mapping[str, m.Expression], node: Node
+) -> tuple[list[m.Local], dict[str, m.Name]]:
+    """Locals that keep the times of sends until these are made, and what they are called."""
+    made, kept, own = list[m.Local](), dict[str, m.Name](), reader.expressions
+    around = climb(node, lambda above: above.type == "function_definition")
+    taken = {*own.types, *(idioms.names_in(around) if around is not None else ())}
     for kind, time in times.items():
-        name = f"{text_of(left)}_{kind}"
-        if not is_calm(time) or expressions.kind(time) != INT or name in taken:
-            raise expressions.unread(value, "this time is no whole number of the model")
-        expressions.types[name] = INT
-        expressions.locals[name] = name
-        reader.implied.add(name)
-        declarator = m.Declarator(name, time, span)
-        made.append(m.Local(m.Declaration(INT, (declarator,), span=span), span=span))
-    kept = {kind: m.Name(f"{text_of(left)}_{kind}") for kind in times}
-    expressions.moments[text_of(left)] = kept
-    return made
+        if not is_calm(time) or own.kind(time) != INT:
+            raise own.unread(node, "this time is no whole number of the model")
+        local = reader.free(f"{name}_{kind}", pattern=f"{name}_{kind}_{{}}", taken=taken)
+        made.append(_declared(reader, local, INT, time, node))
+        kept[kind] = m.Name(local)
+    return made, kept
+
+
+def _declared(
+    reader: ModelStatementReader, local: str, type_: m.Type, value: m.Expression, node: Node
+) -> m.Local:
+    """A local that no name of the code stands for."""
+    key, span = f"kept as {local}", reader.expressions.py.span(node)
+    reader.expressions.types[local] = type_
+    reader.expressions.locals[key] = local
+    reader.implied.add(key)
+    declaration = m.Declaration(type_, (m.Declarator(local, value, span),), span=span)
+    return m.Local(declaration, span=span)
 
 
 def _parameters(function: Node) -> tuple[tuple[str, m.Type | None], ...] | None:
@@ -210,10 +230,46 @@ def _local(
     if type_ is None or type_.dimensions:
         raise own.unread(argument, f'say the type of "{name}"')
     plain = reader.local(reader.free(name, pattern=f"{name}_{{}}", first=2, taken=own.types))
-    own.types[plain] = type_
-    span = own.py.span(argument)
-    declaration = m.Declaration(type_, (m.Declarator(plain, read, span),), span=span)
-    return m.Local(declaration, span=span)
+    return _declared(reader, plain, type_, read, argument)
+
+
+def inline_method(
+    reader: ModelStatementReader, node: Node, called: str, arguments: list[Node]
+) -> list[m.Statement]:
+    """What a method does that takes a time of sends: its other parameters are locals."""
+    own, name = reader.expressions, called.removeprefix("self.")
+    function = own.names.inlined[name]
+    body, parameters = field(function.node, "body"), function.parameters[1:]
+    is_plain = all(stored.startswith("self.") for stored in idioms.stored_in(body))
+    is_known = called.startswith("self.") and own_name(function) == own.own == "self"
+    if not is_known or not is_plain or leaves(body) or any(p.star for p in parameters):
+        raise own.unread(node, _NOT_INLINED)
+    if function.py is not own.py:
+        raise own.unread(node, _NOT_INLINED)
+    others = {n: f for n, f in own.names.inlined.items() if n != name}  # none calls itself
+    fresh = Expressions(own.py, replace(own.names, inlined=others), types=own.types, cuts=own.cuts)
+    passed: list[Node | None] = [*in_order(own, node, arguments, parameters)]
+    passed += [None] * (len(parameters) - len(passed))
+    made, bound = list[m.Local](), dict[str, str]()
+    for each, said, given in zip(parameters, function.parameter_nodes[1:], passed, strict=True):
+        value, asked = (given, own) if given is not None else (each.default, fresh)
+        if value is None or (given is None and not takes_time(said)):
+            raise own.unread(node, "this has other arguments than those that are asked for")
+        if takes_time(said):
+            times = idioms.times(asked, value)
+            kept, fresh.moments[each.name] = _times_kept(reader, each.name, times, value)
+            made += kept
+        else:
+            type_ = type_of(said.child_by_field_name("type"))
+            made.append(_local(reader, (each.name, type_), value))
+            bound[each.name] = made[-1].declaration.declarators[0].name
+    fresh.locals.update(bound)
+    within = replace(reader, expressions=fresh, hoisted={}, cases=[], implied=set(), annotated={})
+    within.inner, within.lasting = {}, ""
+    done = within.block(body_of(function), body)
+    return (
+        [m.Block((*made, *done.statements), (), own.py.span(node))] if made else [*done.statements]
+    )
 
 
 def _only_value(body: Node) -> Node | None:

@@ -27,7 +27,8 @@ class ModelNames:
     `parameters` are what functions are given besides the object, by their names in the code.
     `imported` are what names of the module are of, `helpers` functions without an object,
     `fillings` what publishers send, `posts` what is posted, by the ids of the calls. `silent` is
-    what only people are told, `pairs` what methods give that give several values at once.
+    what only people are told, `pairs` what methods give that give several values at once, `inlined`
+    methods whose statements stand where they are called.
     """
 
     variables: Mapping[str, str]
@@ -45,6 +46,7 @@ class ModelNames:
     posts: Mapping[int, Post] = with_default(default_factory=dict)
     silent: Silent = NOTHING
     pairs: Mapping[str, Sequence[Node]] = with_default(default_factory=dict)
+    inlined: Mapping[str, Scope] = with_default(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

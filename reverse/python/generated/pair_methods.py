@@ -6,6 +6,9 @@ the object, and numbers.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
+
 from tree_sitter import Node
 
 from rebsync.reverse.python.generated.module_variables import imported_as
@@ -13,8 +16,9 @@ from rebsync.reverse.python.generated.py_types import is_text, type_of
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
-from rebsync.reverse.syntax.py_tree import field, is_label, named, text_of
+from rebsync.reverse.syntax.py_tree import calls_in, field, is_label, named, text_of
 
+_TIMES = frozenset({"When", "AT_ONCE"})
 _PLAIN = frozenset({"attribute", "subscript", "integer", "true", "false", "identifier"})
 _TEXTS = frozenset({"string", "concatenated_string"})
 _TUPLES = (["expression_list"], ["tuple"])
@@ -53,6 +57,27 @@ def is_context(module: Scope, function: Scope) -> bool:
     """Whether a function only makes contexts: `@contextmanager`."""
     whole = [imported_as(module, each) for each in function.decorators]
     return whole == ["contextlib.contextmanager"]
+
+
+def takes_time(parameter: Node) -> bool:
+    """Whether a parameter is said to be the time of a send, which no variable of a model holds."""
+    said = (parameter.child_by_field_name(name) for name in ("type", "value"))
+    words = (text_of(node).strip("\"'").rpartition(".")[2] for node in said if node is not None)
+    return any(word in _TIMES for word in words)
+
+
+def is_inlined(code: PyCode, function: Scope, callers: Iterable[Scope]) -> bool:
+    """Whether what a method does stands where it is called: it takes a time of sends.
+
+    All of the package that names it are calls of it by its object, in methods of the model.
+    """
+    is_async = any(child.type == "async" for child in function.node.children)
+    if function.decorators or is_async or not any(map(takes_time, function.parameter_nodes)):
+        return False
+    word = re.compile(rf"\b{re.escape(function.name)}\b")
+    named_so = sum(len(word.findall(m.py.source.text)) for m in code.modules.values())
+    calls = [text_of(field(call, "function")) for f in callers for call in calls_in(f.node)]
+    return named_so == 1 + calls.count(f"self.{function.name}")
 
 
 def is_beside(function: Scope) -> bool:

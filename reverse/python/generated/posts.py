@@ -10,8 +10,9 @@ from rebsync import model as m
 from rebsync.records import dataclass
 from rebsync.reverse.generated.annotations import PRIORITIES, best_priority
 from rebsync.reverse.python.generated.descriptors import servers_of
+from rebsync.reverse.python.generated.function_names import plain_name
 from rebsync.reverse.python.generated.py_types import call_parts, passed_on, string_value
-from rebsync.reverse.python.generated.roles import PyRoles, plain_name
+from rebsync.reverse.python.generated.roles import PyRoles
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.py_index import Scope
 from rebsync.reverse.syntax.py_tree import field, named, text_of

@@ -16,14 +16,19 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.names import carry, original, uncarry
 from rebsync.records import dataclass
-from rebsync.reserved import OWN_TOPICS, PYTHON_FUNCTIONS, PYTHON_MEMBERS
+from rebsync.reserved import OWN_TOPICS, PYTHON_MEMBERS
 from rebsync.reverse.bodies.overloads import Signature
 from rebsync.reverse.build.field_order import are_named
 from rebsync.reverse.generated.own_parameters import OwnParameter, only_once
 from rebsync.reverse.generated.receivers import Receivers, add_receiver
 from rebsync.reverse.generated.sensors import sensor_of
 from rebsync.reverse.python.generated.descriptors import servers_of
-from rebsync.reverse.python.generated.pair_methods import is_alone, is_beside, values_given
+from rebsync.reverse.python.generated.pair_methods import (
+    is_alone,
+    is_beside,
+    is_inlined,
+    values_given,
+)
 from rebsync.reverse.python.generated.parameters import (
     ParameterRead,
     declared_by,
@@ -114,6 +119,7 @@ class PyRoles:
     ticking: set[str] = with_default(default_factory=set)
     pairs: dict[str, list[Node]] = with_default(default_factory=dict)  # what methods give at once
     describing: set[str] = with_default(default_factory=set)  # what no variable holds
+    inlined: dict[str, Scope] = with_default(default_factory=dict)  # what takes times of sends
     arguments: dict[str, str] = with_default(default_factory=dict)
     own: dict[str, tuple[OwnParameter, Node]] = with_default(default_factory=dict)
     told: list[OwnParameter] = with_default(default_factory=list)  # that people are told of
@@ -147,7 +153,7 @@ class PyRoles:
 
     def is_plumbing(self, name: str) -> bool:
         """Whether a function is none of the model's."""
-        added = self.ticking, self.pairs, self.describing
+        added = self.ticking, self.pairs, self.describing, self.inlined
         return any(name in of for of in (_PLUMBING, self.shims, self.sends, *added))
 
     @property
@@ -183,6 +189,8 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     alone = [f for f in added if is_alone(code, f)]
     roles.pairs = {f.name: given for f in alone if (given := values_given(f))}
     roles.describing = {f.name for f in alone if is_beside(f)} - roles.pairs.keys()
+    calling = [f for n, f in roles.functions.items() if not roles.is_plumbing(n)]
+    roles.inlined = {f.name: f for f in alone if is_inlined(code, f, calling)}
     return roles
 
 
@@ -380,21 +388,3 @@ def _published(roles: PyRoles, function: Scope, by: Node, passed: tuple[PyParame
         known, key, message = found
         count = len(passed) - 1 - (known is None)
         roles.sends[function.name] = PySends(known, f"{message} {key}", count, passed)
-
-
-def plain_name(function: Scope) -> str:
-    """The model's name of a function, from its marker unless it was renamed.
-
-    Overloads have the types of their parameters behind two underscores.
-    """
-    name = function.name
-    for marker in markers_above(function.py, function.node):
-        kind, path, *_ = [*marker.split(), "", ""]
-        told = path.rpartition(".")[2]
-        carried = carry(told, PYTHON_FUNCTIONS) if told else ""
-        if kind in ("msgsrv", "method") and (name == carried or name.startswith(f"{carried}__")):
-            return told
-    found = uncarry(name, PYTHON_FUNCTIONS)
-    if carry(found, PYTHON_FUNCTIONS) == name and ("__" not in name or name.endswith("_v")):
-        return found
-    return uncarry(name.rpartition("__")[0] or name, PYTHON_FUNCTIONS)

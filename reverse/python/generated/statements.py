@@ -172,6 +172,8 @@ class Statements(ModelStatementReader):
         called, arguments = call_parts(inner) or ("", [])
         if called in self.inner:
             return inner_functions.inline_call(self, inner, called, arguments)
+        if called.removeprefix("self.") in self.expressions.names.inlined and "." in called:
+            return inner_functions.inline_method(self, inner, called, arguments)
         if called == "self._drive.move":
             by = [(e, a) for a in arguments for e in unpacked(self.expressions, a)]
             if len(by) != 2:

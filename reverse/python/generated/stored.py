@@ -232,7 +232,7 @@ def declared_before(
     names = {text_of(field(w, "name")): field(w, "value") for w in _walruses(node)}
     for unsure in _unsure(node, after):
         names.pop(unsure, None)
-    if node.type == "if_statement" and after:
+    if node.type in ("if_statement", "match_statement") and after:
         wanted = {n for each in after for n in idioms.names_in(each)}
         names |= {k: v for k, v in _of_all_branches(node).items() if k in wanted}
     found: list[m.Statement] = []
@@ -289,19 +289,28 @@ def _count(node: Node, name: str) -> int:
 
 
 def _of_all_branches(node: Node) -> dict[str, Node]:
-    """What each branch of an `if` with an `else` stores at its top, with the first value."""
-    parts = [node, *node.children_by_field_name("alternative")]
-    if parts[-1].type != "else_clause":
-        return {}
+    """What all branches of an `if` or `match` that takes one store at their top, with the first."""
     found = []
-    for part in parts:
-        body = field(part, "body" if part.type == "else_clause" else "consequence")
+    for body in _branches(node):
         inner = [named(s)[0] for s in named(body) if s.type == "expression_statement" and named(s)]
         plain = [a for a in inner if a.type == "assignment" and a.child_by_field_name("right")]
         untyped = [a for a in plain if a.child_by_field_name("type") is None]
         found.append({text_of(n): v for a in reversed(untyped) for n, v in _pairs(a)})
-    first, *others = found
+    first, *others = found or [dict[str, Node]()]
     return {k: v for k, v in first.items() if all(k in other for other in others)}
+
+
+def _branches(node: Node) -> list[Node]:
+    """The blocks of a statement that runs one of them; none if it may run none."""
+    if node.type == "match_statement":
+        cases = named(field(node, "body"))
+        patterns = [c for c in named(cases[-1]) if c.type == "case_pattern"]
+        takes_all = [text_of(p) for p in patterns] == ["_"]
+        is_whole = takes_all and cases[-1].child_by_field_name("guard") is None
+        return [field(c, "consequence") for c in cases] if is_whole else []
+    parts = [node, *node.children_by_field_name("alternative")]
+    bodies = [field(p, "body" if p.type == "else_clause" else "consequence") for p in parts]
+    return bodies if parts[-1].type == "else_clause" else []
 
 
 def _pairs(assignment: Node) -> Iterator[tuple[Node, Node]]:
