@@ -42,6 +42,7 @@ FILES = (
     *("looked_up.toml", "told_python.toml", "imports.toml", "captures.toml"),
     *("results.toml", "surroundings.toml", "undefined.toml", "needless_python.toml"),
     *("gate15b_python.toml", "gate15_cpp.toml", "gate15_python.toml"),
+    *("gate16_cpp.toml", "gate16_python.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
