@@ -156,8 +156,7 @@ class OutcomeWalk:
                 return without(facts, container)
             case s.Delete(e.Index(container)):
                 self.value(node.target, facts)
-                left = size_of(facts, container) - 1
-                return without_sizes(facts) | sized(container, left)
+                return without_sizes(facts) | sized(container, size_of(facts, container) - 1)
             case s.Delete(target):
                 return without(facts, target) - {IsBound(target)}
             case s.Import(target, module, _, True) if self.notes.is_model(module):

@@ -206,8 +206,7 @@ def silent_in(
     timers = replace(timers, looks=(looks := replace(looks, logging=timers.logging)))
     asked = Answering.of(code, owner.module, handed, members, looks, exceptions)
     plain = frozenset(n for n, v in members.items() if _is_plain(v, looks))
-    made_of = {*(t.replace("/", ".msg.") for t in types.values())}
-    made_of |= {s.full_type for s in shown.values()}
+    sent = {t.replace("/", ".msg.") for t in types.values()} | {s.full_type for s in shown.values()}
     found = Silent(
         plain | candidate_members(code, owner.module, members, makers),
         frozenset(n for n, v in publishers.items() if tells_by(code, owner.module, v, types)),
@@ -220,7 +219,7 @@ def silent_in(
         form,
         asked,
         exceptions,
-        ToldEffects(form, variables, {n for r in roles for n in (*r.known, *r.env)}, made_of),
+        ToldEffects(form, variables, {n for r in roles for n in (*r.known, *r.env)}, sent),
         plain,
         frozenset(name for r in roles for name in r.describing),
     )
