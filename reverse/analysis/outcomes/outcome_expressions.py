@@ -341,7 +341,8 @@ class OutcomeExpressions:
 
 def _is_whole(value: e.Expression) -> bool:
     """Whether a number that the source has is a whole one, of any type."""
-    return isinstance(value, e.Literal) and value.value == round(value.value)  # type: ignore[arg-type]
+    held = value.value if isinstance(value, e.Literal) else None
+    return isinstance(held, int | float) and held % 1 == 0  # not of 1e999, which is no number
 
 
 def _as_key(value: e.Index) -> e.Expression:
