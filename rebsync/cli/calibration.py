@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 from rebsync.cli.status import Status, worst
 
 if TYPE_CHECKING:
+    from rebsync.calibration.calibrate import Calibration
     from rebsync.checker.problem import Problem
     from rebsync.checker.result import Result
+    from rebsync.conform.matching import Subject
+    from rebsync.conform.recording import Recording
     from rebsync.records import dataclass
-    from rebsync.roundtrip.calibration.calibrate import Calibration
-    from rebsync.roundtrip.conform.matching import Subject
-    from rebsync.roundtrip.conform.recording import Recording
 else:
     from rebsync.records import dataclass
 
@@ -34,8 +34,8 @@ class Calibrated:
 
     def lines(self, path: str, old: str) -> Iterator[str]:
         """What there is to say, for people; `old` is the text of the model, at `path`."""
+        from rebsync.calibration.report import proposal_lines, times_lines
         from rebsync.patches import patch
-        from rebsync.roundtrip.calibration.report import proposal_lines, times_lines
 
         yield from times_lines(self.calibration.times)
         if not self.proposes:
@@ -73,8 +73,8 @@ def calibrated(
     subject: Subject, problem: Problem, recording: Recording, proposes: bool, applies: bool
 ) -> Calibrated:
     """Measures a recording and, if asked for, writes what follows into the model."""
-    from rebsync.roundtrip.calibration.calibrate import calibrate
-    from rebsync.roundtrip.calibration.measure import measure
+    from rebsync.calibration.calibrate import calibrate
+    from rebsync.calibration.measure import measure
 
     model = problem.analysis.model
     found = calibrate(problem.source, model, measure(subject, model, recording))

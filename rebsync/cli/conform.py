@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from rebsync.checker.problem import Problem
     from rebsync.cli.calibration import Calibrated
     from rebsync.config import Config
-    from rebsync.roundtrip.conform.conformance import Conformance
-    from rebsync.roundtrip.conform.matching import Subject
-    from rebsync.roundtrip.conform.recording import Recording
+    from rebsync.conform.conformance import Conformance
+    from rebsync.conform.matching import Subject
+    from rebsync.conform.recording import Recording
     from rebsync.static.cells import CellOf
 
 FORMATS = ("text", "json", "sarif", "github", "junit")
@@ -86,16 +86,16 @@ def command(ctx: click.Context, /, model: str, recordings: tuple[str, ...], **_:
     status: 0 it conforms, 1 it does not, 2 something cannot be read, 3 a property, or a rule of the
     model, is violated, 4 undetermined.
     """
+    from rebsync.calibration.report import calibration_json
     from rebsync.cli.calibration import calibrated
     from rebsync.cli.recorded_topics import is_by_hand
-    from rebsync.roundtrip.calibration.report import calibration_json
-    from rebsync.roundtrip.conform.matching import Subject, conform
-    from rebsync.roundtrip.conform.reading import InOrderOfStamps
-    from rebsync.roundtrip.conform.reading import recordings as opened
-    from rebsync.roundtrip.conform.report.formats import as_text
-    from rebsync.roundtrip.conform.search import WIDEST
-    from rebsync.roundtrip.conform.starts import REACHED
-    from rebsync.roundtrip.conform.topics import Topics
+    from rebsync.conform.matching import Subject, conform
+    from rebsync.conform.reading import InOrderOfStamps
+    from rebsync.conform.reading import recordings as opened
+    from rebsync.conform.report.formats import as_text
+    from rebsync.conform.search import WIDEST
+    from rebsync.conform.starts import REACHED
+    from rebsync.conform.topics import Topics
 
     given: dict[str, Any] = ctx.params
     if is_by_hand(model):
@@ -147,9 +147,9 @@ def _page(
     times: Calibrated | None,
 ) -> str:
     """The page of an answer, with the times and the movement of the recorded run."""
-    from rebsync.roundtrip.calibration.report import times_section
-    from rebsync.roundtrip.conform.movement import recorded_movement
-    from rebsync.roundtrip.conform.report.page import conformance_page, numbered
+    from rebsync.calibration.report import times_section
+    from rebsync.conform.movement import recorded_movement
+    from rebsync.conform.report.page import conformance_page, numbered
 
     more = [times_section(times.calibration)] if times is not None else []
     until = found.deviation.served if found.deviation is not None else None
@@ -177,7 +177,7 @@ def _with_code(
     found: Conformance, subject: Subject, problem: Problem, package: _Package
 ) -> Conformance:
     """The answer with the place in the code of what deviates."""
-    from rebsync.roundtrip.conform.code_places import code_place
+    from rebsync.conform.code_places import code_place
 
     if found.deviation is None:
         return found
@@ -209,10 +209,10 @@ def _problem(model: str, property_file: str | None) -> tuple[Problem, Config, _P
 
 def _topics(given: dict[str, Any]) -> Status:
     """The answer for a package that people wrote."""
+    from rebsync.calibration.topics import interval_lines, intervals_json
     from rebsync.cli.recorded_topics import TopicBounds, compared
-    from rebsync.roundtrip.calibration.topics import interval_lines, intervals_json
-    from rebsync.roundtrip.conform.report.formats import as_text
-    from rebsync.roundtrip.conform.report.page import conformance_page
+    from rebsync.conform.report.formats import as_text
+    from rebsync.conform.report.page import conformance_page
 
     for option in ("namespace", "calibrate", "applies"):
         if given[option]:

@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from rebsync.checker.problem import CodePlace, Problem
+    from rebsync.conform.components.properties import TopicProperties
     from rebsync.model import Model
     from rebsync.properties import Properties
     from rebsync.reverse.environment.package import ClosedPackage, EnvironmentChoice, ReadPackage
     from rebsync.reverse.files.reading import Chosen
     from rebsync.reverse.findings import Finding, Grade
-    from rebsync.roundtrip.conform.components.properties import TopicProperties
     from rebsync.roundtrip.diff.difference import Place
 
 
@@ -46,10 +46,10 @@ def read_observed(path: str, property_file: str | None) -> TopicProperties | Non
     RebsyncError: as of `read_package`.
     """
     from rebsync.checker.lowering import lower
+    from rebsync.conform.components.properties import TopicProperties
     from rebsync.reverse.environment.observation import observations
     from rebsync.reverse.environment.package import in_fitting_unit, message_types
     from rebsync.reverse.nodes.node_system import unit_of_time
-    from rebsync.roundtrip.conform.components.properties import TopicProperties
 
     chosen = property_file if property_file is not None else _property_in(path)
     if chosen is None:

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 from rebsync.records import dataclass
 
 if TYPE_CHECKING:
+    from rebsync.conform.components.environment import Closed
+    from rebsync.conform.components.heard import HeardRecordings
+    from rebsync.conform.components.properties import TopicProperties
+    from rebsync.conform.conformance import Conformance
+    from rebsync.conform.matching import Subject
     from rebsync.model import Model
     from rebsync.reverse.files.reading import Chosen
-    from rebsync.roundtrip.conform.components.environment import Closed
-    from rebsync.roundtrip.conform.components.heard import HeardRecordings
-    from rebsync.roundtrip.conform.components.properties import TopicProperties
-    from rebsync.roundtrip.conform.conformance import Conformance
-    from rebsync.roundtrip.conform.matching import Subject
 
 SLACK = 0.1  # s
 
@@ -58,10 +58,10 @@ class OpenPackage:
         from rebsync.checker.problem import Problem
         from rebsync.cli.problem import analysed
         from rebsync.config import parse_config
+        from rebsync.conform.components.environment import closed
+        from rebsync.conform.matching import Subject
         from rebsync.diagnostics import RebsyncError
         from rebsync.printing import print_model
-        from rebsync.roundtrip.conform.components.environment import closed
-        from rebsync.roundtrip.conform.matching import Subject
         from rebsync.source import Source
 
         package = closed(given, topics)
@@ -81,10 +81,10 @@ class OpenPackage:
         properties: TopicProperties | None = None,
     ) -> Conformance:
         """The answer for a recording. RebsyncError: it cannot be read."""
-        from rebsync.roundtrip.conform.components.assembly import Scale, assemble
-        from rebsync.roundtrip.conform.components.comparison import Bounds, compare
-        from rebsync.roundtrip.conform.components.properties import Timespan
-        from rebsync.roundtrip.conform.search import WIDEST
+        from rebsync.conform.components.assembly import Scale, assemble
+        from rebsync.conform.components.comparison import Bounds, compare
+        from rebsync.conform.components.properties import Timespan
+        from rebsync.conform.search import WIDEST
 
         slack = bounds.slack if bounds.slack is not None else SLACK
         scale = Scale(self.subject.time_unit, slack)
@@ -117,8 +117,8 @@ def compared(
     Several packages are none: of these one is to be named.
     """
     from rebsync.cli.packages import one_package, read_observed
-    from rebsync.roundtrip.conform.components.environment import own_types
-    from rebsync.roundtrip.conform.components.heard import HeardRecordings
+    from rebsync.conform.components.environment import own_types
+    from rebsync.conform.components.heard import HeardRecordings
 
     given = one_package(path)
     opened = HeardRecordings.of(recordings, own_types(given))

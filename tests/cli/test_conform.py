@@ -13,7 +13,7 @@ import pytest
 
 from tests.cli.run import ROOT, rebsync
 
-BAGS = ROOT / "tests" / "roundtrip" / "conform" / "recordings"
+BAGS = ROOT / "tests" / "conform" / "recordings"
 BAG = BAGS / "running_example-cpp.bag"
 MODEL = str(ROOT / "examples" / "running_example")
 SCHEMA = json.loads((ROOT / "docs" / "conform.schema.json").read_text(encoding="utf-8"))
@@ -21,7 +21,7 @@ SCHEMA = json.loads((ROOT / "docs" / "conform.schema.json").read_text(encoding="
 
 def log(path: Path, *changes: tuple[int, str, object]) -> Path:
     """The steps of a real run as a log, with some fields changed: step, field, value."""
-    from tests.roundtrip.conform.test_recordings import of_bag, steps
+    from tests.conform.test_recordings import of_bag, steps
 
     observable = of_bag(BAG).observable
     lines = []
@@ -41,7 +41,7 @@ def log(path: Path, *changes: tuple[int, str, object]) -> Path:
 
 def robots_step() -> int:
     """A step of a robot in the middle of the run."""
-    from tests.roundtrip.conform.test_recordings import steps
+    from tests.conform.test_recordings import steps
 
     return next(n for n, step in enumerate(steps(BAG)) if n > 55 and step.rebec == 1)
 
@@ -193,8 +193,8 @@ def test_what_is_no_bag_cannot_be_read(how: str, ending: str, tmp_path: Path) ->
 
 @pytest.mark.parametrize("ending", [".bag", ".mcap"])
 def test_how_to_mend_what_a_killed_recorder_leaves_is_told(ending: str, tmp_path: Path) -> None:
-    from tests.roundtrip.conform.bagging import Storage, write_bag
-    from tests.roundtrip.conform.test_recordings import of_bag, steps
+    from tests.conform.bagging import Storage, write_bag
+    from tests.conform.test_recordings import of_bag, steps
 
     storage: Storage = "mcap" if ending == ".mcap" else "ros1"
     path = write_bag(tmp_path / f"run{ending}", of_bag(BAG).observable, steps(BAG), storage)

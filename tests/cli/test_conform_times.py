@@ -11,10 +11,10 @@ from random import Random
 import jsonschema  # type: ignore[import-untyped]
 import pytest
 
-from rebsync.roundtrip.conform.recording import Announced, Served
+from rebsync.conform.recording import Announced, Served
+from tests.calibration.jittered import Measurable, Run, measurable
 from tests.cli.run import Outcome, rebsync
 from tests.consoles import ROOT
-from tests.roundtrip.calibration.jittered import Measurable, Run, measurable
 
 CROSSING = ROOT / "tests" / "ros1" / "models" / "crossing.rebeca"
 

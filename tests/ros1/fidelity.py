@@ -9,10 +9,10 @@ import pytest
 
 from rebsync.cli.problem import read_problem
 from rebsync.config import Config, settings_beside
-from rebsync.roundtrip.conform.conformance import Conformance
-from rebsync.roundtrip.conform.matching import Subject, conform
-from rebsync.roundtrip.conform.reading import recordings
-from rebsync.roundtrip.conform.topics import Topics
+from rebsync.conform.conformance import Conformance
+from rebsync.conform.matching import Subject, conform
+from rebsync.conform.reading import recordings
+from rebsync.conform.topics import Topics
 from tests.ros1.recording import Recording
 
 FIDELITY = "fidelity"
@@ -52,7 +52,7 @@ def run_name(request: pytest.FixtureRequest, name: str) -> str:
 
 
 def note(recording: Path, model: str, dialect: str) -> None:
-    """Writes beside a log what it is of, for tests/roundtrip/conform/record.py."""
+    """Writes beside a log what it is of, for tests/conform/record.py."""
     text = json.dumps({"model": model, "dialect": dialect})
     recording.with_name("subject.json").write_text(text, encoding="utf-8")
 

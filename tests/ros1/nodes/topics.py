@@ -1,4 +1,4 @@
-"""Makes tests/roundtrip/conform/recordings/thermostat.jsonl: the nodes of packages/thermostat.
+"""Makes tests/conform/recordings/thermostat.jsonl: the nodes of packages/thermostat.
 
 /usr/bin/python3 tests/ros1/nodes/topics.py SECONDS >LOG, beside a roscore.
 """
@@ -16,7 +16,7 @@ from threading import Lock
 import rospy
 from std_msgs.msg import Bool, Int32
 
-SOURCES = Path(__file__).parents[2] / "roundtrip/conform/packages/thermostat/src"
+SOURCES = Path(__file__).parents[2] / "rebsync/conform/packages/thermostat/src"
 TOPICS = {"/temperature": Int32, "/heat": Bool, "/power": Int32}
 
 
