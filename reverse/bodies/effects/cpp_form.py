@@ -8,6 +8,7 @@ from functools import cached_property
 
 from tree_sitter import Node
 
+from rebsync.reverse.analysis.definite_assignment import may_be_unset
 from rebsync.reverse.analysis.outcomes.held_locks import HeldLocks
 from rebsync.reverse.analysis.outcomes.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes.outcomes import RECURSES, OutcomeAnalysis
@@ -234,6 +235,18 @@ class CppForm:
         timers = list(map(cpp.span, _timers(statement))) if odd else []
         within = (p for p in odd for t in timers if t.start <= p.place.start < t.end)
         return frozenset(found.difference(within))
+
+    def may_be_unset(self, cpp: Cpp, declarator: Node, name: str) -> bool:
+        """Whether a local that is declared without a value may be read before it gets one."""
+        around, span = self.places.around(declarator), cpp.span(declarator)
+        if around is None:
+            return True
+        function = self._program.function(around)
+        declared = (n for n in walk(function.body) if isinstance(n, s.Declare))
+        here = (n.target for n in declared if n.place.holds(span) or span.holds(n.place))
+        names = {of.name for of in here if isinstance(of, e.Local)}
+        own = {n for n in names if n.partition("~")[0] == name}
+        return not own or any(may_be_unset(self._program, function, n) for n in own)
 
     def looked_up(self, cpp: Cpp, place: Node) -> list[Span]:
         """What code looks up at a place that may not be there, by how the language has it."""
