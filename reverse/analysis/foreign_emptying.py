@@ -12,7 +12,7 @@ from rebsync.reverse.analysis.origins import AnyOrigin, LibraryOrigin, Origins
 from rebsync.reverse.analysis.stores import CapturedVariable, Key, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import walk_all
 from rebsync.reverse.libraries.endless import FINITE
 from rebsync.reverse.libraries.outcomes import CallOutcome
 from rebsync.reverse.libraries.routines import Language
@@ -36,11 +36,10 @@ class ForeignEmptying:
         if self._table.language is not Language.PYTHON:
             return frozenset()
         found, edges = set[Key](), list[tuple[Key, Key]]()
-        for name in self._program.functions:
-            for node in walk(self._program.function(name)):
-                edges += self._same(node, name)
-                if isinstance(node, s.Call) and self.is_foreign(node, name):
-                    found |= {k for a in node.arguments for k in _keys(a.value, name)}
+        for name, node in walk_all(self._program):
+            edges += self._same(node, name)
+            if isinstance(node, s.Call) and self.is_foreign(node, name):
+                found |= {k for a in node.arguments for k in _keys(a.value, name)}
         before = 0
         while len(found) != before:
             before = len(found)

@@ -26,7 +26,7 @@ from rebsync.reverse.analysis.stores import (
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import walk, walk_all
 
 
 class ObjectMaker(IntEnum):
@@ -152,31 +152,29 @@ class Makers:
     def _given(self) -> dict[str, list[tuple[str, list[e.Expression]]]]:
         """By each function what its calls give it, with the functions that these stand in."""
         found: dict[str, list[tuple[str, list[e.Expression]]]] = {}
-        for around in self._program.functions:
-            for node in walk(self._program.function(around)):
-                match node:
-                    case s.Call(_, s.FunctionCallee(name), arguments):
-                        given = [a.value for a in arguments]
-                        found.setdefault(name, []).append((around, given))
-                    case s.Call(_, s.MethodCallee(receiver, name, str() as of), arguments):
-                        given = [receiver, *(a.value for a in arguments)]
-                        for function in self._origins.methods(of, name):
-                            found.setdefault(function, []).append((around, given))
-                    case s.Construct(target, _, arguments, str() as name) if target is not None:
-                        given = [target, *(a.value for a in arguments)]
-                        found.setdefault(name, []).append((around, given))
-                    case _:
-                        pass
+        for around, node in walk_all(self._program):
+            match node:
+                case s.Call(_, s.FunctionCallee(name), arguments):
+                    given = [a.value for a in arguments]
+                    found.setdefault(name, []).append((around, given))
+                case s.Call(_, s.MethodCallee(receiver, name, str() as of), arguments):
+                    given = [receiver, *(a.value for a in arguments)]
+                    for function in self._origins.methods(of, name):
+                        found.setdefault(function, []).append((around, given))
+                case s.Construct(target, _, arguments, str() as name) if target is not None:
+                    given = [target, *(a.value for a in arguments)]
+                    found.setdefault(name, []).append((around, given))
+                case _:
+                    pass
         return found
 
     @cached_property
     def _handed(self) -> frozenset[str]:
         """The functions that are handed on: who gets them calls them."""
-        nodes = (n for f in self._program.functions for n in walk(self._program.function(f)))
         names = (e.FunctionReference, e.Closure)
         return frozenset(
             n.name if isinstance(n, e.FunctionReference) else n.function
-            for n in nodes
+            for _, n in walk_all(self._program)
             if isinstance(n, names)
         )
 
@@ -184,12 +182,11 @@ class Makers:
     def _put(self) -> dict[Key, list[Source]]:
         """By each variable what is put into the container that it is, or into its elements."""
         found: dict[Key, list[Source]] = {}
-        for around in self._program.functions:
-            for node in walk(self._program.function(around)):
-                for holder, values in _put_by(node):
-                    key = key_of(holder, around)
-                    if key is not None:
-                        found.setdefault(key, []).extend((around, v) for v in values)
+        for around, node in walk_all(self._program):
+            for holder, values in _put_by(node):
+                key = key_of(holder, around)
+                if key is not None:
+                    found.setdefault(key, []).extend((around, v) for v in values)
         return found
 
 

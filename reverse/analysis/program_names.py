@@ -7,7 +7,7 @@ from functools import cached_property
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Program
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import walk_all
 
 _SETTERS = frozenset({"builtins.setattr", "builtins.vars"})
 
@@ -21,21 +21,19 @@ class ProgramNames:
     @cached_property
     def read_attributes(self) -> frozenset[str]:
         """The attributes that code reads other than to call them: methods that it hands over."""
-        every = self._program.functions
-        nodes = (n for name in every for n in walk(self._program.function(name)))
+        nodes = (n for _, n in walk_all(self._program))
         return frozenset(n.name for n in nodes if isinstance(n, e.Attribute))
 
     @cached_property
     def naming(self) -> dict[str, frozenset[str]]:
         """By each name of an attribute the functions that read or call it."""
         found: dict[str, set[str]] = {}
-        for function in self._program.functions:
-            for node in walk(self._program.function(function)):
-                match node:
-                    case e.Attribute(_, name) | s.Call(_, s.MethodCallee(_, name)):
-                        found.setdefault(name, set()).add(function)
-                    case _:
-                        pass
+        for function, node in walk_all(self._program):
+            match node:
+                case e.Attribute(_, name) | s.Call(_, s.MethodCallee(_, name)):
+                    found.setdefault(name, set()).add(function)
+                case _:
+                    pass
         return {name: frozenset(functions) for name, functions in found.items()}
 
     @cached_property
@@ -44,6 +42,5 @@ class ProgramNames:
         return any(
             (isinstance(node, e.Attribute) and node.name == "__dict__")
             or (isinstance(node, e.LibraryReference | s.LibraryCallee) and node.name in _SETTERS)
-            for name in self._program.functions
-            for node in walk(self._program.function(name))
+            for _, node in walk_all(self._program)
         )

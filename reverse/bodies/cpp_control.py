@@ -12,8 +12,8 @@ from rebsync.reverse.bodies import cpp_locals, cpp_loops, cpp_plain_locals, cpp_
 from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.effects.cpp_effects import Effects
-from rebsync.reverse.bodies.effects.cpp_unset_locals import SCALARS
 from rebsync.reverse.bodies.scope import Outside, Record, Variable
+from rebsync.reverse.bodies.types.cpp_types import SCALARS
 from rebsync.reverse.bodies.written import annotations_in
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of

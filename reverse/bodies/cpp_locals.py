@@ -28,7 +28,6 @@ from rebsync.reverse.bodies.effects import cpp_captures
 from rebsync.reverse.bodies.effects.cpp_call_effects import check_read
 from rebsync.reverse.bodies.effects.cpp_effects import Effects, is_bound
 from rebsync.reverse.bodies.effects.cpp_roots import specifiers_of
-from rebsync.reverse.bodies.effects.cpp_unset_locals import SCALARS, UNSET, may_be_unset
 from rebsync.reverse.bodies.effects.known_functions import is_matrix, type_takes_values
 from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
@@ -222,9 +221,8 @@ def _typed(
     reader: CppStatementReader, declared: DeclaratorParts, kept: Carried, value: Node | None
 ) -> Iterator[m.Statement]:
     is_vector = _VECTOR.match(declared.text) is not None
-    is_open = declared.value is None and kept.type.name in SCALARS and not is_vector
-    if is_open and may_be_unset(declared.node, declared.name):
-        raise reader.unread(declared.node, UNSET, "give it a value where it is declared")
+    if declared.value is None and not is_vector:
+        cpp_plain_locals.check_set(reader, declared.node, declared.name, kept.type)
     local = place_of(reader.fresh(declared.name), kept)
     initial: m.Initializer | None = None
     if kept.type == TEXT:

@@ -9,10 +9,9 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies import cpp_messages
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
-from rebsync.reverse.bodies.effects.cpp_unset_locals import SCALARS, UNSET, may_be_unset
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.bodies.shared import WORDS
-from rebsync.reverse.bodies.types.cpp_types import type_of
+from rebsync.reverse.bodies.types.cpp_types import SCALARS, type_of
 from rebsync.reverse.syntax.cpp_tree import markers_in, named, part, text_of
 from rebsync.source import Span
 
@@ -56,8 +55,8 @@ def _declarator(reader: CppStatementReader, node: Node, type_: m.Type) -> m.Decl
     local = reader.scope.local(text_of(name))
     if local in WORDS and not reader.scope.open:
         raise reader.unread(node, f'"{local}" is a word of the model', "give it another name")
-    if name is node and type_.name in SCALARS and may_be_unset(node, text_of(name)):
-        raise reader.unread(node, UNSET, "give it a value where it is declared")
+    if name is node:
+        check_set(reader, node, text_of(name), type_)
     if node.type == "init_declarator":
         value = part(node, "value")
         if value.type == "initializer_list":
@@ -68,6 +67,17 @@ def _declarator(reader: CppStatementReader, node: Node, type_: m.Type) -> m.Decl
         known = Variable(local, type_)
         reader.scope = reader.scope.with_locals({text_of(name): known})
     return m.Declarator(local, initial, reader.cpp.span(node), reader.cpp.span(name))
+
+
+def check_set(reader: CppStatementReader, node: Node, name: str, type_: m.Type) -> None:
+    """Raises `Unread` for a local without a value that may be read before it gets one.
+
+    One of a scalar type, or an array of these, has an indeterminate value ([dcl.init]).
+    """
+    form = reader.scope.form
+    if type_.name in SCALARS and (form is None or form.may_be_unset(reader.cpp, node, name)):
+        why = "this may be read before it has a value"
+        raise reader.unread(node, why, "give it a value where it is declared")
 
 
 def braces(reader: CppStatementReader, node: Node, type_: m.Type) -> m.Initializer | None:

@@ -26,6 +26,7 @@ from rebsync.reverse.bodies.cpp_unknowns import Unknown
 from rebsync.reverse.bodies.effects.cpp_call_effects import check_read
 from rebsync.reverse.bodies.effects.cpp_effects import Effects, touching
 from rebsync.reverse.bodies.effects.cpp_kinds import SHORT_CIRCUIT
+from rebsync.reverse.bodies.effects.known_functions import streams
 from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import (
     Called,
@@ -48,7 +49,6 @@ from rebsync.reverse.bodies.types.cpp_widths import check_whole
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.models.building import bare, is_calm, negated, number_literal
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
@@ -76,7 +76,7 @@ def read(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None
             if value.type == "assignment_expression" and _is_message(reader, target):
                 raise reader.unread(node, "messages are copied one at a time")
             return cpp_optionals.assign(reader, target, value)
-        case "binary_expression" if _streams(node):
+        case "binary_expression" if streams(node):
             Effects(reader.cpp, reader.scope).check(node)
             return iter(())
         case "call_expression":
@@ -129,13 +129,6 @@ def _way(reader: CppStatementReader, node: Node) -> m.Block:
         done = []
     needed, reader.before = reader.before, around
     return m.Block((*needed, *done), span=reader.cpp.span(node))
-
-
-def _streams(node: Node) -> bool:
-    """Whether it writes to the console: `std::cout << x << std::endl`."""
-    while node.type == "binary_expression" and text_of(part(node, "operator")) == "<<":
-        node = part(node, "left")
-    return text_of(node) in STREAMS
 
 
 def _called(reader: CppStatementReader, node: Node) -> Iterator[m.Statement] | None:

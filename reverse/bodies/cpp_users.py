@@ -12,11 +12,9 @@ from tree_sitter import Node
 from rebsync.reverse.bodies.cpp_plain_locals import declared_names
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.effects.cpp_effects import Effects
-from rebsync.reverse.bodies.effects.known_functions import UNUSED
+from rebsync.reverse.bodies.effects.known_functions import UNUSED, logs
 from rebsync.reverse.bodies.scope import Ignored
 from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.libraries.tables.standard import STREAMS
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
@@ -56,13 +54,7 @@ def is_logging(node: Node) -> bool:
         case "compound_statement":
             return bool(named(node)) and all(map(is_logging, named(node)))
         case "expression_statement" if named(node):
-            inner = named(node)[0]
-            if inner.type == "call_expression":
-                name = text_of(part(inner, "function"))
-                return name.startswith(libraries.logging()) or name in libraries.names_of(Kind.LOG)
-            while inner.type == "binary_expression" and text_of(part(inner, "operator")) == "<<":
-                inner = part(inner, "left")
-            return text_of(inner) in STREAMS
+            return logs(named(node)[0])
         case _:
             return False
 

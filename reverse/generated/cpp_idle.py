@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.effects.known_functions import takes_values
+from rebsync.reverse.bodies.effects.known_functions import logs, takes_values
 from rebsync.reverse.generated.ros2_words import ASKS
 from rebsync.reverse.libraries import cpp as libraries
-from rebsync.reverse.libraries.routines import Kind
-from rebsync.reverse.libraries.tables.standard import STREAMS
-from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
+from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
 _DECLARES = frozenset({"using_declaration", "static_assert_declaration"})
@@ -38,18 +36,9 @@ def is_idle(statement: Node) -> bool:
 
 def _logs(node: Node) -> bool:
     """Whether it is `ROS_INFO(...)` or `std::cout << ...`, or says that it is nothing."""
-    call = call_of(node)
-    if call is not None:
-        said = text_of(node).startswith("static_cast<void>(")
-        logs = call.name.startswith(libraries.logging()) or call.name in libraries.names_of(
-            Kind.LOG
-        )
-        return said or (call.target is None and logs)
     if node.type == "cast_expression":
         return text_of(part(node, "type")) == "void"
-    while node.type == "binary_expression" and text_of(part(node, "operator")) == "<<":
-        node = part(node, "left")
-    return text_of(node) in STREAMS
+    return text_of(node).startswith("static_cast<void>(") or logs(node)
 
 
 def _only_looks(node: Node) -> bool:

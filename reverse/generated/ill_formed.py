@@ -11,13 +11,17 @@ from collections.abc import Iterator, Sequence
 
 from tree_sitter import Node
 
-from rebsync.reverse.bodies.effects.cpp_unset_locals import may_reach_end
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import inside, part, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
 # Classes of the client libraries, of which heirs can name functions, but no members.
 _LIBRARY_BASES = frozenset({"Node", "LifecycleNode", "enable_shared_from_this"})
+_LOOPS = ("while_statement", "for_statement", "for_range_loop", "do_statement")
+_LEAVES = (
+    *("return_statement", "throw_statement", "co_return_statement", "goto_statement"),
+    *("break_statement", "continue_statement"),
+)
 _NO_PLACE = ("binary_expression", "unary_expression")
 
 
@@ -26,7 +30,7 @@ def ill_formed(code: Code, function: CppFunction) -> Iterator[Unread]:
     body, cpp = function.body, function.cpp
     if body is None:
         return
-    if _gives(function.node) and may_reach_end(body):
+    if _gives(function.node) and _may_reach_end(body):
         why = "this may end without a result"
         yield Unread(cpp.span(function.node), why, "return something on each way")
     for node in inside(body, "assignment_expression"):
@@ -61,3 +65,33 @@ def _bases(lineage: Sequence[CppClass]) -> set[str]:
 def _is_called(node: Node) -> bool:
     above = node.parent
     return above is not None and above.type == "call_expression"
+
+
+def _may_reach_end(node: Node) -> bool:
+    """Whether control may come to the end of a statement."""
+    match node.type:
+        case "if_statement":
+            ways = (part(node, "consequence"), node.child_by_field_name("alternative"))
+            return any(way is None or _may_reach_end(way) for way in ways)
+        case "switch_statement":
+            cases = [n for n in named(part(node, "body")) if n.type == "case_statement"]
+            has_default = any(n.child_by_field_name("value") is None for n in cases)
+            return not has_default or _breaks(node) or all(map(_may_reach_end, cases[-1:]))
+        case kind if kind in _LOOPS:
+            condition = node.child_by_field_name("condition")
+            said = "" if condition is None else text_of(condition).strip("() ")
+            is_for = kind == "for_statement" and condition is None
+            return _breaks(node) or not (is_for or said in ("true", "1"))
+        case "try_statement":
+            handlers = [n for n in named(node) if n.type == "catch_clause"]
+            return any(_may_reach_end(part(n, "body")) for n in (node, *handlers))
+        case "compound_statement" | "labeled_statement" | "else_clause" | "case_statement":
+            return all(map(_may_reach_end, named(node)))
+        case kind:
+            return kind not in _LEAVES
+
+
+def _breaks(node: Node) -> bool:
+    """Whether a `break` leaves a loop or switch."""
+    inner = [n for n in named(node) if n.type not in (*_LOOPS, "switch_statement")]
+    return any(n.type == "break_statement" or _breaks(n) for n in inner)

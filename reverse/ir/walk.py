@@ -11,7 +11,7 @@ from typing import TypeAlias, get_args
 from rebsync.reverse.ir import calls as c
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.program import Function
+from rebsync.reverse.ir.program import Function, Program
 
 Node: TypeAlias = (
     e.Expression
@@ -54,6 +54,12 @@ def walk(node: Node | Function | s.Body) -> Iterator[Node]:
         inner = parts(current)
         inner.reverse()
         waiting += inner
+
+
+def walk_all(program: Program) -> Iterator[tuple[str, Node]]:
+    """All nodes of the functions of a program, each with the name of its function."""
+    for name in program.functions:
+        yield from ((name, node) for node in walk(program.function(name)))
 
 
 def statements(body: s.Body) -> Iterator[s.Statement]:

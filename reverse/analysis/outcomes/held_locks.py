@@ -10,12 +10,23 @@ guards too. What `enter_context` of an `ExitStack` enters is held for the rest o
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
-from functools import partial
+from collections.abc import Collection, Iterator
+from functools import cached_property, partial
 
 from rebsync.reverse.analysis.element_counts import ElementCounts
 from rebsync.reverse.analysis.fixpoint import Equation, LeastFixpoint, Transfer
 from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrigin, Origins
+from rebsync.reverse.analysis.outcomes.lock_classes import (
+    BY_HAND,
+    OTHERWISE,
+    has_guard,
+    inner_of,
+    is_by_hand,
+    is_guard,
+    is_mutex,
+    is_or_has_guard,
+    is_tag,
+)
 from rebsync.reverse.analysis.problems import Problem, ProblemNotes
 from rebsync.reverse.analysis.stores import CallResult, Key, Member, key_of
 from rebsync.reverse.ir import expressions as e
@@ -23,9 +34,8 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.program import Function, FunctionKind
 from rebsync.reverse.ir.walk import STATEMENTS, Node, walk
+from rebsync.reverse.libraries.outcome_classes import UNKNOWN_CLASS
 
-_GUARDS = frozenset({"lock_guard", "unique_lock", "scoped_lock", "shared_lock"})
-_BY_HAND = frozenset({"lock", "lock_shared", "try_lock", "try_lock_for", "try_lock_until"})
 _NAMED = e.AddressOf | e.Local | e.Temporary | e.Global | e.Captured | e.Attribute
 _ASKING = frozenset({"acquire", "__enter__"})
 _LEAVING = (s.Return, s.Raise, s.Break, s.Continue, s.Yield, s.Unsupported)
@@ -39,6 +49,7 @@ _LOCKS = frozenset(
 _REENTRANT = LibraryOrigin("threading.RLock")
 _OF = "::"  # between a class and its field
 _AGAIN = "this waits for ever where the lock is held already"
+UNKNOWN_LOCK = "what this locks is not known"
 _LONGER = "this may hold a lock for longer than its block"
 
 # The mutexes that something locks; None is one of which nothing is known.
@@ -47,10 +58,11 @@ _NONE: Mutexes = frozenset()
 
 
 class HeldLocks:
-    """The locks of one program."""
+    """The locks of one program, in which `known` functions leave nothing locked."""
 
-    def __init__(self, origins: Origins) -> None:
+    def __init__(self, origins: Origins, known: Collection[str] = ()) -> None:
         self.origins = origins
+        self._known = known
         self.stores = origins.graph.stores
         self._counts = ElementCounts(origins)
         self._left = LeastFixpoint[Key | None](self._left_by)
@@ -58,10 +70,12 @@ class HeldLocks:
     def check(self, function: Function, notes: ProblemNotes) -> None:
         """Notes where a function may lock what it has locked."""
         for used in walk(function.body):
-            if isinstance(used, e.LibraryReference) and _is_guard(used.name):
+            if isinstance(used, e.LibraryReference) and is_guard(used.name):
                 notes.problem(used, _LONGER)
-            if isinstance(used, s.Declare) and _has_guard(used.type):
+            if isinstance(used, s.Declare) and has_guard(used.type):
                 notes.problem(used, _LONGER)
+            if self._is_unknown(used):
+                notes.problem(used, UNKNOWN_LOCK)
         scoped = _scoped(function.body)
         for node, inside in _with_rest(function.body):
             mutexes = self._locked(node, function.name)
@@ -77,6 +91,28 @@ class HeldLocks:
                 later = (self._locked(inner, name) for inner in walk(body))
                 if any(_meet(mutexes, others) for others in later) or _acquires(body):
                     notes.problem(node, _AGAIN)
+
+    def _is_unknown(self, node: Node) -> bool:
+        """Whether a node may lock something in a way that is not known."""
+        match node:
+            case s.Call(_, s.LibraryCallee(name, None), arguments) if not is_guard(name):
+                is_given = any(is_mutex(a.value) for a in arguments)
+                is_odd = name == UNKNOWN_CLASS and self._has_guards
+                return is_given or is_odd or OTHERWISE.fullmatch(name) is not None
+            case s.Unsupported(target=e.Local(type=t.Record(name))):
+                line = {name, *self.origins.graph.bases(name)}
+                every = self.origins.graph.program.functions
+                return any(n.rpartition("::")[0] in line and self._is_guard_of(n) for n in every)
+            case _:
+                return False
+
+    @cached_property
+    def _has_guards(self) -> bool:
+        """Whether objects of some class of the program, perhaps a template, hold a lock."""
+        program = self.origins.graph.program
+        every = map(program.function, program.functions)
+        makers = [f for f in every if f.kind is FunctionKind.CONSTRUCTOR]
+        return any(self.left_by(f.name) or _asks(f.body, BY_HAND) for f in makers)
 
     def of(self, name: str) -> frozenset[Problem]:
         """Where a function of a program may lock what it has locked."""
@@ -96,10 +132,12 @@ class HeldLocks:
 
     def _by_library(self, node: Node, function: str) -> Mutexes:
         match node:
-            case s.Call(_, s.LibraryCallee(name), arguments) if _is_guard(name):
+            case s.Call(_, s.LibraryCallee(name), arguments) if is_guard(name):
                 values = (a.value for a in arguments)
-                found = [self._mutexes(v, function, _NONE) for v in values if not _is_tag(v)]
-            case s.Call(_, s.LibraryCallee(name, receiver)) if _is_by_hand(name):
+                found = [self._mutexes(v, function, _NONE) for v in values if not is_tag(v)]
+            case s.Call(_, s.LibraryCallee(name)) if OTHERWISE.fullmatch(name):
+                return frozenset({None})
+            case s.Call(_, s.LibraryCallee(name, receiver)) if is_by_hand(name):
                 found = [] if receiver is None else [self._mutexes(receiver, function, _NONE)]
             case s.Call(_, s.MethodCallee(_, "enter_context"), arguments):
                 found = [self._entered(a.value, function) for a in arguments]
@@ -125,7 +163,7 @@ class HeldLocks:
 
     def left_by(self, name: str) -> Mutexes:
         """The mutexes that a function may leave locked; None is one that it gets."""
-        return self._left.of(name)
+        return _NONE if name in self._known else self._left.of(name)
 
     def _left_by(self, name: str) -> Equation[Key | None]:
         own, uses = set[Key | None](), list[tuple[str, Transfer[Key | None]]]()
@@ -136,7 +174,7 @@ class HeldLocks:
                 continue
             calls = self._calls(node, name)
             locked = self._by_library(node, name)
-            if (calls or locked) and _held(node, rest)[1]:
+            if (calls or locked) and (_held(node, rest)[1] or _is_given(node, rest)):
                 own |= locked
                 uses += ((called, partial(self._seen, given, name)) for called, given in calls)
         return Equation(frozenset(own), tuple(uses))
@@ -157,7 +195,7 @@ class HeldLocks:
         self, arguments: tuple[s.CallArgument, ...], function: str, left: Key | None
     ) -> Mutexes:
         """A mutex that a function of the program leaves locked, as seen where it is called."""
-        given = [a.value for a in arguments if _is_mutex(a.value)] if left is None else []
+        given = [a.value for a in arguments if is_mutex(a.value)] if left is None else []
         return (
             _NONE.union(*(self._mutexes(v, function, _NONE) for v in given))
             if given
@@ -174,7 +212,7 @@ class HeldLocks:
         graph = self.origins.graph
         every = (graph.program.classes.get(c) for c in (class_name, *graph.bases(class_name)))
         classes = [c for c in every if c is not None]
-        if any(_is_or_has_guard(f.type) for c in classes for f in c.fields):
+        if any(is_or_has_guard(f.type) for c in classes for f in c.fields):
             return True
         bodies = (graph.program.function(c.destructor) for c in classes if c.destructor)
         calls = (n.callee for body in bodies for n in walk(body) if isinstance(n, s.Call))
@@ -183,7 +221,7 @@ class HeldLocks:
     def _mutexes(self, value: e.Expression, function: str, seen: Mutexes) -> Mutexes:
         """The mutexes that a value may be, or lead to."""
         while isinstance(value, e.AddressOf | e.Dereference | e.Convert | e.Copy | e.Move):
-            value = _inner(value)
+            value = inner_of(value)
         key = key_of(value, function)
         type_ = getattr(value, "type", t.UNKNOWN)
         if isinstance(type_, t.Record):
@@ -229,9 +267,14 @@ class HeldLocks:
 
 def _acquires(body: s.Body) -> bool:
     """Whether a body asks a lock of Python, whichever it is."""
+    return _asks(body, _ASKING)
+
+
+def _asks(body: s.Body, methods: Collection[str]) -> bool:
+    """Whether a body calls some methods of objects of which no more is known."""
     calls = (n for n in walk(body) if isinstance(n, s.Call))
-    methods = (n.callee for n in calls if isinstance(n.callee, s.MethodCallee))
-    return any(callee.name in _ASKING for callee in methods)
+    called = (n.callee for n in calls if isinstance(n.callee, s.MethodCallee))
+    return any(callee.name in methods for callee in called)
 
 
 def _scoped(body: s.Body) -> frozenset[int]:
@@ -255,9 +298,9 @@ def _held(node: s.Statement, rest: s.Body) -> tuple[s.Body, bool]:
     if isinstance(node, s.Construct):
         return rest, _outlives(node.target, rest)
     if not isinstance(node.callee, s.LibraryCallee):
-        is_given = _is_or_has_guard(node.target.type) if node.target is not None else False
+        is_given = is_or_has_guard(node.target.type) if node.target is not None else False
         return rest, not is_given or _outlives(node.target, rest)
-    if not _is_by_hand(node.callee.name):
+    if not is_by_hand(node.callee.name):
         return rest, _outlives(node.target, rest)
     unlock = node.callee.name.rpartition("::")[0] + "::unlock"
     for number, later in enumerate(rest):
@@ -294,16 +337,6 @@ def _bodies(node: object) -> Iterator[s.Body]:
             yield value
 
 
-def _inner(
-    value: e.AddressOf | e.Dereference | e.Convert | e.Copy | e.Move,
-) -> e.Expression:
-    match value:
-        case e.AddressOf(inner) | e.Dereference(inner):
-            return inner
-        case e.Copy(inner) | e.Move(inner) | e.Convert(_, inner):
-            return inner
-
-
 def _outlives(guard: e.Lvalue | None, rest: s.Body) -> bool:
     """Whether what holds a lock may be there after its block: it is no variable, or moved."""
     if not isinstance(guard, e.Local):
@@ -312,49 +345,11 @@ def _outlives(guard: e.Lvalue | None, rest: s.Body) -> bool:
     return any(guard in walk(n) for n in ended)
 
 
-def _is_guard(name: str) -> bool:
-    """Whether a class is a guard; or what makes objects of one, as `std::make_unique` does."""
-    plain, _, of = name.partition("<")
-    if plain.rpartition("::")[2].startswith("make_"):
-        plain = of.partition("<")[0].partition(">")[0]
-    return plain.rpartition("::")[2] in _GUARDS
-
-
-def _has_guard(type_: t.Type) -> bool:
-    """Whether objects of a type have guards in them, which others may put there and take out."""
-    match type_:
-        case t.Optional(inner) | t.Array(inner):
-            return _is_or_has_guard(inner)
-        case t.Reference(inner, _, ownership):
-            return ownership is not t.Ownership.NONE and _is_or_has_guard(inner)
-        case t.Container(_, elements):
-            return any(map(_is_or_has_guard, elements))
-        case _:
-            return False
-
-
-def _is_or_has_guard(type_: t.Type) -> bool:
-    return _has_guard(type_) or (isinstance(type_, t.Record) and _is_guard(type_.name))
-
-
-def _is_mutex(value: e.Expression) -> bool:
-    """Whether a value is a mutex of a library, or a reference to one."""
-    while isinstance(value, e.AddressOf | e.Dereference | e.Convert | e.Copy | e.Move):
-        value = _inner(value)
-    type_ = getattr(value, "type", t.UNKNOWN)
-    type_ = type_.to if isinstance(type_, t.Reference) else type_
-    return isinstance(type_, t.Record) and type_.name.endswith("mutex")
-
-
-def _is_by_hand(name: str) -> bool:
-    """Whether a method locks a mutex until somebody unlocks it."""
-    of, _, method = name.rpartition("::")
-    return of.endswith("mutex") and "recursive" not in of and method in _BY_HAND
-
-
-def _is_tag(value: e.Expression) -> bool:
-    """Whether an argument only says how to lock."""
-    return isinstance(value, e.LibraryReference | e.Literal)
+def _is_given(node: s.Statement, rest: s.Body) -> bool:
+    """Whether a variable that holds a lock is what the function gives: it is moved to there."""
+    guard = node.target if isinstance(node, s.Call) else None
+    moved = (n.value for n in walk(rest) if isinstance(n, s.Assign))
+    return isinstance(guard, e.Local) and any(value == guard for value in moved)
 
 
 def _meet(mutexes: Mutexes, others: Mutexes) -> bool:

@@ -16,7 +16,7 @@ from rebsync.reverse.analysis.python.value_types import (
 )
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import walk_all
 
 _NUMBERED = frozenset({"store_true", "store_false", "count"})
 _CONVERTING = {"builtins.int": A_NUMBER, "builtins.float": A_NUMBER, "builtins.str": A_TEXT}
@@ -35,17 +35,16 @@ class ArgumentParsers:
     @cached_property
     def _added(self) -> dict[str, list[ValueTypes]]:
         found: dict[str, list[ValueTypes]] = {}
-        for function in self._program.functions:
-            for node in walk(self._program.function(function)):
-                match node:
-                    case s.Call(_, s.MethodCallee(_, "add_argument")):
-                        found.setdefault(_attribute(node), []).append(_types(node))
-                    case s.Call(_, s.MethodCallee(_, "set_defaults"), arguments):
-                        for argument in arguments:
-                            types = _of_default(argument.value)
-                            found.setdefault(argument.name or "", []).append(types)
-                    case _:
-                        pass
+        for _, node in walk_all(self._program):
+            match node:
+                case s.Call(_, s.MethodCallee(_, "add_argument")):
+                    found.setdefault(_attribute(node), []).append(_types(node))
+                case s.Call(_, s.MethodCallee(_, "set_defaults"), arguments):
+                    for argument in arguments:
+                        types = _of_default(argument.value)
+                        found.setdefault(argument.name or "", []).append(types)
+                case _:
+                    pass
         return found
 
 

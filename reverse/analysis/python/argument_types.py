@@ -35,7 +35,7 @@ from rebsync.reverse.analysis.stores import (
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import walk, walk_all
 from rebsync.reverse.libraries import python
 from rebsync.reverse.libraries.callbacks import CALLBACKS
 from rebsync.reverse.libraries.routines import Access, Kind, Routine
@@ -79,16 +79,15 @@ class ArgumentTypes:
     @cached_property
     def _built(self) -> dict[str, list[Source]]:
         found: dict[str, list[Source]] = {}
-        for name in self._program.functions:
-            for node in walk(self._program.function(name)):
-                match node:
-                    case s.Call(_, s.ValueCallee(value)):
-                        for origin in self._origins.of(value, name):
-                            if isinstance(origin, ClassOrigin) and not origin.of_object:
-                                for field, given in self._for_fields(node, origin.name):
-                                    found.setdefault(field, []).append((name, given))
-                    case _:
-                        pass
+        for name, node in walk_all(self._program):
+            match node:
+                case s.Call(_, s.ValueCallee(value)):
+                    for origin in self._origins.of(value, name):
+                        if isinstance(origin, ClassOrigin) and not origin.of_object:
+                            for field, given in self._for_fields(node, origin.name):
+                                found.setdefault(field, []).append((name, given))
+                case _:
+                    pass
         return found
 
     def _for_fields(self, call: s.Call, name: str) -> Iterator[tuple[str, Value]]:
@@ -108,10 +107,9 @@ class ArgumentTypes:
     def declared(self) -> dict[str, list[tuple[str, e.Expression]]]:
         """By each parameter of nodes its defaults, with the functions that declare them."""
         found: dict[str, list[tuple[str, e.Expression]]] = {}
-        for name in self._program.functions:
-            for node in walk(self._program.function(name)):
-                for asked, default in _declared(node):
-                    found.setdefault(asked, []).append((name, default))
+        for name, node in walk_all(self._program):
+            for asked, default in _declared(node):
+                found.setdefault(asked, []).append((name, default))
         return found
 
     @cached_property
@@ -276,23 +274,22 @@ class ArgumentTypes:
     @cached_property
     def _subscribed(self) -> dict[tuple[str, str], list[str]]:
         found: dict[tuple[str, str], list[str]] = {}
-        for name in self._program.functions:
-            for node in walk(self._program.function(name)):
-                for type_, callback in _asked(node, Kind.SUBSCRIPTION):
-                    for called in callback_functions(self._graph, callback, name):
-                        for parameter in first_parameter(self._program.function(called)):
-                            known = found.setdefault((called, parameter), [])
-                            known += self.messages_of(type_, name)
-                for gets, callback in _other_callbacks(node):
-                    for called in callback_functions(self._graph, callback, name):
-                        for parameter in first_parameter(self._program.function(called)):
-                            found.setdefault((called, parameter), []).append(gets)
-                for type_, callback in _asked(node, Kind.SERVICE):
-                    for called in callback_functions(self._graph, callback, name):
-                        of_call = own_parameters(self._program.function(called))
-                        for parameter, part in zip(of_call, _PARTS, strict=False):
-                            known = found.setdefault((called, parameter), [])
-                            known += [f"{each}_{part}" for each in self.messages_of(type_, name)]
+        for name, node in walk_all(self._program):
+            for type_, callback in _asked(node, Kind.SUBSCRIPTION):
+                for called in callback_functions(self._graph, callback, name):
+                    for parameter in first_parameter(self._program.function(called)):
+                        known = found.setdefault((called, parameter), [])
+                        known += self.messages_of(type_, name)
+            for gets, callback in _other_callbacks(node):
+                for called in callback_functions(self._graph, callback, name):
+                    for parameter in first_parameter(self._program.function(called)):
+                        found.setdefault((called, parameter), []).append(gets)
+            for type_, callback in _asked(node, Kind.SERVICE):
+                for called in callback_functions(self._graph, callback, name):
+                    of_call = own_parameters(self._program.function(called))
+                    for parameter, part in zip(of_call, _PARTS, strict=False):
+                        known = found.setdefault((called, parameter), [])
+                        known += [f"{each}_{part}" for each in self.messages_of(type_, name)]
         return found
 
     def messages_of(self, type_: e.Expression, function: str) -> Iterator[str]:

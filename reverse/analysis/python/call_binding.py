@@ -16,7 +16,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
 from rebsync.reverse.ir.program import Function, Parameter, ParameterKind
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import walk_all
 from rebsync.reverse.libraries.callbacks import CALLBACKS
 
 REFUSED = "gets other arguments than it takes"
@@ -218,15 +218,14 @@ class CallBinding:
     def _decorated(self, names: set[str] | None) -> frozenset[str]:
         """The functions that some functions of libraries get alone, or (None) any unknown ones."""
         found = set[str]()
-        for name in self._program.functions:
-            for node in walk(self._program.function(name)):
-                match node:
-                    case s.Call(_, callee, (s.CallArgument(e.Closure(function)),)):
-                        known = callee.name if isinstance(callee, s.LibraryCallee) else ""
-                        is_asked = known not in KEEPING if names is None else known in names
-                        found |= {function} if is_asked else set()
-                    case _:
-                        pass
+        for _, node in walk_all(self._program):
+            match node:
+                case s.Call(_, callee, (s.CallArgument(e.Closure(function)),)):
+                    known = callee.name if isinstance(callee, s.LibraryCallee) else ""
+                    is_asked = known not in KEEPING if names is None else known in names
+                    found |= {function} if is_asked else set()
+                case _:
+                    pass
         return frozenset(found)
 
 

@@ -15,7 +15,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall, Operator
 from rebsync.reverse.ir.program import Class, Parameter, ParameterKind
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import walk_all
 
 _DATACLASS = "dataclasses.dataclass"
 _FIELD = "dataclasses.field"
@@ -129,14 +129,13 @@ class ClassDecorators:
     @cached_property
     def _decorators(self) -> dict[str, list[Decorator]]:
         found: dict[str, list[Decorator]] = {}
-        for function in self._program.functions:
-            for node in walk(self._program.function(function)):
-                match node:
-                    case s.Call(e.Temporary(), callee, (s.CallArgument(e.Temporary() as given),)):
-                        for name in self._classes(given, function):
-                            found.setdefault(name, []).append(self._decorator(callee, function))
-                    case _:
-                        pass
+        for function, node in walk_all(self._program):
+            match node:
+                case s.Call(e.Temporary(), callee, (s.CallArgument(e.Temporary() as given),)):
+                    for name in self._classes(given, function):
+                        found.setdefault(name, []).append(self._decorator(callee, function))
+                case _:
+                    pass
         return found
 
     def _classes(self, value: e.Expression, function: str) -> Iterator[str]:

@@ -35,7 +35,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.program import Program
-from rebsync.reverse.ir.walk import Node, walk
+from rebsync.reverse.ir.walk import Node, walk_all
 
 _LIST, _QUEUE, _SET, _MAPPING = OwnType.LIST, OwnType.QUEUE, OwnType.SET, OwnType.MAPPING
 # By the name of each method that puts something into its object: what that may be.
@@ -85,13 +85,7 @@ class ContainerStores:
 
     @cached_property
     def _puts(self) -> list[Put]:
-        program = self._program
-        return [
-            put
-            for n in program.functions
-            for node in walk(program.function(n))
-            for put in _put(node, n)
-        ]
+        return [put for name, node in walk_all(self._program) for put in _put(node, name)]
 
     def contents(self, before: ValueTypes) -> ValueTypes:
         """What is put into containers, each time as one of its site, with what was known before."""

@@ -15,7 +15,7 @@ from rebsync.reverse.analysis.stores import CallResult, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, FunctionKind
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import walk, walk_all
 
 _FIRST = (FunctionKind.CONSTRUCTOR, FunctionKind.MODULE, FunctionKind.CLASS)
 _DECLARING = ("declare_parameter", "declare_parameters")
@@ -64,8 +64,7 @@ class DeclaredParameters:
         """Whether a node may get parameters that it has not declared."""
         return any(
             argument.name == _ALLOWING and argument.value != e.Literal(False)
-            for name in self._program.functions
-            for node in walk(self._program.function(name))
+            for _, node in walk_all(self._program)
             if isinstance(node, s.Call)
             for argument in node.arguments
         )
@@ -129,13 +128,12 @@ class DeclaredParameters:
         """The texts that calls give to a function, by its name."""
         last = re.split("[.:]", function.name)[-1]
         found = frozenset[str]()
-        for name in self._program.functions:
-            for node in walk(self._program.function(name)):
-                match node:
-                    case s.Call(_, callee, arguments) if _name_of(callee) == last:
-                        found = found.union(*(_literals(a.value) for a in arguments))
-                    case _:
-                        pass
+        for _, node in walk_all(self._program):
+            match node:
+                case s.Call(_, callee, arguments) if _name_of(callee) == last:
+                    found = found.union(*(_literals(a.value) for a in arguments))
+                case _:
+                    pass
         return found
 
 

@@ -199,10 +199,6 @@ class InferredTypes:
 
     # --- names -----------------------------------------------------------------------------------
 
-    def of_name(self, key: Key) -> ValueTypes:
-        """The types of what is stored under a name."""
-        return self._rounds.of(key)
-
     def _found(self, node: Node, before: ValueTypes) -> ValueTypes:
         """The types of what is stored under a name, or a function gives, of a bounded depth."""
         match node:

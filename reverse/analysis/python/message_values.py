@@ -15,7 +15,7 @@ from rebsync.reverse.analysis.stores import CapturedVariable, Key, TemporaryVari
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, ParameterKind
-from rebsync.reverse.ir.walk import Node, walk
+from rebsync.reverse.ir.walk import Node, walk, walk_all
 from rebsync.reverse.libraries import python
 from rebsync.reverse.libraries.routines import Kind
 
@@ -90,11 +90,10 @@ class MessageValues:
     def _messages(self) -> frozenset[Key]:
         """The parameters of functions that subscriptions alone call."""
         handed: dict[str, int] = {}
-        for name in self._program.functions:
-            for node in walk(self._program.function(name)):
-                for callback in _callbacks(node):
-                    called = callback_functions(self._graph, callback, name)
-                    handed |= {f: handed.get(f, 0) + 1 for f in called}
+        for name, node in walk_all(self._program):
+            for callback in _callbacks(node):
+                called = callback_functions(self._graph, callback, name)
+                handed |= {f: handed.get(f, 0) + 1 for f in called}
         return frozenset(
             CapturedVariable(name, first)
             for name, times in handed.items()
@@ -106,20 +105,19 @@ class MessageValues:
     def _named(self) -> dict[str, int]:
         """How often the program names each function, by the last part of its name."""
         found: dict[str, int] = {}
-        for name in self._program.functions:
-            for node in walk(self._program.function(name)):
-                match node:
-                    case (
-                        e.Attribute(_, called)
-                        | s.MethodCallee(_, called)
-                        | e.Global(_, called)
-                        | e.FunctionReference(called)
-                    ):
-                        found[_last(called)] = found.get(_last(called), 0) + 1
-                    case e.Closure(called) if "<" in _last(called):
-                        found[_last(called)] = found.get(_last(called), 0) + 1
-                    case _:
-                        pass
+        for _, node in walk_all(self._program):
+            match node:
+                case (
+                    e.Attribute(_, called)
+                    | s.MethodCallee(_, called)
+                    | e.Global(_, called)
+                    | e.FunctionReference(called)
+                ):
+                    found[_last(called)] = found.get(_last(called), 0) + 1
+                case e.Closure(called) if "<" in _last(called):
+                    found[_last(called)] = found.get(_last(called), 0) + 1
+                case _:
+                    pass
         return found
 
     @cached_property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from rebsync.reverse.analysis.python.value_types import ValueTypes
-from rebsync.reverse.analysis.stores import Key, Source
+from rebsync.reverse.analysis.stores import Source
 from rebsync.reverse.ir import expressions as e
 
 
@@ -14,9 +14,6 @@ class TypeQueries(Protocol):
 
     def of(self, value: e.Expression, function: str) -> ValueTypes:
         """The types of what an expression of a function may be."""
-
-    def of_name(self, key: Key) -> ValueTypes:
-        """The types of what is stored under a name."""
 
     def of_member(self, name: str, owner: str | None) -> ValueTypes:
         """The types of an attribute, of objects of a class if methods of that ask their own."""

@@ -8,7 +8,8 @@ from functools import cached_property
 
 from tree_sitter import Node
 
-from rebsync.reverse.analysis.outcomes.held_locks import HeldLocks
+from rebsync.reverse.analysis.definite_assignment import may_be_unset
+from rebsync.reverse.analysis.outcomes.held_locks import UNKNOWN_LOCK, HeldLocks
 from rebsync.reverse.analysis.outcomes.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes.outcomes import RECURSES, OutcomeAnalysis
 from rebsync.reverse.analysis.problems import NOTHING_THERE, UNSAID, Problem
@@ -19,7 +20,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.cpp.functions import lambda_names
 from rebsync.reverse.ir.cpp.lowering import CppLowering
-from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
+from rebsync.reverse.ir.cpp.symbols import ClassSymbol
 from rebsync.reverse.ir.program import Function, FunctionKind, Program
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries import cpp as libraries
@@ -30,22 +31,9 @@ from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside
 from rebsync.source import NOWHERE, Span
 
-_LOCKS = re.compile(rb"(?<![cCbB])lock")
-# Locks that are none of the guards by their names: functions, and guards by another name.
-_OTHERWISE = re.compile(
-    rb"\bstd\s*::\s*(?:try_)?lock\s*\(|\bpthread_\w*(?:lock|wait)\w*\s*\(|\bsem_\w*wait\s*\("
-)
-_RENAMED = re.compile(
-    rb"\busing\s+(\w+)\s*=[^;]*\b(?:lock_guard|unique_lock|scoped_lock|shared_lock)\b"
-    rb"|\btypedef\b[^;]*\b(?:lock_guard|unique_lock|scoped_lock|shared_lock)\b[^;]*?(\w+)\s*;"
-)
-_GUARD = re.compile(rb"\b(?:lock_guard|unique_lock|scoped_lock|shared_lock)\b")
-_NAMED = re.compile(rb"\breturn\s+(?:std\s*::\s*move\s*\(\s*)?\w+\s*\)?\s*;")
-_INHERITED = re.compile(rb"\busing\s[^;=]*::\s*\w+\s*;")
-_ALIAS = re.compile(rb"\busing\s+(\w+)\s*=([^;]*);|\btypedef\b([^;]*?)(\w+)\s*;")
-_WORD = re.compile(rb"\w+")
+# Words without which nothing locks, or waits for who does.
+_LOCKS = re.compile(rb"(?<![cCbB])lock|\bsem_\w*wait")
 _ACTING = ("call_expression", "assignment_expression", "update_expression", "new_expression")
-_UNKNOWN = "what this locks is not known"
 # Headers of messages of ROS 1, which are named as these are.
 _MESSAGE = re.compile(rb"#\s*include\s*[<\"](\w+)/([A-Z]\w*)\.h[>\"]")
 
@@ -109,9 +97,14 @@ class CppForm:
     def _loops(self) -> ProgramLoops:
         return ProgramLoops(self._outcomes.origins)
 
-    @property
+    @cached_property
     def _locks(self) -> HeldLocks:
-        return self._outcomes.locks
+        return HeldLocks(self._outcomes.origins, self._of_known)
+
+    @cached_property
+    def _has_locks(self) -> bool:
+        """Whether files other than known ones may lock something, by their words."""
+        return any(_LOCKS.search(cpp.data) for cpp in self._code.files if cpp not in self._known)
 
     @cached_property
     def _of_known(self) -> frozenset[str]:
@@ -119,96 +112,6 @@ class CppForm:
         return frozenset(
             f.name for f in self.places.functions.values() if f.code.cpp in self._known
         )
-
-    @cached_property
-    def _guards(self) -> frozenset[bytes]:
-        """Other names of guards."""
-        found = (m for cpp in self._code.files for m in _RENAMED.finditer(cpp.data))
-        return frozenset(m[1] or m[2] for m in found)
-
-    @cached_property
-    def _locking(self) -> frozenset[bytes]:
-        """The names of functions and classes that leave something locked for who calls them."""
-        files = [cpp for cpp in self._code.files if cpp not in self._known]
-        if not any(_LOCKS.search(cpp.data) for cpp in files):
-            return frozenset()
-        read = (f for f in self.places.functions.values() if f.code.cpp not in self._known)
-        texts = [(f, self._text(f)) for f in read]
-        waiting = [(f, frozenset(_WORD.findall(text))) for f, text in texts]
-        asked = [w for w, (_, text) in zip(waiting, texts, strict=True) if _LOCKS.search(text)]
-        found = frozenset[bytes]()
-        while asked:
-            left = {f.simple.encode() for f, _ in asked if self._locks.left_by(f.name)}
-            waiting = [w for w in waiting if w not in asked]
-            found |= left
-            found |= {b for a, b in self._aliases if a & found}
-            asked = [w for w in waiting if w[1] & found]
-        return found
-
-    @cached_property
-    def _aliases(self) -> list[tuple[frozenset[bytes], bytes]]:
-        """What files give other names, by the words in it."""
-        found = (m for cpp in self._code.files for m in _ALIAS.finditer(cpp.data))
-        return [(frozenset(_WORD.findall(m[2] or m[3])), m[1] or m[4]) for m in found]
-
-    @cached_property
-    def _unclear(self) -> frozenset[bytes]:
-        """The names of guards whose constructors lock something in a way that has no form."""
-        every = [f for f in self.places.functions.values() if self._is_constructor(f)]
-        unread = (f for f in every if f.is_template and _LOCKS.search(self._text(f)))
-        otherwise = (f for f in every if _OTHERWISE.search(f.code.node.text or b""))
-        found = self._guards | self._inheriting
-        return found.union(f.simple.encode() for each in (unread, otherwise) for f in each)
-
-    @cached_property
-    def _inheriting(self) -> frozenset[bytes]:
-        """The classes that inherit the constructors of one that locks something."""
-        symbols = self._lowering.world.symbols
-        found = set[bytes]()
-        for name, owner in symbols.classes.items():
-            if not _INHERITED.search(owner.node.text or b""):
-                continue
-            above = b" ".join(c.node.text or b"" for c in symbols.lineage(name))
-            if _LOCKS.search(above):
-                found.add(name.rpartition("::")[2].encode())
-        return frozenset(found)
-
-    @cached_property
-    def _holding(self) -> frozenset[bytes]:
-        """The functions that give a guard that is a variable of theirs."""
-        found = set[bytes]()
-        for function in self.places.functions.values():
-            result = function.code.result
-            if result is None or not _GUARD.search(result.text or b""):
-                continue
-            if _NAMED.search(function.code.node.text or b""):
-                found.add(function.simple.encode())
-        return frozenset(found)
-
-    def _may_hold_twice(self, text: bytes) -> bool:
-        """Whether a function gets a guard of another one, and may lock something besides."""
-        words = _WORD.findall(text)
-        if self._holding.isdisjoint(words):
-            return False
-        others = [w for w in words if w not in self._holding]
-        lockers = {f.simple.encode() for f in self.places.functions.values() if self._says_lock(f)}
-        is_again = len(words) - len(others) > 1
-        return is_again or not lockers.isdisjoint(others) or any(map(_LOCKS.search, others))
-
-    def _says_lock(self, function: FunctionSymbol) -> bool:
-        return _LOCKS.search(function.code.node.text or b"") is not None
-
-    def _is_constructor(self, function: FunctionSymbol) -> bool:
-        owner = self._lowering.world.symbols.classes.get(function.owner or "")
-        return owner is not None and function in owner.constructors
-
-    def _text(self, function: FunctionSymbol) -> bytes:
-        """The text of a function; of a constructor that of its class too, which says of members."""
-        text = function.code.node.text or b""
-        owner = self._lowering.world.symbols.classes.get(function.owner or "")
-        if owner is None or not self._is_constructor(function):
-            return text
-        return text + (owner.node.text or b"")
 
     def ends(self, cpp: Cpp, loop: Node) -> bool:
         """Whether a loop in a function ends, if what stands in it does."""
@@ -234,6 +137,18 @@ class CppForm:
         timers = list(map(cpp.span, _timers(statement))) if odd else []
         within = (p for p in odd for t in timers if t.start <= p.place.start < t.end)
         return frozenset(found.difference(within))
+
+    def may_be_unset(self, cpp: Cpp, declarator: Node, name: str) -> bool:
+        """Whether a local that is declared without a value may be read before it gets one."""
+        around, span = self.places.around(declarator), cpp.span(declarator)
+        if around is None:
+            return True
+        function = self._program.function(around)
+        declared = (n for n in walk(function.body) if isinstance(n, s.Declare))
+        here = (n.target for n in declared if n.place.holds(span) or span.holds(n.place))
+        names = {of.name for of in here if isinstance(of, e.Local)}
+        own = {n for n in names if n.partition("~")[0] == name}
+        return not own or any(may_be_unset(self._program, function, n) for n in own)
 
     def looked_up(self, cpp: Cpp, place: Node) -> list[Span]:
         """What code looks up at a place that may not be there, by how the language has it."""
@@ -290,40 +205,26 @@ class CppForm:
 
     def odd_locks(self, functions: Iterable[CppFunction]) -> Iterator[tuple[Cpp, Span, str]]:
         """The places in functions where a thread may wait for itself, for ever."""
-        found_in = [(f, f.body.text or b"") for f in functions if f.body is not None]
-        for function, text in found_in:
-            is_unclear = not self._unclear.isdisjoint(_WORD.findall(text))
-            if _OTHERWISE.search(text) or is_unclear or self._may_hold_twice(text):
-                yield function.cpp, function.cpp.span(function.node), _UNKNOWN
-        for function in (f for f, text in found_in if self._may_lock(text)):
+        for function in functions if self._has_locks else ():
             symbol = self.places.functions.get(function.node.id)
             if symbol is None:
-                yield function.cpp, function.cpp.span(function.node), _UNKNOWN
+                if _LOCKS.search(function.node.text or b""):
+                    yield function.cpp, function.cpp.span(function.node), UNKNOWN_LOCK
                 continue
-            owner = self._lowering.world.symbols.classes.get(symbol.owner or "")
-            for name in (symbol.name, *lambda_names(symbol, owner).values()):
+            for name in (symbol.name, *lambda_names(symbol, self.places.owner(symbol)).values()):
                 found = {(p.place.start, p.place.end, p.why): p.place for p in self._locks.of(name)}
                 for (_, _, why), place in sorted(found.items()):
                     yield function.cpp, place, why
-                yield from ((function.cpp, p, _UNKNOWN) for p in self._unread(function, name))
+                yield from ((function.cpp, p, UNKNOWN_LOCK) for p in self._unread(function, name))
 
     def run_by(self, functions: Iterable[CppFunction]) -> list[CppFunction]:
-        """The functions besides some that these may run, where they may lock something."""
-        own = {function.node.id for function in functions}
-        others = [f for i, f in self.places.functions.items() if i not in own]
-        locking = {f.name: f.code for f in others if self._may_lock(f.code.node.text or b"")}
-        if not locking:
+        """The functions besides some that these may run, where something may be locked."""
+        if not self._has_locks:
             return []
-        roots = [self.places.functions[i].name for i in own if i in self.places.functions]
-        body_of = self._program.function
-        found = {
-            n for root in roots for n, _ in self._outcomes.origins.runs(body_of(root).body, root)
-        }
-        return [code for name, code in sorted(locking.items()) if name in found]
-
-    def _may_lock(self, text: bytes) -> bool:
-        """Whether the text of a function names what locks."""
-        return bool(_LOCKS.search(text)) or not self._locking.isdisjoint(_WORD.findall(text))
+        every, origins = self.places.functions, self._outcomes.origins
+        roots = [every[f.node.id].name for f in functions if f.node.id in every]
+        found = origins.all_run(frozenset(roots)) - frozenset(roots)
+        return [f.code for f in sorted(every.values(), key=lambda f: f.name) if f.name in found]
 
     def _unread(self, function: CppFunction, name: str) -> Iterator[Span]:
         """The places in a function that lock something, perhaps, and have no form."""

@@ -110,6 +110,21 @@ def is_known(call: CppCall) -> bool:
     return of_node or takes_values(call) or _is_of_library(call.name)
 
 
+def streams(node: Node) -> bool:
+    """Whether an expression writes to the console: `std::cout << x << std::endl`."""
+    while node.type == "binary_expression" and text_of(part(node, "operator")) == "<<":
+        node = part(node, "left")
+    return text_of(node) in STREAMS
+
+
+def logs(node: Node) -> bool:
+    """Whether an expression is for people to read, by how it is written."""
+    if node.type != "call_expression":
+        return streams(node)
+    name = text_of(part(node, "function"))
+    return name.startswith(libraries.logging()) or name in libraries.names_of(Kind.LOG)
+
+
 def starts_nothing(type_: str) -> bool:
     """Whether to make an object of a library's type runs no code that somebody has given it."""
     return type_.rpartition("::")[2] not in _RUNNING

@@ -16,6 +16,7 @@ from rebsync.reverse.models.texts import TEXT
 from rebsync.reverse.syntax.cpp_numerals import whole_number
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
 
+SCALARS = frozenset({"boolean", "byte", "short", "int", "float", "double"})
 _INTEGERS = {
     "byte": ("int8_t", "signed char"),
     "short": ("int16_t", "short", "short int"),

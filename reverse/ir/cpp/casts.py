@@ -23,7 +23,6 @@ from rebsync.reverse.ir.cpp.conversions import converted
 from rebsync.reverse.ir.cpp.functions_called import callee_of
 from rebsync.reverse.ir.cpp.initialisation import by_arguments, initialised
 from rebsync.reverse.ir.cpp.objects import (
-    UNKNOWN_CONSTRUCTOR,
     address,
     class_of,
     implicitly,
@@ -31,6 +30,7 @@ from rebsync.reverse.ir.cpp.objects import (
 from rebsync.reverse.ir.cpp.types import SIZE, Declared, ReferenceKind
 from rebsync.reverse.ir.dump_types import dump_type
 from rebsync.reverse.ir.operators import Conversion
+from rebsync.reverse.libraries.outcome_classes import UNKNOWN_CLASS
 from rebsync.reverse.syntax.cpp_tree import named, part
 from rebsync.source import Span
 
@@ -84,7 +84,7 @@ def cast(context: Context, value: Value, declared: Declared, place: Span) -> Val
         case t.Unknown():  # perhaps of a class, that has a constructor
             target = context.temporary(to, place)
             argument = s.CallArgument(value.expression)
-            callee = s.LibraryCallee(UNKNOWN_CONSTRUCTOR)
+            callee = s.LibraryCallee(UNKNOWN_CLASS)
             context.emit(s.Call(target, callee, (argument,), place))
             return Value(target, to)
         case t.UnitType():

@@ -22,7 +22,6 @@ from rebsync.reverse.ir.cpp.classes import (
 from rebsync.reverse.ir.cpp.context import Context, Unlowered, Value
 from rebsync.reverse.ir.cpp.functions_called import call, default_arguments, library_arguments
 from rebsync.reverse.ir.cpp.objects import (
-    UNKNOWN_CONSTRUCTOR,
     as_value,
     assigned_memberwise,
     class_of,
@@ -36,6 +35,7 @@ from rebsync.reverse.ir.cpp.overloads import (
     signature,
 )
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FunctionSymbol
+from rebsync.reverse.libraries.outcome_classes import UNKNOWN_CLASS
 from rebsync.source import Span
 
 
@@ -178,5 +178,5 @@ def call_library(
         return
     if type_ != t.UNKNOWN:
         raise Unlowered("a construction by arguments that is not known")
-    callee = s.LibraryCallee(UNKNOWN_CONSTRUCTOR)
+    callee = s.LibraryCallee(UNKNOWN_CLASS)
     context.emit(s.Call(target, callee, arguments, place))

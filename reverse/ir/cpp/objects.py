@@ -18,10 +18,10 @@ from rebsync.reverse.ir.cpp.conversions import converted
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 from rebsync.reverse.ir.operators import Conversion
+from rebsync.reverse.libraries.outcome_classes import UNKNOWN_CLASS
 from rebsync.source import Span
 
 _WEAK = frozenset({"std::weak_ptr", "boost::weak_ptr"})
-UNKNOWN_CONSTRUCTOR = "constructor of a type that is not known"
 
 
 def dereferenced(pointer: e.Expression, type_: t.Type, place: Span) -> Value:
@@ -275,7 +275,7 @@ def default_constructed(context: Context, target: e.Lvalue, type_: t.Type, place
     if isinstance(type_, t.Integer | t.Float | t.Truth | t.Enumeration):
         return
     if type_ == t.UNKNOWN:
-        context.emit(s.Call(target, s.LibraryCallee(UNKNOWN_CONSTRUCTOR), (), place))
+        context.emit(s.Call(target, s.LibraryCallee(UNKNOWN_CLASS), (), place))
         return
     if isinstance(type_, t.Reference) and type_.ownership is t.Ownership.NONE:
         return

@@ -30,19 +30,16 @@ def leaves_nothing(reader: BodyStatementReader, loop: Node) -> bool:
     wait, or touch the node but for variables.
     """
     targets: list[Node] = []
-    if not _is_plain_loop(reader, loop, targets):
-        return False
-    for target in targets:
-        check_target(reader, target)
-        forget(reader, target)
-    return True
+    return _is_plain_loop(reader, loop, targets) and _forgotten(reader, targets)
 
 
 def leaves_only_unknowns(reader: BodyStatementReader, nodes: list[Node]) -> bool:
     """Whether statements do nothing that the model has; what they set is from then on unknown."""
     targets: list[Node] = []
-    if not _are_plain(reader, nodes, targets):
-        return False
+    return _are_plain(reader, nodes, targets) and _forgotten(reader, targets)
+
+
+def _forgotten(reader: BodyStatementReader, targets: list[Node]) -> bool:
     for target in targets:
         check_target(reader, target)
         forget(reader, target)

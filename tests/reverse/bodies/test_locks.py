@@ -49,6 +49,12 @@ struct Store {
   void put() { std::lock_guard<std::mutex> l(own_); }
   std::mutex own_;
 };
+template <class S>
+struct Every {
+  explicit Every(S& s) : s_(s) { s_.own_.lock(); }
+  ~Every() { s_.own_.unlock(); }
+  S& s_;
+};
 struct Inherited : Guard {
   using Guard::Guard;
 };
