@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import re
 
-from rebsync.reverse.analysis.facts import Facts, IsThere, stored, tested, without_shared
+from rebsync.reverse.analysis.cpp_facts import moved_out_by
+from rebsync.reverse.analysis.facts import (
+    Facts,
+    IsThere,
+    stored,
+    tested,
+    without,
+    without_shared,
+)
 from rebsync.reverse.analysis.made_objects import made_by
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
@@ -27,6 +35,7 @@ from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
+from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.cpp import asks_first
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS, PLAIN_CLASSES, UNKNOWN_CLASS
 from rebsync.reverse.libraries.outcomes import CallOutcome
@@ -89,6 +98,8 @@ class OutcomeCalls:
         for name in made_by(self.origins, node) if self._is_cpp else ():
             self._enters(node, name)
         after = self._sizes.kept(node, facts)
+        for of in (of for n in walk(node) for of in moved_out_by(n)):
+            after = without(after, of)
         if node.target is None:
             return after
         types = self.expressions.types.given(node)

@@ -8,6 +8,7 @@ from rebsync.reverse.analysis.facts import (
     Holds,
     IsBelow,
     IsSize,
+    IsThere,
     bare,
     names_of,
     tested,
@@ -229,6 +230,13 @@ class OutcomeExpressions:
                 if any(self.size(f.container, facts) for f in sizes):
                     return True
                 return self._is_constant(value)
+
+    def there(self, target: e.Expression, value: e.Expression, facts: Facts) -> Facts:
+        """That a variable has a value which is not nothing, if what is stored in it is not."""
+        if isinstance(getattr(target, "type", None), t.Reference | t.Optional):
+            is_null = self.undefined.pointers.may_be(value, facts)
+            return frozenset(() if is_null else (IsThere(target), Holds(target)))
+        return frozenset(() if self.none.may_be(value, facts) else (IsThere(target),))
 
     def _is_kept(self, operand: e.Expression, type_: t.Type) -> bool:
         """Whether a number that is not zero is none either as one of a type."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from rebsync.reverse.analysis.cpp_facts import moved_out_by
 from rebsync.reverse.analysis.facts import (
     NO_FACTS,
     Facts,
@@ -106,6 +107,8 @@ class OutcomeWalk:
                 return self._calls.construct(node, facts)
             case s.Destroy():
                 self._calls.destroy(node)
+                for of in moved_out_by(node):
+                    facts = without(facts, of)
                 return without_shared(facts)
             case s.Evaluate(value):
                 self.value(value, facts)
@@ -181,8 +184,9 @@ class OutcomeWalk:
         self.value(value, facts)
         self._stored(target, facts, value)
         before, facts = facts, stored(facts, target, self._expressions.types.of(value, facts))
-        if not self._expressions.none.may_be(value, before):
-            facts |= {IsThere(target)}
+        facts |= self._expressions.there(target, value, before)
+        for of in (of for n in walk(value) for of in moved_out_by(n)):
+            facts = without(facts, of)
         if isinstance(target, e.Index):
             return facts | {HasKey(target.object, target.index)}
         if any(n == target for n in walk(value)):

@@ -45,6 +45,7 @@ _INHERITED = re.compile(rb"\busing\s[^;=]*::\s*\w+\s*;")
 _ALIAS = re.compile(rb"\busing\s+(\w+)\s*=([^;]*);|\btypedef\b([^;]*?)(\w+)\s*;")
 _WORD = re.compile(rb"\w+")
 _ACTING = ("call_expression", "assignment_expression", "update_expression", "new_expression")
+_UNSEEN = UNSAID | {NOTHING_THERE}
 _UNKNOWN = "what this locks is not known"
 # Headers of messages of ROS 1, which are named as these are.
 _MESSAGE = re.compile(rb"#\s*include\s*[<\"](\w+)/([A-Z]\w*)\.h[>\"]")
@@ -242,7 +243,8 @@ class CppForm:
             return []
         owner = self._lowering.world.symbols.classes.get(symbol.owner or "")
         names = (symbol.name, *lambda_names(symbol, owner).values())
-        found = {p.place for n in names for p in self._outcomes.own(n) if p.why == NOTHING_THERE}
+        own = (p for n in names for p in self._outcomes.own(n) if p.given is None)
+        found = {p.place for p in own if p.why == NOTHING_THERE}
         inside_ = (p for p in found if span.holds(p))
         return sorted(inside_, key=lambda p: (p.start, p.end))
 
@@ -269,10 +271,12 @@ class CppForm:
         return self._lowering.world.symbols.classes.values()
 
     def unsaid(self, cpp: Cpp, statement: Node) -> list[Problem]:
-        """What in a statement itself may throw, of which models say nothing."""
+        """What in a statement itself may fail, of which models say nothing."""
         name = self.places.around(statement)
-        found = (p for p in self.raised(cpp, statement) if p.function == name)
-        return sorted((p for p in found if p.why in UNSAID), key=lambda p: p.place.start)
+        if name is None or not any(p.why in _UNSEEN for p in self._outcomes.of(name)):
+            return []
+        found = (p for p in self.raised(cpp, statement) if p.function == name or p.is_of_call)
+        return sorted((p for p in found if p.why in _UNSEEN), key=lambda p: p.place.start)
 
     def recurses(self, function: CppFunction) -> bool:
         """Whether a function may call itself, perhaps by others."""
