@@ -6,11 +6,12 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
+from rebsync.reverse.analysis.facts import Facts, without
 from rebsync.reverse.analysis.stores import Key, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, FunctionKind, Program
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.client_times import is_of_times
 from rebsync.reverse.libraries.cpp import keeping_arguments, logging
 from rebsync.reverse.libraries.size_effects import RELEASING
@@ -178,6 +179,13 @@ def emptied_by(node: object, function: str) -> Iterator[Key]:
         key = key_of(of, function)
         if key is not None:
             yield key
+
+
+def without_moved(facts: Facts, node: Node) -> Facts:
+    """The facts that are left where a node leaves some pointers without an object."""
+    for of in (of for each in walk(node) for of in moved_out_by(each)):
+        facts = without(facts, of)
+    return facts
 
 
 def moved_out_by(node: object) -> Iterator[e.Expression]:

@@ -38,7 +38,8 @@ def check(reader: CppStatementReader, node: Node) -> None:
 
 
 def _indexes_model(reader: CppStatementReader, node: Node, place: Span) -> bool:
-    """Whether an element that a statement names is one of an array that the model has."""
-    indexed = (n for n in inside(node, "subscript_expression") if reader.cpp.span(n) == place)
+    """Whether an element that a statement names is one that the model has, or of its arrays."""
+    indexed = [n for n in inside(node, "subscript_expression") if reader.cpp.span(n) == place]
     arrays = (resolve(reader.scope, part(n, "argument")) for n in indexed)
-    return any(isinstance(array, Variable) for array in arrays)
+    is_known = any(resolve(reader.scope, n) is not None for n in indexed)
+    return is_known or any(isinstance(array, Variable) for array in arrays)

@@ -29,14 +29,16 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Conversion
-from rebsync.reverse.ir.program import FunctionKind
+from rebsync.reverse.ir.program import Function, FunctionKind
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.cpp import named, running_callbacks, waiting
+from rebsync.reverse.libraries.cpp_calls import first_called
 from rebsync.reverse.libraries.routines import ASKING
 from rebsync.reverse.libraries.size_effects import (
     BINDING,
     LEADING_ON,
     LEADING_TO_FIRST,
+    MAKING,
     SEARCHING,
 )
 
@@ -70,6 +72,13 @@ class NullPointers:
             return None
         is_known = any(Holds(name) in facts for name in names_of(facts, value))
         return None if is_known else ParameterNeed(self._name, value.name)
+
+    def gives(self, call: s.Call) -> bool:
+        """Whether a call gives what leads to something: a new object, or a pointer that is not null."""
+        name = _last_name(call).partition(" ")[0]
+        leads = _leads(_type_of(call.target)) and not isinstance(call.callee, s.ValueCallee)
+        stored = self._name, CallResult(call)
+        return name in MAKING or (leads and not self._is_nothing(stored, t.UNKNOWN, NO_FACTS, 0))
 
     @property
     def _name(self) -> str:
@@ -182,20 +191,36 @@ class NullPointers:
             first = self._program.function(name)
             if first.kind not in _FIRST:
                 return None
-            if first.kind is FunctionKind.MODULE:
-                if _MAIN not in self._program:
-                    return None
-                found.add(name)
-                first = self._program.function(_MAIN)
-            at = self._first_store(key, first.body, first.name, depth)
-            if at is None or self._empties(key, first.body[at + 1 :], first.name, depth):
+            found.add(name)
+            bodies = [each for each in self._entries(first) if each in self._program]
+            for at, entry in enumerate(bodies):
+                body = self._program.function(entry).body
+                before = self._before(key, entry, body, depth)
+                if before is not None:
+                    found |= before | self._origins.all_run(bodies[:at])
+                    break
+            else:
                 return None
-            found.add(first.name)
-            before = list(self._origins.runs(_at_once(first.body[:at]), first.name))
-            if any(map(_serves, (n for _, body in before for n in walk(body)))):
-                return None
-            found.update(n for n, _ in before)
         return frozenset(found)
+
+    def _entries(self, first: Function) -> list[str]:
+        """A constructor and what runs before else is served; of variables of files `main`."""
+        if first.kind is FunctionKind.MODULE:
+            return [_MAIN]
+        return [first.name, *(f"{first.owner}::{entry}" for entry in sorted(first_called()))]
+
+    def _before(self, key: Key, function: str, body: s.Body, depth: int) -> frozenset[str] | None:
+        """What runs before a function stores something under a name; None where it may not do so.
+
+        Neither does it where it stores nothing there again, or lets callbacks run before.
+        """
+        at = self._first_store(key, body, function, depth)
+        if at is None or self._empties(key, body[at + 1 :], function, depth):
+            return None
+        before = list(self._origins.runs(_at_once(body[:at]), function))
+        if any(map(_serves, (n for _, inner in before for n in walk(inner)))):
+            return None
+        return frozenset(n for n, _ in before)
 
     def _first_store(self, key: Key, body: s.Body, function: str, depth: int) -> int | None:
         """The first of some statements that stores something under a name whenever it runs."""
@@ -282,7 +307,7 @@ def _may_be_null(type_: t.Type) -> bool:
     return is_reference and (type_.may_be_null or bool(type_.ownership.value))
 
 
-def _type_of(value: e.Expression) -> t.Type:
+def _type_of(value: e.Expression | None) -> t.Type:
     type_: t.Type = getattr(value, "type", t.UNKNOWN)
     return type_
 

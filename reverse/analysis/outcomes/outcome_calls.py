@@ -4,15 +4,8 @@ from __future__ import annotations
 
 import re
 
-from rebsync.reverse.analysis.cpp_facts import moved_out_by
-from rebsync.reverse.analysis.facts import (
-    Facts,
-    IsThere,
-    stored,
-    tested,
-    without,
-    without_shared,
-)
+from rebsync.reverse.analysis.cpp_facts import without_moved
+from rebsync.reverse.analysis.facts import Facts, Holds, IsThere, stored, tested, without_shared
 from rebsync.reverse.analysis.made_objects import made_by
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
@@ -35,7 +28,6 @@ from rebsync.reverse.analysis.stores import Member
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.operators import ImplicitCall
-from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.cpp import asks_first
 from rebsync.reverse.libraries.outcome_classes import ENUMERATIONS, PLAIN_CLASSES, UNKNOWN_CLASS
 from rebsync.reverse.libraries.outcomes import CallOutcome
@@ -97,13 +89,13 @@ class OutcomeCalls:
                 self._method(node, node.callee, facts)
         for name in made_by(self.origins, node) if self._is_cpp else ():
             self._enters(node, name)
-        after = self._sizes.kept(node, facts)
-        for of in (of for n in walk(node) for of in moved_out_by(n)):
-            after = without(after, of)
+        after = without_moved(self._sizes.kept(node, facts), node)
         if node.target is None:
             return after
         types = self.expressions.types.given(node)
         after = stored(after, node.target, types) | self._sizes.told(node, facts)
+        if self._is_cpp and self.expressions.undefined.pointers.gives(node):
+            return after | {IsThere(node.target), Holds(node.target)}
         return after if self.expressions.none.gives(node) else after | {IsThere(node.target)}
 
     def construct(self, node: s.Construct, facts: Facts) -> Facts:
@@ -118,7 +110,7 @@ class OutcomeCalls:
         facts = without_shared(facts)
         if node.target is None:
             return facts
-        return stored(facts, node.target) | {IsThere(node.target)}
+        return stored(facts, node.target) | {IsThere(node.target), Holds(node.target)}
 
     def destroy(self, node: s.Destroy) -> None:
         """Notes what the end of an object may do."""

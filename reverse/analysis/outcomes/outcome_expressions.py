@@ -104,6 +104,8 @@ class OutcomeExpressions:
                 self._divides(value, left, right, facts)
             case e.Binary() if self.notes.table.language is Language.PYTHON:
                 self._computes(value, facts)
+            case e.Binary(Operator.SHIFT_LEFT | Operator.SHIFT_RIGHT, left, right):
+                self._shifts(value, left, right, facts)
             case e.Index(_, e.Slice(_, _, step)) if step is not None:
                 if not self.is_nonzero(step, facts):
                     self.notes.fails(value, "has a step of zero")
@@ -176,6 +178,16 @@ class OutcomeExpressions:
                     self.none.check(left, value, facts)
             case _:
                 pass
+
+    def _shifts(
+        self, value: e.Binary, left: e.Expression, right: e.Expression, facts: Facts
+    ) -> None:
+        """A number has as many bits as it is promoted to; streams are of no such type."""
+        type_ = getattr(left, "type", t.UNKNOWN)
+        if isinstance(type_, t.Integer):
+            by = self.bounds.range_of(right, facts)
+            if by.low < 0 or by.high >= max(type_.bits or 32, 32):
+                self.notes.fails(value, "shifts by more than there are bits")
 
     def _is_bounded(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a number is below one that the source has, by how it is computed."""

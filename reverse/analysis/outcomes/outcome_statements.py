@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from rebsync.reverse.analysis.cpp_facts import moved_out_by
+from rebsync.reverse.analysis.cpp_facts import without_moved
 from rebsync.reverse.analysis.facts import (
     NO_FACTS,
     Facts,
@@ -107,9 +107,7 @@ class OutcomeWalk:
                 return self._calls.construct(node, facts)
             case s.Destroy():
                 self._calls.destroy(node)
-                for of in moved_out_by(node):
-                    facts = without(facts, of)
-                return without_shared(facts)
+                return without_shared(without_moved(facts, node))
             case s.Evaluate(value):
                 self.value(value, facts)
                 return facts
@@ -185,8 +183,7 @@ class OutcomeWalk:
         self._stored(target, facts, value)
         before, facts = facts, stored(facts, target, self._expressions.types.of(value, facts))
         facts |= self._expressions.there(target, value, before)
-        for of in (of for n in walk(value) for of in moved_out_by(n)):
-            facts = without(facts, of)
+        facts = without_moved(facts, value)
         if isinstance(target, e.Index):
             return facts | {HasKey(target.object, target.index)}
         if any(n == target for n in walk(value)):
@@ -269,9 +266,11 @@ class OutcomeWalk:
             case s.Switch(value, cases):
                 self.value(value, facts)
                 inside = self._changed(facts, tuple(s for c in cases for s in c.body))
+                after: Facts | None = inside
                 for case in cases:
-                    self.body(case.body, inside)
-                return inside
+                    after = self.body(case.body, inside)
+                leaves = after is not None or any(isinstance(n, s.Break) for n in walk(node))
+                return inside if leaves or not any(c.is_default for c in cases) else None
             case s.Try():
                 return self._try(node, facts)
             case s.With(context, target, body):
@@ -305,7 +304,7 @@ class OutcomeWalk:
             return self._changed(facts, body)
         return after
 
-    def _loop(self, node: s.Loop, facts: Facts) -> Facts:
+    def _loop(self, node: s.Loop, facts: Facts) -> Facts | None:
         inner = (*node.prelude, *node.body, *node.step)
         if not self._endings.ends(node):
             self.notes.problem(node, ENDLESS)
@@ -320,6 +319,8 @@ class OutcomeWalk:
         left = tested(before, node.test, False)
         self.body(node.otherwise, left)
         has_break = any(isinstance(n, s.Break) for n in walk(node.body))
+        if not has_break and isinstance(node.test, e.Literal) and node.test.value:
+            return None
         if has_break and node.test == e.Literal(True) and not node.otherwise:
             return breaks[0].intersection(*breaks) if breaks else inside
         return inside if has_break or node.otherwise else left

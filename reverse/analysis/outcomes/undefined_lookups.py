@@ -19,6 +19,7 @@ from rebsync.reverse.libraries.cpp import logging
 from rebsync.reverse.libraries.outcome_classes import TERMINATES
 from rebsync.reverse.libraries.outcome_rules import Size
 from rebsync.reverse.libraries.outcomes import CallOutcome
+from rebsync.reverse.libraries.size_effects import TAKING_TEXTS
 
 _AT_ENDS = frozenset({"front", "back", "top"})
 _PRINTING = ("printf", "fprintf")
@@ -66,7 +67,7 @@ class UndefinedLookups:
         texts = [v for letter, v in zip(letters, told, strict=False) if letter == "s"]
         if len(letters) > len(told) or any(map(_is_number, texts)):
             self._notes.problem(node, ODD_FORMAT, TERMINATES)
-        asked = [*texts, *(values if is_erased else ())]
+        asked = [*texts, *(values if is_erased or last in TAKING_TEXTS else ())]
         if is_short:
             self._notes.problem(node, NOTHING_THERE, TERMINATES)
         for value in asked:
