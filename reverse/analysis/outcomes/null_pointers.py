@@ -1,6 +1,6 @@
-"""Which pointers of C++ may be null, optionals empty, iterators the end: a null-dereference analysis.
+"""Which pointers of C++ may be null, optionals empty, iterators the end: null-dereference analysis.
 
-A local leads to something by all that is stored in it, or by what was tested. A member or a variable
+A local leads to something by all that is stored in it, or by what was tested. A member or variable
 of a file does where its constructors, or `main`, store something before other code runs (definite
 assignment), and nothing else empties it.
 """
@@ -41,6 +41,7 @@ from rebsync.reverse.libraries.size_effects import (
     MAKING,
     SEARCHING,
 )
+from rebsync.source import SourceSpan, Span
 
 _DEEPEST = 4  # of variables that are stored in others
 _FIRST = (FunctionKind.CONSTRUCTOR, FunctionKind.MODULE)
@@ -74,7 +75,7 @@ class NullPointers:
         return None if is_known else ParameterNeed(self._name, value.name)
 
     def gives(self, call: s.Call) -> bool:
-        """Whether a call gives what leads to something: a new object, or a pointer that is not null."""
+        """Whether a call gives a new object, or another pointer that is not null."""
         name = _last_name(call).partition(" ")[0]
         leads = _leads(_type_of(call.target)) and not isinstance(call.callee, s.ValueCallee)
         stored = self._name, CallResult(call)
@@ -194,7 +195,7 @@ class NullPointers:
             found.add(name)
             bodies = [each for each in self._entries(first) if each in self._program]
             for at, entry in enumerate(bodies):
-                body = self._program.function(entry).body
+                body = tuple(_in_order(self._program.function(entry).body))
                 before = self._before(key, entry, body, depth)
                 if before is not None:
                     found |= before | self._origins.all_run(bodies[:at])
@@ -206,7 +207,9 @@ class NullPointers:
     def _entries(self, first: Function) -> list[str]:
         """A constructor and what runs before else is served; of variables of files `main`."""
         if first.kind is FunctionKind.MODULE:
-            return [_MAIN]
+            mains = [n for n in self._program.functions if n.partition(" ")[0] == _MAIN]
+            places = {n: self._program.function(n).place for n in mains}
+            return [n for n, p in places.items() if _is_in(p, first.name)]
         return [first.name, *(f"{first.owner}::{entry}" for entry in sorted(first_called()))]
 
     def _before(self, key: Key, function: str, body: s.Body, depth: int) -> frozenset[str] | None:
@@ -215,7 +218,7 @@ class NullPointers:
         Neither does it where it stores nothing there again, or lets callbacks run before.
         """
         at = self._first_store(key, body, function, depth)
-        if at is None or self._empties(key, body[at + 1 :], function, depth):
+        if at is None or self._empties(key, _until_served(body, at + 1), function, depth):
             return None
         before = list(self._origins.runs(_at_once(body[:at]), function))
         if any(map(_serves, (n for _, inner in before for n in walk(inner)))):
@@ -227,7 +230,9 @@ class NullPointers:
         for at, node in enumerate(body):
             if self._always_stores(key, node, function, depth):
                 return at
-            if function != _MAIN and any(isinstance(n, s.Return) for n in walk(node)):
+            if function.partition(" ")[0] != _MAIN and any(
+                isinstance(n, s.Return) for n in walk(node)
+            ):
                 return None
         return None
 
@@ -235,10 +240,8 @@ class NullPointers:
         match node:
             case s.Assign() | s.Declare() | s.Call() if key in dict(_stores(node, function)):
                 return not self._empties(key, (node,), function, depth)
-            case s.Block(body) | s.Try(body, ()):
-                return self._first_store(key, body, function, depth) is not None
             case s.Call(_, s.FunctionCallee(name)) if depth <= _DEEPEST:
-                body = self._program.function(name).body
+                body = tuple(_in_order(self._program.function(name).body))
                 return self._first_store(key, body, name, depth + 1) is not None
             case _:
                 return False
@@ -253,9 +256,30 @@ class NullPointers:
         )
 
 
+def _is_in(place: Span, path: str) -> bool:
+    """Whether a place is in a file."""
+    return isinstance(place, SourceSpan) and place.source.path == path
+
+
+def _in_order(body: s.Body) -> Iterator[s.Statement]:
+    """Statements that run one after the other whenever the first does, but for exceptions."""
+    for node in body:
+        match node:
+            case s.Block(inner) | s.Try(inner, ()):
+                yield from _in_order(inner)
+            case _:
+                yield node
+
+
 def _at_once(body: s.Body) -> s.Body:
     """Some statements without those that ask for what calls back later."""
     return tuple(n for n in body if _last_name(n) not in named(*ASKING) | BINDING)
+
+
+def _until_served(body: s.Body, start: int) -> s.Body:
+    """Some statements up to the last one that lets callbacks run, if there is one."""
+    serving = [at for at, node in enumerate(body) if any(map(_serves, walk(node)))]
+    return body[start : serving[-1] + 1 if serving else None]
 
 
 def _serves(node: object) -> bool:

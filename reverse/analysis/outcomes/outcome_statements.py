@@ -118,14 +118,8 @@ class OutcomeWalk:
                     return without(facts, target)
                 return self._assigned(target, value, facts)
             case s.CompoundAssign(target, operator, value):
-                combined = e.Binary(
-                    operator,
-                    target,
-                    value,
-                    target.type,
-                    node.dynamic,
-                    node.place,
-                )
+                dynamic = node.dynamic
+                combined = e.Binary(operator, target, value, target.type, dynamic, node.place)
                 return self._assigned(target, combined, facts)
             case _:
                 return self._other(node, facts)
@@ -266,10 +260,8 @@ class OutcomeWalk:
             case s.Switch(value, cases):
                 self.value(value, facts)
                 inside = self._changed(facts, tuple(s for c in cases for s in c.body))
-                after: Facts | None = inside
-                for case in cases:
-                    after = self.body(case.body, inside)
-                leaves = after is not None or any(isinstance(n, s.Break) for n in walk(node))
+                after = [self.body(c.body, inside) for c in cases][-1:]
+                leaves = after != [None] or any(isinstance(n, s.Break) for n in walk(node))
                 return inside if leaves or not any(c.is_default for c in cases) else None
             case s.Try():
                 return self._try(node, facts)

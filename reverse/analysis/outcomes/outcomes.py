@@ -166,7 +166,8 @@ class OutcomeAnalysis:
     def _lacks_result(self, function: Function) -> bool:
         """Whether the end of a function is one that leaves the result open ([stmt.return])."""
         is_procedure = function.result in (t.NOTHING, t.UNKNOWN) or not function.body
-        is_plain = function.kind is FunctionKind.FUNCTION and function.name != "main"
+        is_main = function.name.partition(" ")[0] == "main"
+        is_plain = function.kind is FunctionKind.FUNCTION and not is_main
         return self.table.language is Language.CPP and is_plain and not is_procedure
 
     def _asked(self, function: Function) -> frozenset[str]:
