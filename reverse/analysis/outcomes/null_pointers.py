@@ -187,22 +187,22 @@ class NullPointers:
         """
         if not isinstance(key, Member | GlobalVariable):
             return None
-        found = set[str]()
-        for name in nothing:
-            first = self._program.function(name)
-            if first.kind not in _FIRST:
-                return None
-            found.add(name)
+        found, asked = set[str](), set[str]()
+        firsts = [f for f in map(self._program.function, nothing) if f.kind in _FIRST]
+        for first in firsts:
+            found.add(first.name)
             bodies = [each for each in self._entries(first) if each in self._program]
             for at, entry in enumerate(bodies):
                 body = tuple(_in_order(self._program.function(entry).body))
                 before = self._before(key, entry, body, depth)
                 if before is not None:
+                    asked.add(entry)
                     found |= before | self._origins.all_run(bodies[:at])
                     break
             else:
                 return None
-        return frozenset(found)
+        others = set(nothing).difference(f.name for f in firsts)
+        return frozenset(found) if others <= asked else None
 
     def _entries(self, first: Function) -> list[str]:
         """A constructor and what runs before else is served; of variables of files `main`."""
