@@ -51,7 +51,7 @@ class OutcomeCalls:
         self.expressions = expressions
         self._sizes = sizes
         self._exceptions = LibraryExceptions(notes, expressions)
-        self._given = LibraryArguments(expressions)
+        self.given = LibraryArguments(expressions)
         self._binding = notes.counts.rules.binding
         self.origins = notes.origins
         self.function = notes.function.name
@@ -63,7 +63,7 @@ class OutcomeCalls:
         self._here = facts
         self._arguments(node, facts)
         self.expressions.types.call(node, facts)
-        self._given.check(node, facts)
+        self.given.check(node, facts)
         if self._binding.of_callback(node, self.notes.function):
             self.notes.fails(node, REFUSED)
         match node.callee:
@@ -235,7 +235,7 @@ class OutcomeCalls:
             case LibraryOrigin(name, False):
                 self._library(node, name, self.notes.table.function(name), None, facts)
                 if not self.notes.is_parameter(value):
-                    self._given.of_value(node, name, facts)
+                    self.given.of_value(node, name, facts)
             case _ if is_standard(value):
                 pass  # a distribution, a comparison: it gives a value
             case _ if (of := self.expressions.operators.class_of(value)) is not None:

@@ -34,6 +34,7 @@ from rebsync.reverse.analysis.outcomes.outcome_calls import OutcomeCalls
 from rebsync.reverse.analysis.outcomes.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.outcomes.outcome_sizes import OutcomeSizes
 from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
+from rebsync.reverse.analysis.python.special_results import SpecialResults
 from rebsync.reverse.analysis.python.unset_names import UnsetNames
 from rebsync.reverse.analysis.python.value_types import at_index, elements_of
 from rebsync.reverse.ir import expressions as e
@@ -55,6 +56,7 @@ class OutcomeWalk:
         self._sizes = OutcomeSizes(notes, self._expressions)
         self._calls = OutcomeCalls(notes, self._expressions, self._sizes)
         self._endings = LoopEndings(notes, self._sizes, iterators)
+        self._results = SpecialResults(self._expressions, self._calls.given)
         self._handlers = Handlers(notes)
         self._handled: list[set[Problem | Called]] = []
         self._breaks: list[list[Facts]] = []  # what is known where the loops around are left
@@ -90,6 +92,7 @@ class OutcomeWalk:
                 return self._structured(node, facts)
             case s.Return(value):
                 self.value(value, facts)
+                self._results.check(node, facts)
                 return None
             case s.Raise():
                 self._raises(node, facts)

@@ -27,6 +27,7 @@ from rebsync.reverse.analysis.outcomes.outcome_statements import ENDLESS, Outcom
 from rebsync.reverse.analysis.problems import NO_RESULT, Called, Problem, ProblemNotes
 from rebsync.reverse.analysis.python.operand_classes import OperandClasses
 from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
+from rebsync.reverse.analysis.python.special_results import kind_of
 from rebsync.reverse.analysis.silent_calls import SilentCalls
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
@@ -143,7 +144,7 @@ class OutcomeAnalysis:
         walk_.defaults(self._defaults.get(function.name, ()))
         after = walk_.body(function.body, walk_.first if running else NO_FACTS)
         if running and after is not None and self._lacks_result(function):
-            notes.problem(function.body[-1], NO_RESULT, TERMINATES)
+            notes.problem(function.body[-1], NO_RESULT, self._of_no_result)
         self.locks.check(function, notes)
         for node in self.iterators.gone_through(function):
             notes.problem(node, ENDLESS)
@@ -164,11 +165,21 @@ class OutcomeAnalysis:
         return Equation(frozenset(map(_ending, own)), tuple(uses))
 
     def _lacks_result(self, function: Function) -> bool:
-        """Whether the end of a function is one that leaves the result open ([stmt.return])."""
+        """Whether a function must not come to its end: that leaves its result open in C++.
+
+        See [stmt.return]. Some methods of Python give None there, which is refused.
+        """
+        if self.table.language is Language.PYTHON:
+            return bool(kind_of(function, Language.PYTHON) and function.body)
         is_procedure = function.result in (t.NOTHING, t.UNKNOWN) or not function.body
         is_main = function.name.partition(" ")[0] == "main"
         is_plain = function.kind is FunctionKind.FUNCTION and not is_main
-        return self.table.language is Language.CPP and is_plain and not is_procedure
+        return is_plain and not is_procedure
+
+    @property
+    def _of_no_result(self) -> str:
+        is_cpp = self.table.language is Language.CPP
+        return TERMINATES if is_cpp else self.table.of_failure("is of another type")
 
     def _asked(self, function: Function) -> frozenset[str]:
         """The operators that libraries may run of the objects that a function hands to them."""
