@@ -31,6 +31,7 @@ from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.python.operator_types import (
     INDEXED,
     ITERABLE,
+    OF_ELEMENTS,
     ORDERED,
     SEQUENCES,
     given_by,
@@ -62,9 +63,6 @@ _OF_BITS = frozenset(
 _DECIMAL = frozenset("diu")  # conversions that take no infinite number
 _WHOLE = frozenset("xXoc")  # conversions that take no floats
 _OF_WHOLE = "bcdoxX"  # how styles of whole numbers end
-_OF_ELEMENTS = frozenset(
-    f"builtins.{n}" for n in "len sum any all sorted list tuple set enumerate iter zip".split()
-)
 
 
 class TypeErrors:
@@ -167,7 +165,7 @@ class TypeErrors:
             case "builtins.isinstance" if len(plain) > 1:
                 if not are_classes(self._notes, plain[1]):
                     self._notes.fails(node, _WRONG)
-            case _ if name in _OF_ELEMENTS:
+            case _ if name in OF_ELEMENTS:
                 for value in plain if name == "builtins.zip" else plain[:1]:
                     self._answers(node, value, ImplicitCall.ITERATE)
             case _:

@@ -230,7 +230,7 @@ class CppForm:
             return frozenset()
         function = self._program.function(name)
         every = self._outcomes.raised_by(function, cpp.span(statement))
-        found = {p for p in every if p.why not in UNSAID or p.function not in self._of_known}
+        found = {p for p in every if p.why not in _UNSEEN or p.function not in self._of_known}
         odd = {p for p in found if p.why in UNSAID and p.function == name}
         timers = list(map(cpp.span, _timers(statement))) if odd else []
         within = (p for p in odd for t in timers if t.start <= p.place.start < t.end)
