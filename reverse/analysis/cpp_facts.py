@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
+from rebsync.reverse.analysis.facts import Facts, without
 from rebsync.reverse.analysis.stores import Key, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function, FunctionKind, Program
-from rebsync.reverse.ir.walk import walk
+from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.client_times import is_of_times
 from rebsync.reverse.libraries.cpp import keeping_arguments, logging
+from rebsync.reverse.libraries.size_effects import RELEASING
 
 # The types of parameters, by how the form writes those of C++.
 _TYPES = (("float", float), ("truth", bool), ("i", int), ("text", str), ("bytes", str))
@@ -117,6 +119,33 @@ class CppFacts:
                         pass
         return found
 
+    @cached_property
+    def emptied(self) -> Mapping[Key, frozenset[str]]:
+        """By each pointer the functions that leave it without an object, other than by `=`."""
+        found: dict[Key, frozenset[str]] = {}
+        for function in self._functions:
+            for key in (k for n in walk(function) for k in emptied_by(n, function.name)):
+                found[key] = found.get(key, frozenset()) | {function.name}
+        return found
+
+    @cached_property
+    def calls(self) -> Mapping[str, Sequence[tuple[str, s.Call | s.Construct]]]:
+        """By each function its calls, with where they stand, if nothing else may call it."""
+        found: dict[str, list[tuple[str, s.Call | s.Construct]]] = {}
+        others = {"main"}
+        for function in self._functions:
+            for node in walk(function):
+                match node:
+                    case s.Call(_, s.FunctionCallee(name)) | s.Construct(_, _, _, str() as name):
+                        found.setdefault(name, []).append((function.name, node))
+                    case e.FunctionReference(name) | e.Closure(name):
+                        others.add(name)
+                    case s.Call(_, s.MethodCallee(name=name)):
+                        others.update(n for n in self._program.functions if n.endswith(f"::{name}"))
+                    case _:
+                        pass
+        return {name: calls for name, calls in found.items() if name not in others}
+
     @property
     def _functions(self) -> Iterator[Function]:
         return (self._program.function(name) for name in self._program.functions)
@@ -142,6 +171,38 @@ class CppFacts:
                     yield of
                 case _:
                     pass
+
+
+def emptied_by(node: object, function: str) -> Iterator[Key]:
+    """The pointers that a node of a function leaves without an object."""
+    for of in moved_out_by(node):
+        key = key_of(of, function)
+        if key is not None:
+            yield key
+
+
+def without_moved(facts: Facts, node: Node) -> Facts:
+    """The facts that are left where a node leaves some pointers without an object."""
+    for of in (of for each in walk(node) for of in moved_out_by(each)):
+        facts = without(facts, of)
+    return facts
+
+
+def moved_out_by(node: object) -> Iterator[e.Expression]:
+    """What a node leaves without an object: it is moved from, deleted or given up."""
+    match node:
+        case e.Move(of):
+            yield of
+        case s.Destroy(e.Dereference(of)):
+            yield of
+        case s.Call(_, s.LibraryCallee("delete[]"), (s.CallArgument(of),)):
+            yield of
+        case s.Call(_, s.LibraryCallee(name, of), values) if of is not None:
+            last = name.rpartition("::")[2]
+            if last in RELEASING and not (values and last == "reset"):
+                yield of
+        case _:
+            pass
 
 
 def _looks(name: str) -> bool:

@@ -45,6 +45,7 @@ class ElementCounts:
         self.table = origins.table
         self.emptying = ForeignEmptying(origins)
         self.rules = PythonRules(origins)
+        self.unset: dict[tuple[Key, frozenset[str]], frozenset[str] | None] = {}  # `NullPointers`
 
     def size(self, value: e.Expression, function: str) -> int:
         """How many elements a container has at least, whenever that is asked."""

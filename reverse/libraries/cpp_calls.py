@@ -126,3 +126,9 @@ def library_names() -> frozenset[str]:
     """The last names of functions of libraries but for macros of theirs."""
     names = {last(name) for library in libraries(Language.CPP) for name in library.functions}
     return frozenset(n for n in names if not n.isupper())
+
+
+@derived
+def first_called() -> frozenset[str]:
+    """Methods of classes that run before an object of these serves anything."""
+    return frozenset[str]().union(*(library.first for library in libraries(Language.CPP)))

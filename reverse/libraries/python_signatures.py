@@ -34,6 +34,14 @@ _TIME = "datetime.datetime"
 _UNITS = "days seconds microseconds milliseconds minutes hours weeks"
 _ROS_TIMES = "rospy.Time genpy.Time rospy.rostime.Time"
 _SPANS = "rospy.Duration genpy.Duration rospy.rostime.Duration"
+_OF_ENDS = (
+    "callback_group=any event_callbacks=any qos_overriding_options=any publisher_class=any"
+    " content_filter_options=any acceptable_callbacks=any"
+)
+_POLICIES = (
+    "history=any reliability=any durability=any lifespan=any deadline=any liveliness=any"
+    " liveliness_lease_duration=any avoid_ros_namespace_conventions=any"
+)
 # The kinds are said in `analysis/python/library_arguments.py`.
 _FUNCTIONS: tuple[tuple[str, str], ...] = (
     (
@@ -92,6 +100,7 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     ("shallow|none", "copy.copy"),
     ("deep|none memo:mapping?", "copy.deepcopy"),
     ("any any", "isinstance"),
+    ("instance", "vars"),
     ("any text?", "format"),
     ("any text", "hasattr"),
     ("hashable", "hash"),
@@ -282,6 +291,22 @@ _CLIENTS: tuple[tuple[str, str], ...] = (
     ("length", "rospy.Time.from_sec rospy.Time.from_seconds genpy.Time.from_sec"),
     ("seconds=seconds nanoseconds=number", "rclpy.duration.Duration"),
     ("seconds=length nanoseconds=length clock_type=any", "rclpy.time.Time"),
+    (
+        "name:any data_class:any subscriber_listener:any? tcp_nodelay:any? latch:any? headers:any?"
+        " queue_size:whole|none?",
+        "rospy.Publisher",
+    ),
+    (
+        "name:any data_class:any callback:any? callback_args:any? queue_size:whole|none?"
+        " buff_size:whole? tcp_nodelay:any?",
+        "rospy.Subscriber",
+    ),
+    (f"msg_type:any? topic:any? qos_profile:natural|quality? {_OF_ENDS}", "Node.create_publisher"),
+    (
+        f"msg_type:any? topic:any? callback:any? qos_profile:natural|quality? raw=any {_OF_ENDS}",
+        "Node.create_subscription",
+    ),
+    (f"depth=natural {_POLICIES}", "rclpy.qos.QoSProfile"),
     ("message", "rclpy.duration.Duration.from_msg rclpy.time.Time.from_msg"),
     ("message clock_type:any", "rclpy.time.Time.from_msg"),
 )

@@ -249,7 +249,7 @@ class Library:
     `handles` those of handles under whose namespace names are looked up; `plain` other
     classes that hold a value they are made of. `copying` are outermost namespaces, of the library
     and of what comes with it, whose constructors only copy. `entries` are methods that programs
-    call which are not in the files.
+    call which are not in the files, `first` those that run before an object serves anything.
 
     One of `marks` is in every file that uses the library, and one of `starts` in some file of every
     package that has a node with it. `logs` are the beginnings of names of macros that log, or the
@@ -290,6 +290,7 @@ class Library:
     options: Mapping[str, Options] = field(default_factory=dict)
     table: Table = field(default_factory=Table)
     entries: frozenset[str] = frozenset()
+    first: frozenset[str] = frozenset()
     flat: bool = True
     threads: bool = False
     threaded: frozenset[str] = frozenset()

@@ -45,8 +45,30 @@ LESSENING = frozenset(
 SEARCHING = frozenset(
     {
         *("find", "find_if", "find_if_not", "lower_bound", "upper_bound", "search", "lock"),
-        *("adjacent_find", "getenv", "dynamic_pointer_cast", "end", "cend", "rend", "crend"),
+        *(
+            "adjacent_find",
+            "getenv",
+            "dynamic_pointer_cast",
+            "dynamic_cast",
+            "get_if",
+            "end",
+            "cend",
+            "rend",
+            "crend",
+        ),
     }
 )
+# Methods of smart pointers that leave these without an object; `reset` does without an argument.
+RELEASING = frozenset({"reset", "release", "swap"})
 LEADING_TO_FIRST = frozenset({"begin", "cbegin", "rbegin", "crbegin", "data"})
+MAKING = frozenset({"make_unique", "make_shared", "allocate_shared", "make_optional", "new"})
+# Functions of C that look at a text, which must be there.
+TAKING_TEXTS = frozenset(
+    {
+        *("strlen", "strcmp", "strncmp", "strcpy", "strncpy", "strcat", "strdup", "strstr"),
+        *("strchr", "strrchr", "atoi", "atol", "atof", "strtol", "strtoul", "strtod", "fopen"),
+        *("puts", "fputs"),
+    }
+)
+BINDING = frozenset({"bind"})  # functions that give one which runs another later
 LEADING_ON = frozenset({"max_element", "min_element", "next", "prev"})

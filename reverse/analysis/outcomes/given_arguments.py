@@ -12,7 +12,7 @@ from itertools import dropwhile
 
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.outcomes.outcome_expressions import OutcomeExpressions
-from rebsync.reverse.analysis.problems import ParameterNeed, Problem
+from rebsync.reverse.analysis.problems import NOTHING_THERE, ParameterNeed, Problem
 from rebsync.reverse.analysis.python.call_binding import bound
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir.program import Function
@@ -47,10 +47,11 @@ class GivenArguments:
             is_none = self._none.is_default(self._called.name, name)
             is_none |= any(self._none.may_be(value, self._facts) for value in self._behind)
             return frozenset({problem.of_call()} if is_none else ())
-        value = self._values[name]
-        if self._none.may_be(value, self._facts):
+        value, pointers = self._values[name], self._expressions.undefined.pointers
+        asked = pointers if problem.why == NOTHING_THERE else self._none
+        if asked.may_be(value, self._facts):
             return frozenset({problem.of_call()})
-        given = self._none.given(value, self._facts)
+        given = asked.given(value, self._facts)
         return frozenset() if given is None else frozenset({replace(problem, given=given)})
 
     def _sized(self, problem: Problem, given: ParameterNeed) -> frozenset[Problem]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 
-from rebsync.reverse.analysis.facts import Facts, IsThere, stored, tested, without_shared
+from rebsync.reverse.analysis.cpp_facts import without_moved
+from rebsync.reverse.analysis.facts import Facts, Holds, IsThere, stored, tested, without_shared
 from rebsync.reverse.analysis.made_objects import made_by
 from rebsync.reverse.analysis.origins import (
     AnyOrigin,
@@ -50,7 +51,7 @@ class OutcomeCalls:
         self.expressions = expressions
         self._sizes = sizes
         self._exceptions = LibraryExceptions(notes, expressions)
-        self._given = LibraryArguments(expressions)
+        self.given = LibraryArguments(expressions)
         self._binding = notes.counts.rules.binding
         self.origins = notes.origins
         self.function = notes.function.name
@@ -62,7 +63,7 @@ class OutcomeCalls:
         self._here = facts
         self._arguments(node, facts)
         self.expressions.types.call(node, facts)
-        self._given.check(node, facts)
+        self.given.check(node, facts)
         if self._binding.of_callback(node, self.notes.function):
             self.notes.fails(node, REFUSED)
         match node.callee:
@@ -88,11 +89,13 @@ class OutcomeCalls:
                 self._method(node, node.callee, facts)
         for name in made_by(self.origins, node) if self._is_cpp else ():
             self._enters(node, name)
-        after = self._sizes.kept(node, facts)
+        after = without_moved(self._sizes.kept(node, facts), node)
         if node.target is None:
             return after
         types = self.expressions.types.given(node)
         after = stored(after, node.target, types) | self._sizes.told(node, facts)
+        if self._is_cpp and self.expressions.undefined.pointers.gives(node):
+            return after | {IsThere(node.target), Holds(node.target)}
         return after if self.expressions.none.gives(node) else after | {IsThere(node.target)}
 
     def construct(self, node: s.Construct, facts: Facts) -> Facts:
@@ -107,7 +110,7 @@ class OutcomeCalls:
         facts = without_shared(facts)
         if node.target is None:
             return facts
-        return stored(facts, node.target) | {IsThere(node.target)}
+        return stored(facts, node.target) | {IsThere(node.target), Holds(node.target)}
 
     def destroy(self, node: s.Destroy) -> None:
         """Notes what the end of an object may do."""
@@ -232,7 +235,7 @@ class OutcomeCalls:
             case LibraryOrigin(name, False):
                 self._library(node, name, self.notes.table.function(name), None, facts)
                 if not self.notes.is_parameter(value):
-                    self._given.of_value(node, name, facts)
+                    self.given.of_value(node, name, facts)
             case _ if is_standard(value):
                 pass  # a distribution, a comparison: it gives a value
             case _ if (of := self.expressions.operators.class_of(value)) is not None:

@@ -8,6 +8,7 @@ from rebsync.reverse.analysis.facts import (
     Holds,
     IsBelow,
     IsSize,
+    IsThere,
     bare,
     names_of,
     tested,
@@ -103,6 +104,8 @@ class OutcomeExpressions:
                 self._divides(value, left, right, facts)
             case e.Binary() if self.notes.table.language is Language.PYTHON:
                 self._computes(value, facts)
+            case e.Binary(Operator.SHIFT_LEFT | Operator.SHIFT_RIGHT, left, right):
+                self._shifts(value, left, right, facts)
             case e.Index(_, e.Slice(_, _, step)) if step is not None:
                 if not self.is_nonzero(step, facts):
                     self.notes.fails(value, "has a step of zero")
@@ -176,6 +179,16 @@ class OutcomeExpressions:
             case _:
                 pass
 
+    def _shifts(
+        self, value: e.Binary, left: e.Expression, right: e.Expression, facts: Facts
+    ) -> None:
+        """A number has as many bits as it is promoted to; streams are of no such type."""
+        type_ = getattr(left, "type", t.UNKNOWN)
+        if isinstance(type_, t.Integer):
+            by = self.bounds.range_of(right, facts)
+            if by.low < 0 or by.high >= max(type_.bits or 32, 32):
+                self.notes.fails(value, "shifts by more than there are bits")
+
     def _is_bounded(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a number is below one that the source has, by how it is computed."""
         if any(isinstance(f, IsBelow) and f.value == value for f in facts):
@@ -229,6 +242,13 @@ class OutcomeExpressions:
                 if any(self.size(f.container, facts) for f in sizes):
                     return True
                 return self._is_constant(value)
+
+    def there(self, target: e.Expression, value: e.Expression, facts: Facts) -> Facts:
+        """That a variable has a value which is not nothing, if what is stored in it is not."""
+        if isinstance(getattr(target, "type", None), t.Reference | t.Optional):
+            is_null = self.undefined.pointers.may_be(value, facts)
+            return frozenset(() if is_null else (IsThere(target), Holds(target)))
+        return frozenset(() if self.none.may_be(value, facts) else (IsThere(target),))
 
     def _is_kept(self, operand: e.Expression, type_: t.Type) -> bool:
         """Whether a number that is not zero is none either as one of a type."""

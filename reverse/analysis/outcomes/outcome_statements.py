@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from rebsync.reverse.analysis.cpp_facts import without_moved
 from rebsync.reverse.analysis.facts import (
     NO_FACTS,
     Facts,
@@ -33,6 +34,7 @@ from rebsync.reverse.analysis.outcomes.outcome_calls import OutcomeCalls
 from rebsync.reverse.analysis.outcomes.outcome_expressions import OutcomeExpressions
 from rebsync.reverse.analysis.outcomes.outcome_sizes import OutcomeSizes
 from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
+from rebsync.reverse.analysis.python.special_results import SpecialResults
 from rebsync.reverse.analysis.python.unset_names import UnsetNames
 from rebsync.reverse.analysis.python.value_types import at_index, elements_of
 from rebsync.reverse.ir import expressions as e
@@ -54,6 +56,7 @@ class OutcomeWalk:
         self._sizes = OutcomeSizes(notes, self._expressions)
         self._calls = OutcomeCalls(notes, self._expressions, self._sizes)
         self._endings = LoopEndings(notes, self._sizes, iterators)
+        self._results = SpecialResults(self._expressions, self._calls.given)
         self._handlers = Handlers(notes)
         self._handled: list[set[Problem | Called]] = []
         self._breaks: list[list[Facts]] = []  # what is known where the loops around are left
@@ -89,6 +92,7 @@ class OutcomeWalk:
                 return self._structured(node, facts)
             case s.Return(value):
                 self.value(value, facts)
+                self._results.check(node, facts)
                 return None
             case s.Raise():
                 self._raises(node, facts)
@@ -106,7 +110,7 @@ class OutcomeWalk:
                 return self._calls.construct(node, facts)
             case s.Destroy():
                 self._calls.destroy(node)
-                return without_shared(facts)
+                return without_shared(without_moved(facts, node))
             case s.Evaluate(value):
                 self.value(value, facts)
                 return facts
@@ -117,14 +121,8 @@ class OutcomeWalk:
                     return without(facts, target)
                 return self._assigned(target, value, facts)
             case s.CompoundAssign(target, operator, value):
-                combined = e.Binary(
-                    operator,
-                    target,
-                    value,
-                    target.type,
-                    node.dynamic,
-                    node.place,
-                )
+                dynamic = node.dynamic
+                combined = e.Binary(operator, target, value, target.type, dynamic, node.place)
                 return self._assigned(target, combined, facts)
             case _:
                 return self._other(node, facts)
@@ -181,8 +179,8 @@ class OutcomeWalk:
         self.value(value, facts)
         self._stored(target, facts, value)
         before, facts = facts, stored(facts, target, self._expressions.types.of(value, facts))
-        if not self._expressions.none.may_be(value, before):
-            facts |= {IsThere(target)}
+        facts |= self._expressions.there(target, value, before)
+        facts = without_moved(facts, value)
         if isinstance(target, e.Index):
             return facts | {HasKey(target.object, target.index)}
         if any(n == target for n in walk(value)):
@@ -265,9 +263,9 @@ class OutcomeWalk:
             case s.Switch(value, cases):
                 self.value(value, facts)
                 inside = self._changed(facts, tuple(s for c in cases for s in c.body))
-                for case in cases:
-                    self.body(case.body, inside)
-                return inside
+                after = [self.body(c.body, inside) for c in cases][-1:]
+                leaves = after != [None] or any(isinstance(n, s.Break) for n in walk(node))
+                return inside if leaves or not any(c.is_default for c in cases) else None
             case s.Try():
                 return self._try(node, facts)
             case s.With(context, target, body):
@@ -301,7 +299,7 @@ class OutcomeWalk:
             return self._changed(facts, body)
         return after
 
-    def _loop(self, node: s.Loop, facts: Facts) -> Facts:
+    def _loop(self, node: s.Loop, facts: Facts) -> Facts | None:
         inner = (*node.prelude, *node.body, *node.step)
         if not self._endings.ends(node):
             self.notes.problem(node, ENDLESS)
@@ -316,6 +314,8 @@ class OutcomeWalk:
         left = tested(before, node.test, False)
         self.body(node.otherwise, left)
         has_break = any(isinstance(n, s.Break) for n in walk(node.body))
+        if not has_break and isinstance(node.test, e.Literal) and node.test.value:
+            return None
         if has_break and node.test == e.Literal(True) and not node.otherwise:
             return breaks[0].intersection(*breaks) if breaks else inside
         return inside if has_break or node.otherwise else left

@@ -4,8 +4,7 @@ A function is harmless if it comes back with a value, in bounded time, whatever 
 that may do otherwise is listed: exceptions that nothing in the function handles, loops and
 recursion that may not end, calls that wait or act, what is the model's, what has no lowering.
 
-The types of values are trusted, as a type checker would: an operand of a wrong type, a name or an
-attribute that is not there, is not looked for. So is what C++ leaves undefined.
+What C++ leaves undefined may end the program: no handler is for it.
 """
 
 from __future__ import annotations
@@ -25,14 +24,16 @@ from rebsync.reverse.analysis.outcomes.endless_iterators import EndlessIterators
 from rebsync.reverse.analysis.outcomes.given_arguments import with_none
 from rebsync.reverse.analysis.outcomes.held_locks import HeldLocks
 from rebsync.reverse.analysis.outcomes.outcome_statements import ENDLESS, OutcomeWalk
-from rebsync.reverse.analysis.problems import Called, Problem, ProblemNotes
+from rebsync.reverse.analysis.problems import NO_RESULT, Called, Problem, ProblemNotes
 from rebsync.reverse.analysis.python.operand_classes import OperandClasses
 from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
+from rebsync.reverse.analysis.python.special_results import kind_of
 from rebsync.reverse.analysis.silent_calls import SilentCalls
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import ImplicitCall
-from rebsync.reverse.ir.program import Function, Program
+from rebsync.reverse.ir.program import Function, FunctionKind, Program
 from rebsync.reverse.ir.walk import STATEMENTS, Node, parts, walk
 from rebsync.reverse.libraries.outcome_classes import TERMINATES
 from rebsync.reverse.libraries.outcomes import LibraryOutcomes
@@ -141,7 +142,9 @@ class OutcomeAnalysis:
         notes = ProblemNotes(function, self.origins, self.counts, self.is_model, self.elements)
         walk_ = OutcomeWalk(notes, self.iterators)
         walk_.defaults(self._defaults.get(function.name, ()))
-        walk_.body(function.body, walk_.first if running else NO_FACTS)
+        after = walk_.body(function.body, walk_.first if running else NO_FACTS)
+        if running and after is not None and self._lacks_result(function):
+            notes.problem(function.body[-1], NO_RESULT, self._of_no_result)
         self.locks.check(function, notes)
         for node in self.iterators.gone_through(function):
             notes.problem(node, ENDLESS)
@@ -160,6 +163,23 @@ class OutcomeAnalysis:
             return Equation(own, tuple((c.function, c.leaving) for c in calls))
         uses = ((c.function, lambda p, c=c: frozenset(map(_ending, c.leaving(p)))) for c in calls)
         return Equation(frozenset(map(_ending, own)), tuple(uses))
+
+    def _lacks_result(self, function: Function) -> bool:
+        """Whether a function must not come to its end: that leaves its result open in C++.
+
+        See [stmt.return]. Some methods of Python give None there, which is refused.
+        """
+        if self.table.language is Language.PYTHON:
+            return bool(kind_of(function, Language.PYTHON) and function.body)
+        is_procedure = function.result in (t.NOTHING, t.UNKNOWN) or not function.body
+        is_main = function.name.partition(" ")[0] == "main"
+        is_plain = function.kind is FunctionKind.FUNCTION and not is_main
+        return is_plain and not is_procedure
+
+    @property
+    def _of_no_result(self) -> str:
+        is_cpp = self.table.language is Language.CPP
+        return TERMINATES if is_cpp else self.table.of_failure("is of another type")
 
     def _asked(self, function: Function) -> frozenset[str]:
         """The operators that libraries may run of the objects that a function hands to them."""

@@ -84,13 +84,14 @@ class ContainerStores:
         self._depth = depth
 
     @cached_property
-    def _puts(self) -> list[Put]:
+    def puts(self) -> list[Put]:
+        """All that the program puts into containers."""
         return [put for name, node in walk_all(self._program) for put in _put(node, name)]
 
     def contents(self, before: ValueTypes) -> ValueTypes:
         """What is put into containers, each time as one of its site, with what was known before."""
         found = {type_.sites: type_ for type_ in before if isinstance(type_, ContainerType)}
-        for number, put in enumerate(self._puts):
+        for number, put in enumerate(self.puts):
             into = set[tuple[object, OwnType]]()
             for type_ in self._types.of(put.container, put.function):
                 if type_ is None:

@@ -71,6 +71,7 @@ _METHODS_OF = frozenset(
         *(OwnType.QUEUE, OwnType.NUMBER),
     }
 )
+_NODE = "Node"  # of whatever object: its methods make ends of topics
 _FOR_EACH = frozenset({"builtins.map", "builtins.filter"})
 
 
@@ -127,7 +128,7 @@ class LibraryArguments:
                 self._notes.fails(node, _REFUSED)
             elif not any(self._fit(each, given, facts, self._is_of) for each in fitting):
                 self._notes.fails(node, _WRONG)
-            elif not any(self._fit(each, given, facts, self._is_within) for each in fitting):
+            elif not any(self._fit(each, given, facts, self.is_within) for each in fitting):
                 self._notes.fails(node, _BEYOND)
             for value in self._asking(fitting, given):
                 self._expressions.none.check(value, node, facts)
@@ -140,8 +141,11 @@ class LibraryArguments:
                 is_known = self._has_end(name) if is_own else bool(signatures(name))
                 return [name] if is_known else []
             case s.MethodCallee(receiver, name, None, None):
-                classes = map(_class_of, self._kinds.types(receiver, facts))
-                return sorted(f"{each}.{name}" for each in set(classes) if each)
+                classes = set(map(_class_of, self._kinds.types(receiver, facts)))
+                is_own = bool(self._notes.origins.methods_of_any(name))
+                classes |= set() if is_own else {_NODE}
+                found = sorted(f"{each}.{name}" for each in classes if each)
+                return [f for f in found if not f.startswith(_NODE) or signatures(f)]
             case _:
                 return []
 
@@ -168,6 +172,10 @@ class LibraryArguments:
                 return isinstance(value, e.Literal) and value.value is None
             case "function":
                 return not (types - {None}) or any(isinstance(t, InstanceType) for t in types)
+            case "instance":
+                return all(isinstance(t, InstanceType) for t in types)
+            case "quality":  # of a service, of which no class here is known
+                return all(own_type(t) is None and not isinstance(t, InstanceType) for t in types)
             case "hashable":
                 return is_hashable(types, self._has_hash)
             case "plain" | "orderly":
@@ -216,7 +224,7 @@ class LibraryArguments:
 
     # --- values ----------------------------------------------------------------------------------
 
-    def _is_within(self, value: e.Expression, kind: str, facts: Facts) -> bool:
+    def is_within(self, value: e.Expression, kind: str, facts: Facts) -> bool:
         """Whether a value is one that a kind has, if it is of its types."""
         if not self._is_of(value, kind, facts):
             return False

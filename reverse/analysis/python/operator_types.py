@@ -25,6 +25,14 @@ _NUMBER = OwnType.NUMBER
 SEQUENCES = frozenset({OwnType.TEXT, OwnType.BYTES, OwnType.LIST, OwnType.TUPLE, OwnType.ARRAY})
 _SETS = frozenset({OwnType.SET, OwnType.FROZEN})
 SIZED = SEQUENCES | _SETS | {OwnType.MAPPING, OwnType.QUEUE}
+# Functions that go through what they get first.
+OF_ELEMENTS = frozenset(
+    f"builtins.{n}"
+    for n in (
+        *("len", "sum", "any", "all", "sorted", "list", "tuple", "set", "enumerate"),
+        *("iter", "zip"),
+    )
+)
 ITERABLE = SIZED | {OwnType.MODEL_ARRAY}
 INDEXED = SEQUENCES | {OwnType.QUEUE, OwnType.MAPPING, OwnType.MODEL_ARRAY}
 UNHASHABLE = frozenset(

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from rebsync.reverse.analysis.facts import Facts, stored
+from rebsync.reverse.analysis.numbers.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.attribute_errors import AttributeErrors
@@ -30,6 +31,7 @@ from rebsync.reverse.analysis.python.operand_kinds import OperandKinds
 from rebsync.reverse.analysis.python.operator_types import (
     INDEXED,
     ITERABLE,
+    OF_ELEMENTS,
     ORDERED,
     SEQUENCES,
     given_by,
@@ -58,15 +60,9 @@ _OF_BITS = frozenset(
     {Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR}
     | {Operator.SHIFT_LEFT, Operator.SHIFT_RIGHT}
 )
+_DECIMAL = frozenset("diu")  # conversions that take no infinite number
 _WHOLE = frozenset("xXoc")  # conversions that take no floats
 _OF_WHOLE = "bcdoxX"  # how styles of whole numbers end
-_OF_ELEMENTS = frozenset(
-    f"builtins.{n}"
-    for n in (
-        *("len", "sum", "any", "all", "sorted", "list", "tuple", "set", "enumerate"),
-        *("iter", "zip"),
-    )
-)
 
 
 class TypeErrors:
@@ -169,7 +165,7 @@ class TypeErrors:
             case "builtins.isinstance" if len(plain) > 1:
                 if not are_classes(self._notes, plain[1]):
                     self._notes.fails(node, _WRONG)
-            case _ if name in _OF_ELEMENTS:
+            case _ if name in OF_ELEMENTS:
                 for value in plain if name == "builtins.zip" else plain[:1]:
                     self._answers(node, value, ImplicitCall.ITERATE)
             case _:
@@ -340,7 +336,9 @@ class TypeErrors:
             return True
         is_float = any(map(self.floats.has, numbers_of(text, values, _WHOLE)))
         is_object = any(self.kinds.is_object(v, facts) for v in numbers_of(text, values))
-        return found or is_float or is_object
+        numbers = Magnitudes(self._notes.origins, self._notes.function.name)
+        is_finite = all(map(numbers.is_finite, numbers_of(text, values, _DECIMAL)))
+        return found or is_float or is_object or not is_finite
 
     def _puts_parts(self, text: str, type_: ValueType | None) -> bool:
         """Whether `%` may not put the parts of a tuple into a text."""

@@ -12,7 +12,7 @@ from rebsync.reverse.analysis.definite_assignment import may_be_unset
 from rebsync.reverse.analysis.outcomes.held_locks import UNKNOWN_LOCK, HeldLocks
 from rebsync.reverse.analysis.outcomes.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes.outcomes import RECURSES, OutcomeAnalysis
-from rebsync.reverse.analysis.problems import NOTHING_THERE, UNSAID, Problem
+from rebsync.reverse.analysis.problems import NO_RESULT, NOTHING_THERE, UNSAID, Problem
 from rebsync.reverse.analysis.unread_code import UnreadCode
 from rebsync.reverse.bodies.effects.cpp_form_places import FormPlaces
 from rebsync.reverse.bodies.effects.cpp_known_objects import KnownObjects
@@ -34,6 +34,7 @@ from rebsync.source import NOWHERE, Span
 # Words without which nothing locks, or waits for who does.
 _LOCKS = re.compile(rb"(?<![cCbB])lock|\bsem_\w*wait")
 _ACTING = ("call_expression", "assignment_expression", "update_expression", "new_expression")
+_UNSEEN = UNSAID | {NOTHING_THERE, NO_RESULT}
 # Headers of messages of ROS 1, which are named as these are.
 _MESSAGE = re.compile(rb"#\s*include\s*[<\"](\w+)/([A-Z]\w*)\.h[>\"]")
 
@@ -132,7 +133,7 @@ class CppForm:
             return frozenset()
         function = self._program.function(name)
         every = self._outcomes.raised_by(function, cpp.span(statement))
-        found = {p for p in every if p.why not in UNSAID or p.function not in self._of_known}
+        found = {p for p in every if p.why not in _UNSEEN or p.function not in self._of_known}
         odd = {p for p in found if p.why in UNSAID and p.function == name}
         timers = list(map(cpp.span, _timers(statement))) if odd else []
         within = (p for p in odd for t in timers if t.start <= p.place.start < t.end)
@@ -157,7 +158,8 @@ class CppForm:
             return []
         owner = self._lowering.world.symbols.classes.get(symbol.owner or "")
         names = (symbol.name, *lambda_names(symbol, owner).values())
-        found = {p.place for n in names for p in self._outcomes.own(n) if p.why == NOTHING_THERE}
+        own = (p for n in names for p in self._outcomes.own(n) if p.given is None)
+        found = {p.place for p in own if p.why == NOTHING_THERE}
         inside_ = (p for p in found if span.holds(p))
         return sorted(inside_, key=lambda p: (p.start, p.end))
 
@@ -184,10 +186,12 @@ class CppForm:
         return self._lowering.world.symbols.classes.values()
 
     def unsaid(self, cpp: Cpp, statement: Node) -> list[Problem]:
-        """What in a statement itself may throw, of which models say nothing."""
+        """What in a statement itself may fail, of which models say nothing."""
         name = self.places.around(statement)
-        found = (p for p in self.raised(cpp, statement) if p.function == name)
-        return sorted((p for p in found if p.why in UNSAID), key=lambda p: p.place.start)
+        if name is None or not any(p.why in _UNSEEN for p in self._outcomes.of(name)):
+            return []
+        found = (p for p in self.raised(cpp, statement) if p.function == name or p.is_of_call)
+        return sorted((p for p in found if p.why in _UNSEEN), key=lambda p: p.place.start)
 
     def recurses(self, function: CppFunction) -> bool:
         """Whether a function may call itself, perhaps by others."""

@@ -198,6 +198,7 @@ LIBRARIES = (
         },
         nodes=frozenset({"rclcpp::Node", "rclcpp_lifecycle::LifecycleNode"}),
         managed=frozenset({"rclcpp_lifecycle::LifecycleNode"}),
+        first=frozenset({"on_configure"}),
         own_arguments={
             **dict.fromkeys(("arguments", "parameter_overrides"), ""),
             **{"append_parameter_override": "", "use_global_arguments": "true"},

@@ -218,6 +218,7 @@ LIBRARIES = (
         ),
         options=_OPTIONS,
         table=Table(spans=dict.fromkeys(("Duration", "WallDuration", "SteadyDuration"), 1.0)),
+        first=frozenset({"onInit"}),
         entries=frozenset({"onInit", "run"}),  # that programs outside of the files call
         threaded=frozenset(
             {
