@@ -8,7 +8,7 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_idioms, cpp_sequencing
+from rebsync.reverse.bodies import cpp_idioms, cpp_mailbox, cpp_moments, cpp_sequencing
 from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_pointer_parameters import check_pointer
@@ -133,6 +133,11 @@ def _value(
     text = text_of(result) if result is not None else "auto"
     if message_type(inside.scope, text) is not None:
         return given(inside, node)[0]
+    if text == cpp_mailbox.MOMENT or cpp_mailbox.is_time(inside.scope, node):
+        inside.before += cpp_moments.kept(
+            inside, inside, "when", node, inside.expressions, node, True
+        )
+        return inside.scope.locals["when"]
     kept = inside.scope.carried(result) if result is not None else None
     if kept is None and text not in ("auto", "const auto"):
         raise Unknown(inside.cpp.span(node), "the model cannot know what this gives")
@@ -232,6 +237,9 @@ def _bound(
     if not name:
         Effects(reader.cpp, reader.scope).check(argument)
         return
+    if cpp_moments.is_for_time(reader, parameter, argument):
+        yield from cpp_moments.bound(reader, inside, parameter, argument, argument)
+        return
     constant = any(text_of(c) == "const" for c in parameter.node.named_children)
     refers = parameter.refers or is_pointer(text_of(parameter.type))
     type_ = message_type(reader.scope, text_of(parameter.type))
@@ -283,6 +291,9 @@ def _left_out(
 ) -> Iterator[m.Statement]:
     """A parameter that a call leaves out."""
     if not parameter.name:
+        return
+    if cpp_moments.is_for_time(reader, parameter, None):
+        yield from cpp_moments.bound(reader, inside, parameter, node, None)
         return
     kept = inside.scope.carried(parameter.type)
     if kept is None or kept.type.dimensions:
