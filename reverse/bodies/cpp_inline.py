@@ -184,8 +184,8 @@ def _entered(
             if called.body is None:
                 raise reader.unread(called.node, "this function has no body here")
             known = reader.scope.constants if constants is None else constants
-            types = cpp_aliases.instantiated(reader, call, called, arguments)
-            scope = replace(reader.scope, locals={}, constants=known, aliases=types)
+            types, numbers = cpp_aliases.instantiated(reader, call, called, arguments)
+            scope = replace(reader.scope, locals=numbers, constants=known, aliases=types)
             inside = reader.inside(called.cpp, scope, frozenset())
             return inside, called.body, called.parameters, called.result
         case Lambda(node, kept, own):
@@ -258,7 +258,7 @@ def _bound(
     if type_:
         yield from _copied(reader, inside, name, type_, argument)
         return
-    kept = inside.scope.carried(parameter.type)
+    kept = cpp_aliases.type_of(reader, inside, parameter, argument)
     bound = refers and (not constant or _is_bound(argument, meaning, kept))
     if bound and isinstance(meaning, Variable):
         inside.meaning(name, meaning)

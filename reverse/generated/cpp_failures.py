@@ -11,6 +11,8 @@ from rebsync.reverse.analysis.problems import NOTHING_THERE
 from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.effects.cpp_form import CppForm
 from rebsync.reverse.generated.cpp_names import declared_type
+from rebsync.reverse.generated.cpp_roles import parameters_of
+from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, operator_of, part, text_of
 from rebsync.source import Span
@@ -65,7 +67,24 @@ def _of_model(code: Code, owner: CppClass, function: CppFunction) -> set[str]:
         for n in inside(d, "identifier", "pointer_declarator")[:1]
         if n.type == "identifier"
     )
-    return {name for name, type_ in (*fields, *own) if declared_type(code, type_) is not None}
+    found = {name for name, type_ in (*fields, *own) if declared_type(code, type_) is not None}
+    return found | set(_of_generic(function, found))
+
+
+def _of_generic(function: CppFunction, variables: Collection[str]) -> Iterator[str]:
+    """The parameters of generic lambdas that get such variables wherever these are called."""
+    for lambda_ in inside(function.body, "lambda_expression"):
+        declared = lambda_.parent if lambda_.parent is not None else lambda_
+        name = text_of(part(declared, "declarator")) if declared.type == "init_declarator" else ""
+        calls = [c for c in calls_in(function.body) if c.name == name and c.target is None]
+        named_ = [n for n in inside(function.body, "identifier") if text_of(n) == name]
+        if len(named_) != len(calls) + 1:
+            continue  # something else may call it
+        for index, parameter in enumerate(parameters_of(lambda_)):
+            given = [c.arguments[index] for c in calls if index < len(c.arguments)]
+            names = {text_of(n).removeprefix("this->") for n in given}
+            if parameter.type.type == "placeholder_type_specifier" and names <= set(variables):
+                yield parameter.name
 
 
 def _looks_up(function: CppFunction, body: Node, variables: Collection[str]) -> bool:
