@@ -174,7 +174,8 @@ def times(reader: CppExpressionReader, node: Node) -> dict[str, m.Expression]:
     if squeezed(node) in AT_ONCE:
         return {}
     if held is None and (constant := reader.scope.constants.get(text_of(node))) is not None:
-        return times(elsewhere(reader, constant[0]), constant[1])
+        scope = reader.scope.without_constant(text_of(node))
+        return times(elsewhere(replace(reader, scope=scope), constant[0]), constant[1])
     if node.type != "call_expression":
         raise reader.unread(node, "this is no time of a send")
     function, arguments = part(node, "function"), named(part(node, "arguments"))

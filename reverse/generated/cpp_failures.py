@@ -73,8 +73,8 @@ def _of_model(code: Code, owner: CppClass, function: CppFunction) -> dict[str, T
         for n in inside(d, "identifier", "pointer_declarator")[:1]
         if n.type == "identifier"
     )
-    typed = ((name, declared_type(code, type_)) for name, type_ in (*fields, *own))
-    return {name: type_ for name, type_ in typed if type_ is not None}
+    typed = {name: declared_type(code, type_) for name, type_ in (*fields, *own)}
+    return {name: type_ for name, type_ in typed.items() if type_ is not None}
 
 
 def _of_generic(function: CppFunction, variables: Mapping[str, Type]) -> dict[str, int]:

@@ -7,6 +7,7 @@ with the message's own times and sender.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
+from itertools import dropwhile
 from typing import TypeAlias
 
 from tree_sitter import Node
@@ -38,7 +39,7 @@ def odd_in_shim(
     """The whole body, unless it hands every field on once, in the message's order."""
     received = [t for t in roles.taken if t.shim == function.node]
     names = {t.message.name for t in received}
-    statements = [s for s in working(function.body) if not _is_for_none(s, names)]
+    statements = [*dropwhile(lambda s: _is_for_none(s, names), working(function.body))]
     if len(statements) != 1 or len(received) != 1:
         yield from statements
         return
