@@ -9,6 +9,7 @@ from rebsync.reverse.bodies import cpp_mailbox, cpp_moments
 from rebsync.reverse.bodies.cpp_messages import declare, given, message_type
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.bodies.effects.known_functions import MOMENT
 from rebsync.reverse.bodies.scope import (
     Inline,
     Lambda,
@@ -42,7 +43,7 @@ def value_of(
     text = text_of(result) if result is not None else "auto"
     if message_type(inside.scope, text) is not None:
         return given(inside, node)[0]
-    if text == cpp_mailbox.MOMENT or cpp_mailbox.is_time(inside.scope, node):
+    if text == MOMENT or cpp_mailbox.is_time(inside.scope, node):
         return cpp_moments.made(inside, node)
     kept = inside.scope.carried(result) if result is not None else None
     if kept is None and text not in ("auto", "const auto"):

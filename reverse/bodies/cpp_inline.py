@@ -38,7 +38,7 @@ from rebsync.reverse.models.building import bare, is_calm, is_effect
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppParameter, parameter_of
 from rebsync.reverse.syntax.cpp_depth import DEEPEST, depth_of
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, default_of, named, part, text_of
 from rebsync.static.constants import constant as constant_of
 
 _DEEPEST = 8
@@ -136,7 +136,12 @@ def _entered(
             around = {n: x for n, x in kept.locals.items() if n in visible}
             inside = reader.inside(reader.cpp, replace(kept, locals=around), reader.own)
             declarator = node.child_by_field_name("declarator")
-            return inside, part(node, "body"), _parameters(declarator), _trailing(declarator)
+            return (
+                inside,
+                part(node, "body"),
+                _parameters(inside.cpp, declarator),
+                _trailing(declarator),
+            )
 
 
 def _of_member(
@@ -147,12 +152,14 @@ def _of_member(
         raise reader.unread(node, "this function is put into its member in another file")
     inside = reader.inside(reader.cpp, replace(reader.scope, locals={}), frozenset())
     declarator = node.child_by_field_name("declarator")
-    return inside, part(node, "body"), _parameters(declarator), _trailing(declarator)
+    return inside, part(node, "body"), _parameters(inside.cpp, declarator), _trailing(declarator)
 
 
-def _parameters(declarator: Node | None) -> tuple[CppParameter, ...]:
-    parameters = named(part(declarator, "parameters")) if declarator is not None else ()
-    return tuple(map(parameter_of, parameters))
+def _parameters(cpp: Cpp, declarator: Node | None) -> tuple[CppParameter, ...]:
+    """The parameters of a lambda, with what they are where a call leaves them out."""
+    declared = named(part(declarator, "parameters")) if declarator is not None else ()
+    values = ((parameter_of(p), default_of(p)) for p in declared)
+    return tuple(replace(p, default=(cpp, v) if v is not None else None) for p, v in values)
 
 
 def _trailing(declarator: Node | None) -> Node | None:

@@ -13,7 +13,7 @@ from rebsync import precedence
 from rebsync.names import original
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
-from rebsync.reverse.bodies.effects.known_functions import TIMES
+from rebsync.reverse.bodies.effects.known_functions import MOMENT, TIMES
 from rebsync.reverse.bodies.overloads import HINT, WHY, telling
 from rebsync.reverse.bodies.scope import (
     Inline,
@@ -33,7 +33,6 @@ from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, squeezed, text_of
 _CLOCK = names_in_model(Language.CPP)
 # The function under which a statement of `@Move` is read, until it is one.
 MOVE = "@Move"
-MOMENT = "When"  # the type of what says when a send arrives and expires
 AT_ONCE = frozenset({"When()", "When{}", "{}"})
 _LITERALS = frozenset({"number_literal", "char_literal", "true", "false"})
 _HINT = "send it by a function that only sends"
@@ -173,8 +172,10 @@ def times(reader: CppExpressionReader, node: Node) -> dict[str, m.Expression]:
         return {kind: m.Name(time.name) for kind, time in held.fields.items()}
     if squeezed(node) in AT_ONCE:
         return {}
-    if held is None and (constant := reader.scope.constants.get(text_of(node))) is not None:
-        scope = reader.scope.without_constant(text_of(node))
+    name_ = text_of(node)
+    constant = reader.scope.constants.get(name_) if reader.scope.meaning(name_) is None else None
+    if constant is not None:
+        scope = reader.scope.without_constant(name_)
         return times(elsewhere(replace(reader, scope=scope), constant[0]), constant[1])
     if node.type != "call_expression":
         raise reader.unread(node, "this is no time of a send")

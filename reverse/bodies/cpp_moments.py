@@ -10,6 +10,7 @@ from rebsync import model as m
 from rebsync.reverse.bodies import cpp_mailbox
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
+from rebsync.reverse.bodies.effects.known_functions import MOMENT
 from rebsync.reverse.bodies.scope import Meaning, Record, Variable
 from rebsync.reverse.bodies.types.cpp_conversions import type_in
 from rebsync.reverse.models.building import is_calm
@@ -69,12 +70,12 @@ def kept(
         fields[kind] = local
         inside.meaning(local.name, local, own=True)
         yield reader.local(node, local, time)
-    inside.meaning(name, Record(fields, cpp_mailbox.MOMENT, constant), own=True)
+    inside.meaning(name, Record(fields, MOMENT, constant), own=True)
 
 
 def is_for_time(reader: CppStatementReader, parameter: CppParameter, argument: Node | None) -> bool:
     """Whether a parameter of a function takes the time of a send."""
-    if text_of(parameter.type) == cpp_mailbox.MOMENT:
+    if text_of(parameter.type) == MOMENT:
         return not parameter.refers or any(text_of(c) == "const" for c in named(parameter.node))
     is_any = parameter.type.type == "placeholder_type_specifier"
     return is_any and argument is not None and cpp_mailbox.is_time(reader.scope, argument)
@@ -92,5 +93,5 @@ def is_moment(reader: CppStatementReader, node: Node) -> bool:
         return False
     name, value = part(declarators[0], "declarator"), part(declarators[0], "value")
     is_any = text_of(part(node, "type")) == "auto" and cpp_mailbox.is_time(reader.scope, value)
-    is_of_type = is_any or text_of(part(node, "type")) == cpp_mailbox.MOMENT
+    is_of_type = is_any or text_of(part(node, "type")) == MOMENT
     return is_of_type and name.type == "identifier"
