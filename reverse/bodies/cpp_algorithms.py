@@ -168,7 +168,7 @@ def compared(
     type_ = plain_type(reader, left) if operator in _JOINING and left.type in _NAMES else None
     if type_ is None or type_.dimensions[0] > _LONGEST:
         return None
-    size, others = type_.dimensions[0], _elements_of(right)
+    size, others = type_.dimensions[0], elements_of(reader, right, type_)
     if others is not None:
         if len(others) != size:
             return None
@@ -200,9 +200,12 @@ def _tuples(
     return list(zip(left, right, strict=True)) if is_plain and len(left) == len(right) else None
 
 
-def _elements_of(node: Node) -> list[Node] | None:
-    """What stands in the braces of an array that is made where it is compared."""
-    if node.type != "compound_literal_expression" or not text_of(node).startswith("std::array<"):
+def elements_of(reader: CppExpressionReader, node: Node, type_: m.Type) -> list[Node] | None:
+    """What stands in the braces of an array of a type that is made where it is used."""
+    if node.type != "compound_literal_expression":
+        return None
+    kept = reader.scope.carried(part(node, "type"))
+    if kept is None or kept.type != type_ or kept.bits or kept.wide:
         return None
     values = named(part(node, "value"))
     if len(values) == 1 and values[0].type == "initializer_list":

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies.cpp_algorithms import first_of, plain_type, whole_array
+from rebsync.reverse.bodies.cpp_algorithms import elements_of, first_of, plain_type, whole_array
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_messages import zero_of
 from rebsync.reverse.bodies.cpp_places import resolve
@@ -59,21 +59,23 @@ def filled(reader: CppStatementReader, node: Node) -> Sequence[m.Statement] | No
 
 
 def _assigned(reader: CppStatementReader, node: Node) -> Sequence[m.Statement] | None:
-    """`array = {x, y}` of a state variable of a generated class, which is a `std::array`.
+    """`array = {x, y}`, or `std::array<int, 2>{x, y}`, of a state variable of a generated class.
 
     All values are known before an element changes; elements that no value is for are zero.
     """
     target, value = part(node, "left"), part(node, "right")
-    is_set = text_of(part(node, "operator")) == "=" and value.type == "initializer_list"
+    is_made = value.type in ("initializer_list", "compound_literal_expression")
+    is_set = text_of(part(node, "operator")) == "=" and is_made
     if not is_set or not has_mailbox(reader.scope):
         return None
     name = text_of(target).removeprefix("this->")
     member, type_ = reader.scope.members.get(name), plain_type(reader.expressions, target)
     if type_ is None or member is None or resolve(reader.scope, target) != member:
         return None
-    of, values = m.Type(type_.name), named(value)
-    zero = zero_of(of)
-    if zero is None:
+    of, zero = m.Type(type_.name), zero_of(m.Type(type_.name))
+    is_typed = value.type != "initializer_list"
+    values = elements_of(reader.expressions, value, type_) if is_typed else named(value)
+    if zero is None or values is None:
         return None
     array, count = reader.expressions.read(target), type_.dimensions[0]
     if not values:

@@ -8,8 +8,8 @@ from dataclasses import replace
 from tree_sitter import Node
 
 from rebsync import model as m
-from rebsync.reverse.bodies import cpp_idioms, cpp_sequencing
-from rebsync.reverse.bodies.cpp_messages import declare, given, is_pointer, message_type, zero_of
+from rebsync.reverse.bodies import cpp_given, cpp_idioms, cpp_moments, cpp_sequencing
+from rebsync.reverse.bodies.cpp_messages import declare, is_pointer, message_type, zero_of
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
 from rebsync.reverse.bodies.cpp_pointer_parameters import check_pointer
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
@@ -32,17 +32,14 @@ from rebsync.reverse.bodies.scope import (
 )
 from rebsync.reverse.bodies.serving import Serves
 from rebsync.reverse.bodies.types import cpp_aliases
-from rebsync.reverse.bodies.types.cpp_conversions import as_boolean, type_in
-from rebsync.reverse.bodies.types.cpp_return_types import return_type
 from rebsync.reverse.bodies.types.cpp_types import Carried
 from rebsync.reverse.bodies.types.cpp_widths import place_of
-from rebsync.reverse.models.building import bare, cast, is_calm, is_effect
+from rebsync.reverse.models.building import bare, is_calm, is_effect
 from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_declarations import CppParameter, parameter_of
 from rebsync.reverse.syntax.cpp_depth import DEEPEST, depth_of
-from rebsync.reverse.syntax.cpp_tree import named, part, returns_in, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, default_of, named, part, text_of
 from rebsync.static.constants import constant as constant_of
-from rebsync.static.types import converts, is_boolean, is_integer, is_numeric
 
 _DEEPEST = 8
 _PLACES = frozenset(
@@ -64,7 +61,7 @@ def inlined(
     if len(arguments) > len(parameters):
         raise reader.unread(node, "there are more arguments here than parameters")
     cpp_sequencing.check_arguments(reader, arguments)
-    needed, single = len(reader.before), _single(body)
+    needed, single = len(reader.before), cpp_given.single(body)
     once = single is not None and not (
         cpp_sequencing.changes(reader, arguments, frozenset())
         or cpp_sequencing.changes(inside, [single], frozenset(p.name for p in parameters))
@@ -78,8 +75,9 @@ def inlined(
     reader.shared.depth += depth
     try:
         if single is not None:
-            found: Meaning | None = _value(reader, inside, single, result)
+            found: Meaning | None = cpp_given.value_of(reader, inside, single, result)
             reader.before += inside.before
+            found = cpp_given.apart(reader, function, node, result, found)
         else:
             found = _body(reader, inside, body, result)
     finally:
@@ -117,59 +115,6 @@ def dropped(reader: CppStatementReader, node: Node, given: Meaning | None) -> It
             raise reader.unread(node, "what this changes stands within an expression")
 
 
-def _single(body: Node) -> Node | None:
-    """The value of a function that does nothing but give it."""
-    statements = named(body)
-    if len(statements) == 1 and statements[0].type == "return_statement":
-        values = named(statements[0])
-        return values[0] if values and values[0].type != "initializer_list" else None
-    return None
-
-
-def _value(
-    reader: CppStatementReader, inside: CppStatementReader, node: Node, result: Node | None
-) -> Meaning:
-    """What such a function gives: the value itself, where it is called."""
-    text = text_of(result) if result is not None else "auto"
-    if message_type(inside.scope, text) is not None:
-        return given(inside, node)[0]
-    kept = inside.scope.carried(result) if result is not None else None
-    if kept is None and text not in ("auto", "const auto"):
-        raise Unknown(inside.cpp.span(node), "the model cannot know what this gives")
-    place = place_of("", kept) if kept is not None else Variable("")
-    inside.findings.statements[inside.within] += 1
-    value = inside.expressions.stored(node, place)
-    if kept is None or inside.scope.open:
-        return value
-    converted = _as(reader, inside, value, place)
-    if converted is None:
-        raise inside.unread(node, "the type that this gives may make another number of it")
-    return converted
-
-
-def _as(
-    reader: CppStatementReader, inside: CppStatementReader, value: m.Expression, place: Variable
-) -> m.Expression | None:
-    """A value of generated code as one of a type where the model stores it nowhere.
-
-    None: its own type is not known, or the model has no numbers of that type.
-    """
-    of = type_in(inside.scope, value)
-    scope = inside.scope if of is not None else reader.scope
-    of = of or type_in(scope, value)
-    type_ = place.type
-    if type_ is None or type_.dimensions or of == type_:
-        return value if not (place.bits or place.wide) else None
-    if of is None or place.bits or place.wide:
-        return None
-    if is_boolean(type_):
-        return as_boolean(scope, value)
-    if not (is_numeric(type_) and is_numeric(of)):
-        return None
-    whole = is_integer(type_) and is_integer(of) and converts(of, type_, {})
-    return value if whole else cast(type_, value)
-
-
 def _entered(
     reader: CppStatementReader, call: Node, function: Inline | Lambda, arguments: Sequence[Node]
 ) -> tuple[CppStatementReader, Node, Sequence[CppParameter], Node | None]:
@@ -179,8 +124,8 @@ def _entered(
             if called.body is None:
                 raise reader.unread(called.node, "this function has no body here")
             known = reader.scope.constants if constants is None else constants
-            types = cpp_aliases.instantiated(reader, call, called, arguments)
-            scope = replace(reader.scope, locals={}, constants=known, aliases=types)
+            types, numbers = cpp_aliases.instantiated(reader, call, called, arguments)
+            scope = replace(reader.scope, locals=numbers, constants=known, aliases=types)
             inside = reader.inside(called.cpp, scope, frozenset())
             return inside, called.body, called.parameters, called.result
         case Lambda(node, kept, own):
@@ -191,7 +136,12 @@ def _entered(
             around = {n: x for n, x in kept.locals.items() if n in visible}
             inside = reader.inside(reader.cpp, replace(kept, locals=around), reader.own)
             declarator = node.child_by_field_name("declarator")
-            return inside, part(node, "body"), _parameters(declarator), _trailing(declarator)
+            return (
+                inside,
+                part(node, "body"),
+                _parameters(inside.cpp, declarator),
+                _trailing(declarator),
+            )
 
 
 def _of_member(
@@ -202,12 +152,14 @@ def _of_member(
         raise reader.unread(node, "this function is put into its member in another file")
     inside = reader.inside(reader.cpp, replace(reader.scope, locals={}), frozenset())
     declarator = node.child_by_field_name("declarator")
-    return inside, part(node, "body"), _parameters(declarator), _trailing(declarator)
+    return inside, part(node, "body"), _parameters(inside.cpp, declarator), _trailing(declarator)
 
 
-def _parameters(declarator: Node | None) -> tuple[CppParameter, ...]:
-    parameters = named(part(declarator, "parameters")) if declarator is not None else ()
-    return tuple(map(parameter_of, parameters))
+def _parameters(cpp: Cpp, declarator: Node | None) -> tuple[CppParameter, ...]:
+    """The parameters of a lambda, with what they are where a call leaves them out."""
+    declared = named(part(declarator, "parameters")) if declarator is not None else ()
+    values = ((parameter_of(p), default_of(p)) for p in declared)
+    return tuple(replace(p, default=(cpp, v) if v is not None else None) for p, v in values)
 
 
 def _trailing(declarator: Node | None) -> Node | None:
@@ -232,6 +184,9 @@ def _bound(
     if not name:
         Effects(reader.cpp, reader.scope).check(argument)
         return
+    if cpp_moments.is_for_time(reader, parameter, argument):
+        yield from cpp_moments.bound(reader, inside, parameter, argument, argument)
+        return
     constant = any(text_of(c) == "const" for c in parameter.node.named_children)
     refers = parameter.refers or is_pointer(text_of(parameter.type))
     type_ = message_type(reader.scope, text_of(parameter.type))
@@ -250,7 +205,7 @@ def _bound(
     if type_:
         yield from _copied(reader, inside, name, type_, argument)
         return
-    kept = inside.scope.carried(parameter.type)
+    kept = cpp_aliases.type_of(reader, inside, parameter, argument)
     bound = refers and (not constant or _is_bound(argument, meaning, kept))
     if bound and isinstance(meaning, Variable):
         inside.meaning(name, meaning)
@@ -283,6 +238,9 @@ def _left_out(
 ) -> Iterator[m.Statement]:
     """A parameter that a call leaves out."""
     if not parameter.name:
+        return
+    if cpp_moments.is_for_time(reader, parameter, None):
+        yield from cpp_moments.bound(reader, inside, parameter, node, None)
         return
     kept = inside.scope.carried(parameter.type)
     if kept is None or kept.type.dimensions:
@@ -319,7 +277,7 @@ def _valued(
         inside.meaning(name, Outside(place.type))
         return
     if once and is_calm(value) and not place.wide:
-        same = value if reader.scope.open else _as(reader, inside, value, place)
+        same = value if reader.scope.open else cpp_given.as_type(reader, inside, value, place)
         if same is not None:
             inside.meaning(name, same)
             return
@@ -340,7 +298,7 @@ def _valued(
 def _body(
     reader: CppStatementReader, inside: CppStatementReader, body: Node, result: Node | None
 ) -> Meaning | None:
-    place = _result(reader, inside, body, result)
+    place = cpp_given.result_of(reader, inside, body, result)
     statements = inside.read(body.named_children)
     if isinstance(place, Variable) and place.type is not None:
         reader.shared.made.add(place.name)
@@ -352,35 +310,3 @@ def _body(
         raise reader.unread(body, "a return in a loop has no place in another body")
     reader.before += done
     return place
-
-
-def _result(
-    reader: CppStatementReader, inside: CppStatementReader, body: Node, result: Node | None
-) -> Meaning | None:
-    """Where the value that a function returns is kept; sets what `return` does in it."""
-    if result is None or text_of(result) in ("auto", ""):
-        if not any(named(n) for n in returns_in(body)):
-            return None
-        kept = return_type(inside, body)
-        if kept is None or not inside.scope.open:
-            raise reader.unread(body, "the type of what this gives is not written")
-        inside.returns = place_of("", kept)
-        return place_of(reader.fresh("result", inlining=True), kept)
-    if text_of(result) == "void":
-        return None
-    type_ = message_type(reader.scope, text_of(result))
-    if type_ is not None:
-        before, name = reader.scope, reader.fresh("result", inlining=True)
-        reader.before += declare(reader, body, name, type_, None, pointer=False, inlining=True)
-        record = reader.scope.locals[name]
-        reader.scope = before
-        inside.returns = record if isinstance(record, Record) else None
-        return record
-    kept = inside.scope.carried(result)
-    if kept is None:
-        inside.returns = Outside()
-        return Outside()
-    if (kept.bits or kept.wide) and not inside.scope.open:
-        raise inside.unread(body, "the model has no numbers of the type that this gives")
-    inside.returns = place_of("", kept)
-    return place_of(reader.fresh("result", inlining=True), kept)

@@ -12,19 +12,28 @@ from rebsync import model as m
 from rebsync import precedence
 from rebsync.names import original
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
-from rebsync.reverse.bodies.cpp_places import resolve
+from rebsync.reverse.bodies.cpp_places import is_this, resolve
+from rebsync.reverse.bodies.effects.known_functions import MOMENT, TIMES
 from rebsync.reverse.bodies.overloads import HINT, WHY, telling
-from rebsync.reverse.bodies.scope import Record, Runtime, Scope, Sends, Variable
+from rebsync.reverse.bodies.scope import (
+    Inline,
+    Lambda,
+    Record,
+    Runtime,
+    Scope,
+    Sends,
+    Variable,
+)
 from rebsync.reverse.bodies.types.cpp_conversions import type_in
 from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.syntax.cpp_calls import string_of
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, squeezed, text_of
 
 _CLOCK = names_in_model(Language.CPP)
 # The function under which a statement of `@Move` is read, until it is one.
 MOVE = "@Move"
-MOMENT = "When"  # the type of what says when a send arrives and expires
+AT_ONCE = frozenset({"When()", "When{}", "{}"})
 _LITERALS = frozenset({"number_literal", "char_literal", "true", "false"})
 _HINT = "send it by a function that only sends"
 
@@ -150,7 +159,7 @@ def send(
     if len(arguments) > expected:
         last = times(reader, arguments[expected])
     elif sends.usual is not None:
-        last = times(replace(reader, cpp=sends.usual[0]), sends.usual[1])
+        last = times(elsewhere(reader, sends.usual[0]), sends.usual[1])
     else:
         last = {}
     after, deadline = last.get("after"), last.get("deadline")
@@ -158,26 +167,65 @@ def send(
 
 
 def times(reader: CppExpressionReader, node: Node) -> dict[str, m.Expression]:
-    """`after(a).deadline(d)`; `When()` is neither."""
+    """`after(a).deadline(d)`, by any name or out of any function; `When()` is neither."""
     if isinstance(held := resolve(reader.scope, node), Record) and held.type == MOMENT:
         return {kind: m.Name(time.name) for kind, time in held.fields.items()}
+    if squeezed(node) in AT_ONCE:
+        return {}
+    name_ = text_of(node)
+    constant = reader.scope.constants.get(name_) if reader.scope.meaning(name_) is None else None
+    if constant is not None:
+        scope = reader.scope.without_constant(name_)
+        return times(elsewhere(replace(reader, scope=scope), constant[0]), constant[1])
     if node.type != "call_expression":
         raise reader.unread(node, "this is no time of a send")
     function, arguments = part(node, "function"), named(part(node, "arguments"))
     found: dict[str, m.Expression] = {}
     name = function
-    if function.type == "field_expression":
+    if function.type == "field_expression" and not is_this(part(function, "argument")):
         found = times(reader, part(function, "argument"))
         name = part(function, "field")
-    elif text_of(name) == "When" and not arguments:
-        return {}
-    if text_of(name) not in ("after", "deadline") or len(arguments) != 1:
+    elif (given := _given(reader, node, arguments)) is not None:
+        return given
+    if text_of(name) not in TIMES or len(arguments) != 1:
         raise reader.unread(node, "this is no time of a send")
-    if name == function and not _is_of_runtime(reader, text_of(name)):
+    if name == function and not _is_of_runtime(reader.scope, text_of(name)):
         raise reader.unread(node, f'"{text_of(name)}" is another function here')
     return found | {text_of(name): reader.read(arguments[0])}
 
 
-def _is_of_runtime(reader: CppExpressionReader, name: str) -> bool:
+def _given(
+    reader: CppExpressionReader, node: Node, arguments: Sequence[Node]
+) -> dict[str, m.Expression] | None:
+    """The time that a function of people gives; None for a call of no such function."""
+    name = text_of(part(node, "function")).removeprefix("this->")
+    function = reader.scope.meaning(name) or reader.scope.functions.get(name)
+    if reader.inlines is None or not isinstance(function, Inline | Lambda):
+        return None
+    held = reader.inlines(node, function, arguments)
+    if not isinstance(held, Record) or held.type != MOMENT:
+        raise reader.unread(node, "this is no time of a send")
+    return {kind: m.Name(time.name) for kind, time in held.fields.items()}
+
+
+def is_time(scope: Scope, node: Node) -> bool:
+    """Whether an expression is a time of a send: by its name, or made where it stands."""
+    if isinstance(held := resolve(scope, node), Record):
+        return held.type == MOMENT
+    while node.type == "call_expression" and part(node, "function").type == "field_expression":
+        node = part(part(node, "function"), "argument")
+    if node.type == "compound_literal_expression":
+        return text_of(part(node, "type")) == MOMENT
+    name = text_of(part(node, "function")) if node.type == "call_expression" else ""
+    return name in (MOMENT, *TIMES) and _is_of_runtime(scope, name)
+
+
+def elsewhere(reader: CppExpressionReader, cpp: Cpp) -> CppExpressionReader:
+    """A reader for what stands outside of the body: it names no locals, and calls nothing."""
+    scope = replace(reader.scope, locals={})
+    return replace(reader, cpp=cpp, scope=scope, findings=None, inlines=None)
+
+
+def _is_of_runtime(scope: Scope, name: str) -> bool:
     """Whether nothing nearer has the name of a function of the run-time part."""
-    return reader.scope.meaning(name) is None and name not in reader.scope.functions
+    return scope.meaning(name) is None and name not in scope.functions

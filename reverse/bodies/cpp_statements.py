@@ -361,7 +361,7 @@ class CppStatements(CppStatementReader):
     def declaration(
         self, node: Node, annotations: tuple[m.Annotation, ...], hoisted: bool
     ) -> Iterator[m.Statement]:
-        if cpp_moments.is_moment(node):
+        if cpp_moments.is_moment(self, node):
             yield from cpp_moments.declared(self, node)
             return
         if self.scope.open or not cpp_plain_locals.is_plain(node):

@@ -164,13 +164,19 @@ def _is_plain_call(code: Code, call: CppCall) -> bool:
     if name in code.all_classes:
         return name in _RUN_TIME or all(map(_does_nothing, code.all_classes[name]))
     own = code.definitions.get(("", call.name), ())
-    return all(map(_only_gives, own)) if own else is_known(call)
+    known = is_known(call)
+    return all(_only_gives(f) or (known and _is_ours(f)) for f in own) if own else known
 
 
 def _only_gives(function: CppFunction) -> bool:
     """Whether a function does nothing but to give a value of its parameters."""
     body = function.body
     return body is not None and not inside(body, *_RUNNING, "call_expression")
+
+
+def _is_ours(function: CppFunction) -> bool:
+    """Whether a function is of the run-time part."""
+    return is_runtime_header(function.cpp.source.path)
 
 
 def _is_plain_type(code: Code, type_: Node) -> bool:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 from tree_sitter import Node
 
+from rebsync.model import Type
 from rebsync.reverse.analysis.problems import NOTHING_THERE
 from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.effects.cpp_form import CppForm
 from rebsync.reverse.generated.cpp_names import declared_type
+from rebsync.reverse.generated.cpp_roles import parameters_of
+from rebsync.reverse.syntax.cpp_calls import calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_tree import inside, operator_of, part, text_of
 from rebsync.source import Span
@@ -21,6 +24,7 @@ _LOOKS = (
 )
 _TAKING = frozenset({"front", "back", "top", "pop", "pop_back", "pop_front", "erase"})
 _POINTER = re.compile(r"\*|optional")
+_ELEMENT = re.compile(r"(\w+)\[(\d+)\]")
 _ROOT = re.compile(r"[*&(]*(?:this\s*->\s*)?(\w+)")
 
 
@@ -44,7 +48,11 @@ def failures(
     if function.body is None or not (told or _looks_up(function, function.body, variables)):
         return
     found = list(form.looked_up(function.cpp, function.body))
+    generic = _of_generic(function, variables)
     for lookup in found:
+        element = _ELEMENT.fullmatch(function.cpp.source.text, lookup.start, lookup.end)
+        if element is not None and int(element[2]) < generic.get(element[1], 0):
+            continue
         if any(lookup.holds(o) and o != lookup for o in found):
             continue  # what is in it says it
         root = _ROOT.match(function.cpp.source.text, lookup.start)
@@ -53,7 +61,7 @@ def failures(
             yield lookup, NOTHING_THERE
 
 
-def _of_model(code: Code, owner: CppClass, function: CppFunction) -> set[str]:
+def _of_model(code: Code, owner: CppClass, function: CppFunction) -> dict[str, Type]:
     """The variables, parameters and locals of types that the model has."""
     fields = ((f.name, f.type) for c in code.lineage(owner.name) for f in c.fields)
     declared = [p.node for p in function.parameters]
@@ -65,7 +73,29 @@ def _of_model(code: Code, owner: CppClass, function: CppFunction) -> set[str]:
         for n in inside(d, "identifier", "pointer_declarator")[:1]
         if n.type == "identifier"
     )
-    return {name for name, type_ in (*fields, *own) if declared_type(code, type_) is not None}
+    typed = {name: declared_type(code, type_) for name, type_ in (*fields, *own)}
+    return {name: type_ for name, type_ in typed.items() if type_ is not None}
+
+
+def _of_generic(function: CppFunction, variables: Mapping[str, Type]) -> dict[str, int]:
+    """How many elements there are in what parameters of generic lambdas get, wherever called."""
+    found: dict[str, int] = {}
+    names = inside(function.body, "identifier")
+    for lambda_ in inside(function.body, "lambda_expression"):
+        declared = lambda_.parent if lambda_.parent is not None else lambda_
+        name = text_of(part(declared, "declarator")) if declared.type == "init_declarator" else ""
+        calls = [c for c in calls_in(function.body) if c.name == name and c.target is None]
+        if sum(text_of(n) == name for n in names) != len(calls) + 1:
+            continue  # something else may call it
+        for index, parameter in enumerate(parameters_of(lambda_)):
+            given = [c.arguments[index] for c in calls if index < len(c.arguments)]
+            types = [variables.get(text_of(n).removeprefix("this->")) for n in given]
+            sizes = [t.dimensions[0] if t is not None and t.dimensions else 0 for t in types]
+            own = [n for n in names if text_of(n) == parameter.name]
+            is_own = all(lambda_.start_byte < n.start_byte < lambda_.end_byte for n in own)
+            if parameter.type.type == "placeholder_type_specifier" and is_own and sizes:
+                found[parameter.name] = min(sizes)
+    return found
 
 
 def _looks_up(function: CppFunction, body: Node, variables: Collection[str]) -> bool:

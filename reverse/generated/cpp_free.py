@@ -52,7 +52,13 @@ def free_beside(
 def is_method(function: CppFunction) -> bool:
     """Whether a function can be a local method of the model: one is given all that it takes."""
     is_whole = all(p.node.type != _OPTIONAL for p in function.parameters)
+    is_whole = is_whole and not (is_template(function) or function.gives_place)
     return is_whole and has_plain_types(function) and not list(passed_by_reference(function))
+
+
+def is_template(function: CppFunction) -> bool:
+    """Whether there is a function for each of several types, or numbers."""
+    return function.node.parent is not None and function.node.parent.type == "template_declaration"
 
 
 def has_plain_types(function: CppFunction) -> bool:

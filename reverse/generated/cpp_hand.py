@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from rebsync.reserved import RUNTIME_FUNCTIONS
 from rebsync.reverse.bodies.scope import Around, Function, Inline, Member, Outside, Scope
-from rebsync.reverse.generated.cpp_free import has_plain_types, passed_by_reference
+from rebsync.reverse.generated.cpp_free import has_plain_types, is_template, passed_by_reference
 from rebsync.reverse.generated.cpp_idle import working
 from rebsync.reverse.generated.slicing.publishers import telling_publishers
 from rebsync.reverse.syntax.cpp_calls import calls_in
@@ -68,7 +68,8 @@ def stands_in(code: Code, owner: CppClass, function: CppFunction) -> bool:
         return False
     if not of and len(code.definitions.get(("", function.name), ())) != 1:
         return False
-    refers = any(True for _ in passed_by_reference(function))
+    refers = function.gives_place or is_template(function)
+    refers = refers or any(True for _ in passed_by_reference(function))
     defaults = any(p.default is not None for p in _with_defaults(owner, function).parameters)
     return refers or defaults or not has_plain_types(function)
 

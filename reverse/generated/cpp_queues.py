@@ -8,7 +8,7 @@ from tree_sitter import Node
 
 from rebsync.reverse.generated.cpp_descriptors import number_of
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, text_of
+from rebsync.reverse.syntax.cpp_tree import default_of, named, text_of
 
 PASSED = "queue_length"  # what a class hands on that others extend
 
@@ -19,7 +19,7 @@ def queue_length(code: Code, constructor: CppFunction) -> int | None:
         if (number := number_of(code, constructor.cpp, queue)) is not None:
             return number
     for parameter in constructor.parameters:
-        default = parameter.node.child_by_field_name("default_value")
+        default = default_of(parameter.node)
         if parameter.name == PASSED and default is not None:
             return number_of(code, constructor.cpp, default)
     return None

@@ -13,6 +13,7 @@ from tree_sitter import Node
 
 from rebsync.names import uncarry
 from rebsync.reserved import RUNTIME_CLASSES, RUNTIME_TOPICS
+from rebsync.reverse.bodies.cpp_mailbox import AT_ONCE
 from rebsync.reverse.bodies.overloads import Served, Signature, plain
 from rebsync.reverse.bodies.scope import Sends
 from rebsync.reverse.bodies.types.cpp_types import class_name
@@ -34,9 +35,15 @@ from rebsync.reverse.generated.send_functions import (
 )
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, squeezed, text_of
-
-_AT_ONCE = frozenset({"When()", "When{}", "{}"})
+from rebsync.reverse.syntax.cpp_tree import (
+    Cpp,
+    default_of,
+    last_name,
+    named,
+    part,
+    squeezed,
+    text_of,
+)
 
 
 def add_sends(
@@ -132,8 +139,8 @@ def _usual(owner: CppClass, function: CppFunction) -> tuple[Cpp, Node] | None:
     """The time at which a function sends where its caller says none; None for at once."""
     for declared in (function, *(f for f in owner.functions if f.types == function.types)):
         if declared.name == function.name:
-            default = declared.parameters[-1].node.child_by_field_name("default_value")
-            if default is not None and squeezed(default) not in _AT_ONCE:
+            default = default_of(declared.parameters[-1].node)
+            if default is not None and squeezed(default) not in AT_ONCE:
                 return declared.cpp, default
     return None
 

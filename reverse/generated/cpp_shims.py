@@ -7,11 +7,13 @@ with the message's own times and sender.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
+from itertools import dropwhile
 from typing import TypeAlias
 
 from tree_sitter import Node
 
 from rebsync.model import Type
+from rebsync.reverse.bodies.cpp_pointers import is_null
 from rebsync.reverse.generated.cpp_handed import arguments_of, handed_on, holds_captured
 from rebsync.reverse.generated.cpp_idle import working
 from rebsync.reverse.generated.cpp_names import declared_type
@@ -20,7 +22,7 @@ from rebsync.reverse.generated.cpp_roles import Roles, Taken, call_in
 from rebsync.reverse.generated.send_functions import is_kept
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import inside, named, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
 _CHANGES = ("assignment_expression", "update_expression")
 
@@ -36,7 +38,8 @@ def odd_in_shim(
 ) -> Iterator[Node]:
     """The whole body, unless it hands every field on once, in the message's order."""
     received = [t for t in roles.taken if t.shim == function.node]
-    statements = working(function.body)
+    names = {t.message.name for t in received}
+    statements = [*dropwhile(lambda s: _is_for_none(s, names), working(function.body))]
     if len(statements) != 1 or len(received) != 1:
         yield from statements
         return
@@ -49,6 +52,22 @@ def odd_in_shim(
         yield taken.call.arguments[-1]
     elif not _tells_of_message(code, owner, taken, known or {}) or not _is_shown(taken):
         yield taken.call.node
+
+
+def _is_for_none(statement: Node, messages: Collection[str]) -> bool:
+    """Whether a statement does something only if no message has come: client libraries hand one."""
+    if statement.type != "if_statement" or statement.child_by_field_name("alternative") is not None:
+        return False
+    condition = part(statement, "condition")
+    tested = next(iter(named(condition)), condition)
+    match tested.type, [n for n in named(tested) if not is_null(n)]:
+        case "unary_expression", [pointer]:
+            is_none = text_of(part(tested, "operator")) in ("!", "not")
+        case "binary_expression", [pointer]:
+            is_none = text_of(part(tested, "operator")) == "=="
+        case _:
+            return False
+    return is_none and len(named(condition)) == 1 and text_of(pointer) in messages
 
 
 def _is_all(statement: Node, call: Node) -> bool:

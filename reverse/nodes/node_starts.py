@@ -30,7 +30,7 @@ from rebsync.reverse.nodes.node_units import Start, Unit
 from rebsync.reverse.syntax.cpp_calls import CppCall, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction
 from rebsync.reverse.syntax.cpp_initialisers import hands_on
-from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, default_of, inside, named, text_of
 
 _ENTRY = "onInit"
 
@@ -216,7 +216,7 @@ def _passed(function: CppFunction, start: Start | None) -> dict[str, tuple[Cpp, 
     """What the object's constructor gets, or what it takes without."""
     found = {}
     for parameter in function.parameters:
-        default = parameter.node.child_by_field_name("default_value")
+        default = default_of(parameter.node)
         if default is not None:
             found[parameter.name] = function.cpp, default
     made = start.made if start is not None else None
@@ -287,9 +287,7 @@ def _handed_on(
 def _takes(function: CppFunction, count: int) -> bool:
     """Whether a call may leave out all parameters behind the first ones."""
     left = function.parameters[count:]
-    return count < len(function.parameters) and all(
-        p.node.child_by_field_name("default_value") is not None for p in left
-    )
+    return count < len(function.parameters) and all(default_of(p.node) is not None for p in left)
 
 
 def _values_of(entry: Node) -> list[Node]:

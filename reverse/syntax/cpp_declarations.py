@@ -14,6 +14,7 @@ from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.cpp_tree import (
     FIELDS,
     Cpp,
+    default_of,
     markers_above,
     markers_beside,
     named,
@@ -393,7 +394,7 @@ def with_defaults(function: CppFunction, declared: Sequence[CppFunction]) -> Cpp
     parameters = list(function.parameters)
     for known in (*same, function):
         for number, parameter in enumerate(known.parameters):
-            default = parameter.node.child_by_field_name("default_value")
+            default = default_of(parameter.node)
             if default is not None:
                 parameters[number] = replace(parameters[number], default=(known.cpp, default))
     changed = any(a is not b for a, b in zip(parameters, function.parameters, strict=True))

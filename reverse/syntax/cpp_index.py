@@ -36,6 +36,7 @@ from rebsync.reverse.syntax.cpp_declarations import (
     valued,
     with_values,
 )
+from rebsync.reverse.syntax.cpp_initialisers import initialised_in
 from rebsync.reverse.syntax.cpp_numbers import KnownNumbers
 from rebsync.reverse.syntax.cpp_searches import Searches
 from rebsync.reverse.syntax.cpp_tree import Cpp, markers_above, parse, part, text_of
@@ -75,7 +76,7 @@ class Code:
     `classes` has the first class of each name; `all_classes` has all of them, those inside of
     classes too. `statics` are static members with the values that stand outside of their class;
     `macros` those that take something. `constants` go by file and name, whatever their scope, and
-    `disagreeing` are those that a file defines in several ways.
+    `disagreeing` constants are defined in several ways, or `initialised` by a constructor as well.
     """
 
     files: list[Cpp] = field(default_factory=list)
@@ -88,6 +89,7 @@ class Code:
     definitions: dict[tuple[str, str], list[CppFunction]] = field(default_factory=dict)
     constants: dict[tuple[str, str], tuple[Cpp, Node]] = field(default_factory=dict)
     disagreeing: set[tuple[str, str]] = field(default_factory=set)
+    initialised: set[str] = field(default_factory=set)
     macros: dict[str, list[Node]] = field(default_factory=dict)
     _types: dict[int, tuple[str, ...]] = field(default_factory=dict)
     _visible: dict[str, dict[str, tuple[Cpp, Node]]] = field(default_factory=dict)
@@ -100,7 +102,7 @@ class Code:
         """The declarations of these files."""
         code = Code()
         for cpp in files:
-            part_ = code._parts[id(cpp)] = Code([cpp])
+            part_ = code._parts[id(cpp)] = Code([cpp], initialised=initialised_in(cpp))
             part_._add(cpp, cpp.root)
             code._take(part_)
         return code
@@ -122,11 +124,12 @@ class Code:
         _append(self.macros, one.macros)
         _append(self.definitions, one.definitions)
         self.constants |= one.constants
+        self.initialised |= one.initialised
         self.disagreeing |= one.disagreeing
+        self.disagreeing |= {key for key in self.constants if key[1] in self.initialised}
         for name, class_ in one.classes.items():
             self.classes.setdefault(name, class_)
-        for key, static in one.statics.items():
-            self.statics.setdefault(key, static)
+        self.statics |= {k: v for k, v in one.statics.items() if k not in self.statics}
 
     def lineage(self, name: str) -> list[CppClass]:
         """A class and those it descends from, as far as they are known, nearest first."""
@@ -215,8 +218,7 @@ class Code:
         if declared.body is not None:
             return None
         found = self.definitions.get((declared.owner, declared.name), [])
-        count = len(declared.parameters)
-        found = [f for f in found if len(f.parameters) == count]
+        found = [f for f in found if len(f.parameters) == len(declared.parameters)]
         return next((f for f in found if self._types_of(f) == self._types_of(declared)), None)
 
     def _types_of(self, function: CppFunction) -> tuple[str, ...]:

@@ -294,6 +294,13 @@ def part(node: Node, name: str) -> Node:
     return child
 
 
+def default_of(parameter: Node) -> Node | None:
+    """What a parameter is by default; braces alone the grammar takes for an object without type."""
+    value = parameter.child_by_field_name("default_value")
+    type_ = value.child_by_field_name("type") if value is not None else None
+    return part(type_.parent, "value") if type_ and type_.is_missing and type_.parent else value
+
+
 def operator_of(node: Node) -> str:
     """The operator of an expression; empty where it has none."""
     operator = node.child_by_field_name("operator")

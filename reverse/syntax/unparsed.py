@@ -93,13 +93,16 @@ def errors_in(cpp: Cpp) -> Iterator[Node]:
 def _harmless(node: Node) -> bool:
     """Whether what is missing says nothing.
 
-    The `;` after a macro or after `void f() { {} }`, the name of an instantiation.
+    The `;` after a macro or after `void f() { {} }`, the name of an instantiation, and the type
+    that the grammar wants before the braces of a default argument.
     """
     parent = node.parent
     if not node.is_missing or parent is None:
         return False
     if parent.type == "template_instantiation" or only_braces(parent):
         return True
+    if parent.type == "compound_literal_expression" and parent.parent is not None:
+        return parent.parent.type == "optional_parameter_declaration"
     at_top = parent.parent is None or parent.parent.type in ("translation_unit", "declaration_list")
     first = parent.named_children[0] if parent.named_children else None
     return at_top and node.type == ";" and first is not None and first.type == "call_expression"

@@ -12,7 +12,7 @@ from rebsync.reverse.libraries import cpp as libraries
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.cpp_calls import call_around
 from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, default_of, named, part, text_of
 from rebsync.reverse.values.cpp_flow import Texts, declaration_of, made_of, nearness
 from rebsync.reverse.values.cpp_flow_types import Types, unscoped_member
 from rebsync.reverse.values.cpp_values_plain import NUMBERS, Use
@@ -160,7 +160,7 @@ class Calls:
             declared += [f for f in same if f.types == function.types]
         for candidate in declared:
             if index < len(candidate.parameters):
-                value = candidate.parameters[index].node.child_by_field_name("default_value")
+                value = default_of(candidate.parameters[index].node)
                 if value is not None:
                     return candidate.cpp, value
         return None

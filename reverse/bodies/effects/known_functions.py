@@ -29,6 +29,9 @@ _DECLARATIONS = ("declaration", "field_declaration", "parameter_declaration")
 _STATUS = re.compile(r"\bDiagnosticStatusWrapper\b")
 _STATUS_METHODS = frozenset({"add", "addf", "summary", "summaryf", "mergeSummary"})
 UNUSED = "unused"  # of the run-time part of generated code: says that nothing uses a parameter
+# Of it as well: the type of what says when a send arrives and expires, and what makes it.
+MOMENT = "When"
+TIMES = ("after", "deadline")
 # Types whose objects run what they get, now or later.
 _RUNNING = frozenset(
     {"thread", "jthread", "thread_group", "packaged_task", "function", "scoped_thread"}
@@ -104,7 +107,7 @@ def is_known(call: CppCall) -> bool:
     plain = call.name.partition("<")[0].rpartition("::")[2]
     if plain in _WAITING:
         return False
-    of_node = call.name in (*_OF_NODE, UNUSED) or call.name in libraries.looking()
+    of_node = call.name in (*_OF_NODE, UNUSED, MOMENT, *TIMES) or call.name in libraries.looking()
     if effects.of_function(Language.CPP, call.name.removeprefix("::")).effect is Effect.NONE:
         return True
     return of_node or takes_values(call) or _is_of_library(call.name)

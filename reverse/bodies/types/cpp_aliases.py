@@ -10,14 +10,16 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.effects.cpp_kinds import NOTHING
+from rebsync.reverse.bodies.scope import Meaning
 from rebsync.reverse.bodies.types.cpp_conversions import place_of, type_in
 from rebsync.reverse.bodies.types.cpp_types import Carried
 from rebsync.reverse.bodies.types.cpp_widths import wide_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, is_place
-from rebsync.reverse.syntax.cpp_declarations import CppFunction
+from rebsync.reverse.syntax.cpp_declarations import CppFunction, CppParameter
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.static.types import BYTE, INT, SHORT
+from rebsync.static.constants import constant
+from rebsync.static.types import BOOLEAN, BYTE, INT, SHORT
 
 _HINT = "say its type: static_cast<int32_t>(...)"
 
@@ -36,19 +38,24 @@ def declares_nothing(reader: CppStatementReader, node: Node) -> bool:
 
 def instantiated(
     reader: CppStatementReader, node: Node, function: CppFunction, arguments: Sequence[Node]
-) -> Mapping[str, Carried | None]:
-    """The types that the parameters of a template stand for in a call; nothing of no template.
+) -> tuple[Mapping[str, Carried | None], Mapping[str, Meaning]]:
+    """The types, and the numbers, that the parameters of a template stand for in a call.
 
-    Unread: one of them is not known, or is none of the model's.
+    Nothing of no template. Unread: one of them is not known, or is none of the model's.
     """
     template = function.node.parent
     if template is None or template.type != "template_declaration":
-        return {}
-    names = list(_parameters(reader, node, template))
+        return {}, {}
+    parameters = list(_parameters(reader, node, template))
+    names = [name for name, type_ in parameters if type_ is None]
     called = part(node, "function")
     explicit = named(part(called, "arguments")) if called.type == "template_function" else []
     found: dict[str, Carried] = {}
-    for name, given in zip(names, explicit, strict=False):
+    values: dict[str, Meaning] = {}
+    for (name, type_), given in zip(parameters, explicit, strict=False):
+        if type_ is not None:
+            values[name] = _number(reader, type_, given)
+            continue
         kept = reader.scope.carried(given)
         if kept is None or "&" in text_of(given):
             raise reader.unread(given, f'the model has no type "{text_of(given)}"')
@@ -61,19 +68,49 @@ def instantiated(
         kept = _deduced(reader, argument)
         if found.setdefault(name, kept) != kept:
             raise reader.unread(node, f'"{name}" would be of two types here', _HINT)
-    if found.keys() != set(names):
+    if len(found) + len(values) != len(parameters):
         raise reader.unread(node, "the types of this template are not known here", _HINT)
-    return found
+    return found, values
 
 
-def _parameters(reader: CppStatementReader, node: Node, template: Node) -> Iterator[str]:
-    """The names of the types that a template takes."""
+def _number(reader: CppStatementReader, type_: Node, given: Node) -> m.Expression:
+    """The whole number, or truth value, that a parameter of a template is."""
+    kept, read = reader.scope.carried(type_), None
+    if kept is not None and kept.type in (INT, BOOLEAN) and not (kept.bits or kept.wide):
+        read = replace(reader.expressions, findings=None, inlines=None).read(given)
+    number = constant(read) if read is not None else None
+    is_same = kept is not None and isinstance(number, bool) == (kept.type == BOOLEAN)
+    if read is None or not is_same or not isinstance(number, int):
+        raise reader.unread(given, "the model has no such parameter of a template")
+    return read
+
+
+def _parameters(
+    reader: CppStatementReader, node: Node, template: Node
+) -> Iterator[tuple[str, Node | None]]:
+    """The names of what a template takes, with the types of the numbers among that."""
     for parameter in named(part(template, "parameters")):
-        if parameter.type != "type_parameter_declaration" or len(named(parameter)) != 1:
+        if parameter.type == "type_parameter_declaration" and len(named(parameter)) == 1:
+            yield text_of(named(parameter)[0]), None
+        elif parameter.type == "parameter_declaration" and len(named(parameter)) == 2:
+            type_, name = named(parameter)
+            yield text_of(name), type_
+        else:
             raise reader.unread(node, "the model knows no template with such parameters")
-        yield text_of(named(parameter)[0])
     if any(c.type == "requires_clause" for c in template.named_children):
         raise reader.unread(node, "the model knows no template with such parameters")
+
+
+def type_of(
+    reader: CppStatementReader, inside: CppStatementReader, parameter: CppParameter, argument: Node
+) -> Carried | None:
+    """The type of a parameter: of a generic lambda it is that of the argument."""
+    if parameter.type.type != "placeholder_type_specifier" or parameter.refers:
+        return inside.scope.carried(parameter.type)
+    try:
+        return _deduced(reader, argument)
+    except Unread:
+        return None
 
 
 def _deduced(reader: CppStatementReader, argument: Node) -> Carried:

@@ -22,7 +22,10 @@ def cast(reader: CppExpressionReader, to: Node, operand: Node, node: Node) -> m.
     """A value that is converted by a cast of whatever kind."""
     plain = type_of(to)
     if plain is not None and not plain.dimensions and not reader.scope.open:
-        return m.Cast(plain, reader.operand(operand, precedence.CAST), reader.cpp.span(node))
+        inner = reader.operand(operand, precedence.CAST)
+        given = type_in(reader.scope, inner)
+        if given is None or is_boolean(given) == (plain == BOOLEAN):
+            return m.Cast(plain, inner, reader.cpp.span(node))
     kept = reader.scope.carried(to)
     if kept is None or kept.type.dimensions:
         raise reader.unread(node, f'the model has no type "{text_of(to)}"')

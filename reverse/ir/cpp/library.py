@@ -38,6 +38,10 @@ _FLOATING = frozenset(
 )
 _PREDICATES = frozenset({"isnan", "isinf", "isfinite", "signbit"})
 _SAME = frozenset({"min", "max", "clamp"})
+_OF_RANGES: Mapping[str, t.Type] = {
+    **dict.fromkeys(("std::count", "std::count_if", "std::distance"), t.Integer(64)),
+    **dict.fromkeys(("std::all_of", "std::any_of", "std::none_of", "std::equal"), t.TRUTH),
+}
 _ELEMENTS = frozenset({"elements", "keys"})
 
 
@@ -86,6 +90,8 @@ def method_result(type_: t.Type, name: str) -> t.Type:
 def function_result(name: str, arguments: Sequence[t.Type]) -> t.Type:
     """The type of what a function of the standard library gives for arguments of some types."""
     space, _, last = name.rpartition("::")
+    if name in _OF_RANGES:
+        return _OF_RANGES[name]
     if space not in ("", "std") or t.UNKNOWN in arguments:
         return STRING if name == "std::to_string" else t.UNKNOWN
     numbers = [a for a in arguments if isinstance(a, t.Integer | t.Float | t.Truth)]
