@@ -26,6 +26,7 @@ _UNSAFE = SCOPES | {"augmented_assignment", "named_expression", "delete_statemen
 _NO_ARRAY = frozenset(
     {"expression_list", "identifier", "integer", "true", "false", "unary_operator"}
 )
+_NONE: tuple[str, list[Node], Node | None] = "", [], None
 _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "attribute"})
 
 
@@ -46,10 +47,12 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
 
 def _declared(node: Node) -> tuple[str, list[Node], Node | None]:
     """The local, the attributes that it may stand for, and what decides; no attributes if none."""
+    if node.type == "if_statement":
+        return _of_branches(node)
     inner = named(node)[0] if node.type == "expression_statement" and named(node) else node
     left, value = inner.child_by_field_name("left"), inner.child_by_field_name("right")
     if inner.type != "assignment" or left is None or value is None or left.type != "identifier":
-        return "", [], None
+        return _NONE
     while value.type == "parenthesized_expression":
         value = named(value)[0]
     condition: Node | None = None
@@ -59,6 +62,20 @@ def _declared(node: Node) -> tuple[str, list[Node], Node | None]:
         arrays = [then, otherwise]
     is_own = all(a.type == "attribute" and text_of(field(a, "object")) == "self" for a in arrays)
     return text_of(left), arrays if is_own else [], condition
+
+
+def _of_branches(node: Node) -> tuple[str, list[Node], Node | None]:
+    """The same of `if c: x = self._a` and `else: x = self._b`."""
+    match node.children_by_field_name("alternative"):
+        case [otherwise] if otherwise.type == "else_clause":
+            blocks = named(field(node, "consequence")), named(field(otherwise, "body"))
+            ways = [_declared(block[0]) if len(block) == 1 else _NONE for block in blocks]
+            (name, arrays, asked), (other, others, also) = ways
+            if name == other and len(arrays) == len(others) == 1 and asked is also is None:
+                return name, [*arrays, *others], field(node, "condition")
+            return _NONE
+        case _:
+            return _NONE
 
 
 def _read(
@@ -100,8 +117,12 @@ def _is_alias(node: Node, name: str) -> bool:
     if function is None:
         return False
     uses = [n for n in nodes_in(function) if n.type == "identifier" and text_of(n) == name]
-    others = [n for n in uses if n != field(named(node)[0], "left")]
-    return len(uses) == len(others) + 1 and all(_is_element(n, function) for n in others)
+    made = [
+        n for n in nodes_in(node) if n.type == "assignment" and text_of(field(n, "left")) == name
+    ]
+    lefts = [field(each, "left") for each in made]
+    others = [n for n in uses if n not in lefts]
+    return len(uses) == len(others) + len(lefts) and all(_is_element(n, function) for n in others)
 
 
 def _is_element(use: Node, function: Node) -> bool:

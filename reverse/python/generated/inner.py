@@ -18,7 +18,6 @@ from rebsync.reverse.python.generated.arguments import in_order
 from rebsync.reverse.python.generated.callees import callee
 from rebsync.reverse.python.generated.closures import arguments_of
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
-from rebsync.reverse.python.generated.expressions import Expressions
 from rebsync.reverse.python.generated.helpers import own_name
 from rebsync.reverse.python.generated.names import ChosenCallee, Closure
 from rebsync.reverse.python.generated.pair_methods import takes_time
@@ -247,7 +246,7 @@ def inline_method(
     if function.py is not own.py:
         raise own.unread(node, _NOT_INLINED)
     others = {n: f for n, f in own.names.inlined.items() if n != name}  # none calls itself
-    fresh = Expressions(own.py, replace(own.names, inlined=others), types=own.types, cuts=own.cuts)
+    fresh = replace(own.inside({}), names=replace(own.names, inlined=others))
     passed: list[Node | None] = [*in_order(own, node, arguments, parameters)]
     passed += [None] * (len(parameters) - len(passed))
     made, bound = list[m.Local](), dict[str, str]()

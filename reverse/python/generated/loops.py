@@ -180,14 +180,16 @@ def _round(
     body, known = field(node, "body"), reader.expressions.locals
     lasting, reader.lasting = reader.lasting, ""
     names = [(name, type_) for name, type_, _ in first] + counting
-    taken = {*known, *idioms.stored_in(body)}
+    types = reader.expressions.types
+    own = {n for n, type_, _ in first if n == lasting and types.get(known.get(n, "")) == type_}
+    taken = {*(known.keys() - own), *idioms.stored_in(body)}
     if not all(n.isidentifier() and n not in taken for n, _ in names):
         raise reader.expressions.unread(node, "the variable of this loop is used elsewhere")
     known[f"index of {names[0][0]}"] = index
-    types = reader.expressions.types
     hidden = dict(types)
     for name, type_ in names:
-        known[name] = index if (name, type_) in counting else reader.local(name)
+        if name not in own:
+            known[name] = index if (name, type_) in counting else reader.local(name)
         types[known[name]] = type_
     found = reader.suite(body)
     declared: tuple[m.Statement, ...] = tuple(
