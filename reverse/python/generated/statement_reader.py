@@ -77,12 +77,17 @@ class ModelStatementReader(ABC):
         self.expressions.kept_sends = dict(sends)
         moments, self.expressions.moments = self.expressions.moments, dict(self.expressions.moments)
         inner, self.inner = self.inner, dict(self.inner)
+        tables, self.expressions.kept_tables = (
+            self.expressions.kept_tables,
+            {**self.expressions.kept_tables},
+        )
         self.implied, self.expressions.closures = set(), dict(closures)
         found = self.block(named(node) if nodes is None else nodes, node)
         for name in self.implied:
             self.expressions.locals.pop(name, None)
         self.implied, self.expressions.closures, self.inner = outer, closures, inner
         self.expressions.kept_sends, self.expressions.moments = sends, moments
+        self.expressions.kept_tables = tables
         return found
 
     @abstractmethod

@@ -142,18 +142,14 @@ def looked_up(
 ) -> list[m.Expression] | None:
     """`TABLE.get(key, (a, b))`, and `TABLE[key]` of a truth value: a tuple, or a `single` value."""
     row = _single if single else parts
-    called, arguments = call_parts(node) or ("", [])
-    found: list[m.Expression] | None = None
-    if called.endswith(".get") and len(arguments) == 2:
-        of, key, kind = field(field(node, "function"), "object"), arguments[0], WHOLE
-        found = row(reader, arguments[1])
-    elif node.type == "subscript":
-        of, key, kind = field(node, "value"), field(node, "subscript"), TRUTH
-    else:
+    asked_ = table_asked(reader, node)
+    if asked_ is None:
         return None
-    written = table(reader, of)
-    entries = [n for n in named(written) if n.type == "pair"] if written is not None else []
-    if written is None or len(entries) != len(named(written)) or (kind == WHOLE and not found):
+    (written, key), (_, arguments) = asked_, call_parts(node) or ("", [])
+    kind = WHOLE if arguments else TRUTH
+    found = row(reader, arguments[1]) if arguments else None
+    entries = [n for n in named(written) if n.type == "pair"]
+    if len(entries) != len(named(written)) or (kind == WHOLE and not found):
         return None
     if kind == TRUTH and {text_of(field(n, "key")) for n in entries} != {"True", "False"}:
         return None
@@ -185,6 +181,19 @@ def table(reader: ModelExpressionReader, node: Node) -> Node | None:
         return node
     kept_ = reader.kept_tables.get(text_of(node))
     return kept_ if kept_ is not None else _constant(reader, node, "dictionary")
+
+
+def table_asked(reader: ModelExpressionReader, node: Node) -> tuple[Node, Node] | None:
+    """The table, and the key, of `TABLE.get(key, otherwise)` and `TABLE[key]`; None for others."""
+    called, arguments = call_parts(node) or ("", [])
+    if called.endswith(".get") and len(arguments) == 2:
+        of, key = field(field(node, "function"), "object"), arguments[0]
+    elif node.type == "subscript":
+        of, key = field(node, "value"), field(node, "subscript")
+    else:
+        return None
+    written = table(reader, of)
+    return (written, key) if written is not None else None
 
 
 def members(reader: ModelExpressionReader, node: Node) -> list[m.Expression] | None:
