@@ -35,7 +35,7 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
     name, arrays, condition = _declared(node)
     if not arrays or name in reader.expressions.locals or not _is_alias(node, name):
         return None
-    if not all(_is_kept(reader, array) for array in arrays):
+    if not all(is_kept(reader, array) for array in arrays):
         return None
     if condition is None:
         return _read(reader, name, arrays[0], rest)
@@ -86,15 +86,19 @@ def _read(
         return list(reader.block(rest, array).statements)
 
 
-def _is_kept(reader: ModelStatementReader, array: Node) -> bool:
+def is_kept(reader: ModelStatementReader, array: Node) -> bool:
     """Whether an attribute is an array of one dimension that no other takes the place of."""
-    attribute, names = text_of(field(array, "attribute")), reader.expressions.names
-    type_ = names.types.get(names.variables.get(attribute, ""))
-    return (
-        type_ is not None
-        and len(type_.dimensions) == 1
-        and not _is_put(names.constants.code.code, attribute)
-    )
+    code = reader.expressions.names.constants.code.code
+    return is_array(reader, array) and not _is_put(code, text_of(field(array, "attribute")))
+
+
+def is_array(reader: ModelStatementReader, node: Node) -> bool:
+    """Whether something is an attribute of the object that is an array of one dimension."""
+    if node.type != "attribute" or text_of(field(node, "object")) != "self":
+        return False
+    names = reader.expressions.names
+    type_ = names.types.get(names.variables.get(text_of(field(node, "attribute")), ""))
+    return type_ is not None and len(type_.dimensions) == 1
 
 
 def _is_put(code: PyCode, attribute: str) -> bool:
@@ -122,10 +126,10 @@ def _is_alias(node: Node, name: str) -> bool:
     ]
     lefts = [field(each, "left") for each in made]
     others = [n for n in uses if n not in lefts]
-    return len(uses) == len(others) + len(lefts) and all(_is_element(n, function) for n in others)
+    return len(uses) == len(others) + len(lefts) and all(is_element(n, function) for n in others)
 
 
-def _is_element(use: Node, function: Node) -> bool:
+def is_element(use: Node, function: Node) -> bool:
     """Whether a use is `x[e]`, in a place that does not go by what it is called."""
     place = use.parent
     if place is None or place.type != "subscript" or field(place, "value") != use:
