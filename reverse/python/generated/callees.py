@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import replace
+from functools import partial, reduce
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import binary, is_calm, negated
+from rebsync.reverse.python.expressions.conditions import signs_of
 from rebsync.reverse.python.expressions.values import TRUTH
 from rebsync.reverse.python.generated import tuples
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
@@ -17,6 +20,7 @@ from rebsync.reverse.python.generated.py_types import call_parts, without_parent
 from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 from rebsync.source import Span
 
+NOBODY = ""  # what is called where a table lacks the key: None is no function
 _BRANCHING = frozenset({"conditional_expression", "boolean_operator"})
 
 
@@ -37,7 +41,7 @@ def _looked_up(reader: ModelExpressionReader, node: Node, written: Node, key: No
     """One of the functions in a table of numbers or truth values. Unread: it may lack the key."""
     asked, entries = reader.read(key), [n for n in named(written) if n.type == "pair"]
     _, arguments = call_parts(node) or ("", [])
-    found = callee(reader, arguments[1]) if arguments else None
+    found = callee(reader, arguments[1]) if len(arguments) == 2 else NOBODY if arguments else None
     keys = [reader.read(field(entry, "key")) for entry in entries]
     literals = {
         k.expression for k in keys if isinstance(k.expression, m.IntLiteral | m.BoolLiteral)
@@ -53,7 +57,28 @@ def _looked_up(reader: ModelExpressionReader, node: Node, written: Node, key: No
             is_true = known.expression == m.BoolLiteral(True)
             is_it = asked.expression if is_true else negated(asked.expression)
         found = function if found is None else ChosenCallee(is_it, function, found)
-    return found or ""
+    return found or NOBODY
+
+
+def known_there(reader: ModelExpressionReader, node: Node) -> tuple[str, m.Expression] | None:
+    """The local of `f`, or `f is not None`, that may be no function, and when it is one."""
+    operands = named(node) if node.type == "comparison_operator" else [node]
+    is_none = len(operands) == 2 and signs_of(node) == ["is not"] and operands[1].type == "none"
+    found = reader.kept_sends.get(text_of(operands[0])) if len(operands) == 1 or is_none else None
+    there, asked = list[m.Expression](), found
+    while isinstance(asked, ChosenCallee):
+        there.append(asked.asked)
+        asked = asked.otherwise
+    is_it = asked == NOBODY and bool(there)
+    return (text_of(operands[0]), reduce(partial(binary, "||"), there)) if is_it else None
+
+
+def there(found: Callee) -> Callee:
+    """A function of several that is known to be one: the last is, if none before it is."""
+    if not isinstance(found, ChosenCallee):
+        return found
+    rest = there(found.otherwise)
+    return found.then if rest == NOBODY else replace(found, otherwise=rest)
 
 
 def evaluated(reader: ModelExpressionReader, node: Node) -> m.Statement:

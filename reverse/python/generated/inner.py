@@ -223,6 +223,12 @@ def _is_bound_once(node: Node, name: str, passed: bool = False) -> bool:
     found = 0
     for each in _mentions(node, name):
         above = each.parent
+        if above is not None and above.type in (
+            "comparison_operator",
+            "if_statement",
+            "elif_clause",
+        ):
+            continue  # which ask whether it is there
         called = above is not None and above.type == "call" and field(above, "function") == each
         is_passed = above is not None and above.type in ("argument_list", "keyword_argument")
         found += not (is_passed if passed else called)

@@ -146,6 +146,8 @@ def looked_up(
     if asked_ is None:
         return None
     (written, key), (_, arguments) = asked_, call_parts(node) or ("", [])
+    if len(arguments) == 1:
+        return None
     kind = WHOLE if arguments else TRUTH
     found = row(reader, arguments[1]) if arguments else None
     entries = [n for n in named(written) if n.type == "pair"]
@@ -184,9 +186,9 @@ def table(reader: ModelExpressionReader, node: Node) -> Node | None:
 
 
 def table_asked(reader: ModelExpressionReader, node: Node) -> tuple[Node, Node] | None:
-    """The table, and the key, of `TABLE.get(key, otherwise)` and `TABLE[key]`; None for others."""
+    """The table, and the key, of `TABLE.get(key, ...)` and `TABLE[key]`; None for others."""
     called, arguments = call_parts(node) or ("", [])
-    if called.endswith(".get") and len(arguments) == 2:
+    if called.endswith(".get") and len(arguments) in (1, 2):
         of, key = field(field(node, "function"), "object"), arguments[0]
     elif node.type == "subscript":
         of, key = field(node, "value"), field(node, "subscript")
