@@ -30,9 +30,17 @@ def held_by(origins: Origins, value: e.Expression, function: str) -> list[Stored
 def texts_of(origins: Origins, value: e.Expression, function: str) -> list[str]:
     """The texts that a value may be; none if that is not known."""
     is_variable = key_of(value, function) is not None
-    held = [v for _, v in held_by(origins, value, function)] if is_variable else [value]
+    stored = [v for _, v in held_by(origins, value, function)] if is_variable else [value]
+    held = [each for v in stored for each in _ways(v)]
     texts = [v.value for v in held if isinstance(v, e.Literal) and isinstance(v.value, str)]
     return texts if len(texts) == len(held) else []
+
+
+def _ways(value: Stored) -> list[Stored]:
+    """What a value is: of `a if x else b` both."""
+    if not isinstance(value, e.Conditional):
+        return [value]
+    return [*_ways(value.then), *_ways(value.otherwise)]
 
 
 def all_held(origins: Origins, value: e.Expression, function: str) -> list[Stored]:

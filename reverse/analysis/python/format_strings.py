@@ -76,14 +76,10 @@ def conversions(text: str) -> list[str] | None:
     return found
 
 
-def names_in(text: str) -> set[object]:
-    """The keys of what `%` puts into a text by names."""
-    return {match["key"] for match in _CONVERSION.finditer(text) if match["key"] is not None}
-
-
-def takes_texts(text: str) -> bool:
-    """Whether `%` puts all that it puts into a text there as texts."""
-    return all(match[0][-1] in AS_TEXT for match in _CONVERSION.finditer(text))
+def conversions_by_name(text: str) -> list[tuple[str, str]]:
+    """The keys of what `%` puts into a text by names, each with the letter of its conversion."""
+    found = (match for match in _CONVERSION.finditer(text) if match["key"] is not None)
+    return [(match["key"], match[0][-1]) for match in found]
 
 
 def numbers_of(text: str, values: Sequence[T], letters: Collection[str] | None = None) -> list[T]:

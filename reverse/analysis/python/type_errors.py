@@ -9,21 +9,16 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from rebsync.reverse.analysis.facts import Facts, stored
-from rebsync.reverse.analysis.numbers.magnitudes import Magnitudes
 from rebsync.reverse.analysis.origins import ClassOrigin
 from rebsync.reverse.analysis.problems import ProblemNotes
 from rebsync.reverse.analysis.python.attribute_errors import AttributeErrors
 from rebsync.reverse.analysis.python.class_values import are_classes, is_in_class, is_searched
 from rebsync.reverse.analysis.python.element_errors import ElementErrors
+from rebsync.reverse.analysis.python.filled_texts import FilledTexts
 from rebsync.reverse.analysis.python.float_numbers import FloatNumbers
 from rebsync.reverse.analysis.python.format_strings import (
     OF_NUMBERS,
-    conversions,
-    names_in,
-    numbers_of,
-    refuses,
     styles_in,
-    takes_texts,
 )
 from rebsync.reverse.analysis.python.log_arguments import LogArguments
 from rebsync.reverse.analysis.python.message_errors import MessageErrors
@@ -60,8 +55,6 @@ _OF_BITS = frozenset(
     {Operator.BIT_AND, Operator.BIT_OR, Operator.BIT_XOR}
     | {Operator.SHIFT_LEFT, Operator.SHIFT_RIGHT}
 )
-_DECIMAL = frozenset("diu")  # conversions that take no infinite number
-_WHOLE = frozenset("xXoc")  # conversions that take no floats
 _OF_WHOLE = "bcdoxX"  # how styles of whole numbers end
 
 
@@ -74,8 +67,9 @@ class TypeErrors:
         self._attributes = AttributeErrors(notes, self.kinds)
         self._elements = ElementErrors(notes, self.kinds)
         self._messages = MessageErrors(notes, self.kinds)
-        self._logs = LogArguments(notes, self.kinds)
         self.floats = FloatNumbers(notes)
+        self._filled = FilledTexts(notes, self.kinds, self.floats)
+        self._logs = LogArguments(notes, self.kinds, self._filled)
         self._objects = notes.counts.rules.objects
         self._is_python = notes.table.language is Language.PYTHON
 
@@ -299,7 +293,7 @@ class TypeErrors:
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
         if operator is Operator.FLOOR_MODULO and TEXT in kinds[0]:
             texts = self._notes.texts_of(left)
-            wrong |= not texts or any(self._puts(text, right, facts) for text in texts)
+            wrong |= not texts or any(self._filled.refuse(text, right, facts) for text in texts)
         if wrong:
             self._notes.fails(value, _WRONG)
         if operator in (Operator.IN, Operator.NOT_IN):
@@ -318,40 +312,6 @@ class TypeErrors:
         if None in pair:
             return not self._notes.table.trusts_types
         return not given_by(operator, left, right)
-
-    def _puts(self, text: str, value: e.Expression, facts: Facts) -> bool:
-        """Whether `%` may not put values into a text: too many, too few, or of another type."""
-        kinds = self.kinds.asked(value, facts)
-        if isinstance(value, e.Build) and kinds == {OwnType.TUPLE}:
-            values = [v for v in value.elements if not isinstance(v, e.Spread)]
-            if len(values) < len(value.elements):
-                return True
-            found = refuses(text, [self.kinds.asked(v, facts) for v in values])
-        else:
-            values = [value]
-            tuples = [t for t in self.kinds.types(value, facts) if own_type(t) is OwnType.TUPLE]
-            found = any(self._puts_parts(text, each) for each in tuples)
-            found |= kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
-        if conversions(text) is None and not self._has_names(text, value):
-            return True
-        is_float = any(map(self.floats.has, numbers_of(text, values, _WHOLE)))
-        is_object = any(self.kinds.is_object(v, facts) for v in numbers_of(text, values))
-        numbers = Magnitudes(self._notes.origins, self._notes.function.name)
-        is_finite = all(map(numbers.is_finite, numbers_of(text, values, _DECIMAL)))
-        return found or is_float or is_object or not is_finite
-
-    def _puts_parts(self, text: str, type_: ValueType | None) -> bool:
-        """Whether `%` may not put the parts of a tuple into a text."""
-        parts = type_.parts if isinstance(type_, ContainerType) else None
-        return parts is None or refuses(text, [frozenset(map(own_type, each)) for each in parts])
-
-    def _has_names(self, text: str, value: e.Expression) -> bool:
-        """Whether a mapping is written here with all that a text takes from it, which is texts."""
-        if not isinstance(value, e.BuildMapping):
-            return False
-        pairs = [entry for entry in value.entries if not isinstance(entry, e.Spread)]
-        keys = {key.value for key, _ in pairs if isinstance(key, e.Literal)}
-        return takes_texts(text) and names_in(text) <= keys
 
     # --- elements and texts ----------------------------------------------------------------------
 

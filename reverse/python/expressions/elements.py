@@ -46,6 +46,8 @@ def elements(reader: OperandReader, node: Node, called: str) -> list[Element]:
         found = list(_comprehended(reader, node))
     elif node.type in ("list", "tuple", "set"):
         found = [(value, None) for value in _displayed(reader, node, called)]
+    elif (numbers := _numbers(reader, node)) is not None:
+        found = [(Value(number_literal(n), WHOLE), None) for n in numbers[: MOST + 1]]
     else:
         values = reader.container(node, called not in _OF_SETS)
         if values is None:
@@ -54,6 +56,13 @@ def elements(reader: OperandReader, node: Node, called: str) -> list[Element]:
     if len(found) > MOST:
         raise reader.unread(node, "this goes through too many values to say each")
     return found
+
+
+def _numbers(reader: OperandReader, node: Node) -> range | None:
+    """What `range(...)` gives, if that is known; None for anything else."""
+    name = reader.library(field(node, "function")) if node.type == "call" else ""
+    is_range = name.removeprefix("builtins.") in ("range", "xrange")
+    return known_range(arguments_of(node)) if is_range else None
 
 
 def certain(reader: OperandReader, node: Node, called: str) -> list[Value]:
@@ -96,9 +105,6 @@ def rows(reader: OperandReader, node: Node, width: int) -> list[tuple[Value, ...
     name = reader.library(field(node, "function")) if node.type == "call" else ""
     arguments = arguments_of(node) if name else []
     match name.removeprefix("builtins."):
-        case "range" | "xrange" if width == 1 and (numbers := known_range(arguments)) is not None:
-            if len(numbers) <= MOST:
-                return [(Value(number_literal(n), WHOLE),) for n in numbers]
         case "enumerate" if width == 2 and 1 <= len(arguments) <= 2:
             start = _start(arguments[1]) if len(arguments) > 1 else 0
             values = certain(reader, arguments[0], "enumerate")

@@ -26,6 +26,7 @@ _UNSAFE = SCOPES | {"augmented_assignment", "named_expression", "delete_statemen
 _NO_ARRAY = frozenset(
     {"expression_list", "identifier", "integer", "true", "false", "unary_operator"}
 )
+_NONE: tuple[str, list[Node], Node | None] = "", [], None
 _TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern", "attribute"})
 
 
@@ -34,7 +35,7 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
     name, arrays, condition = _declared(node)
     if not arrays or name in reader.expressions.locals or not _is_alias(node, name):
         return None
-    if not all(_is_kept(reader, array) for array in arrays):
+    if not all(is_kept(reader, array) for array in arrays):
         return None
     if condition is None:
         return _read(reader, name, arrays[0], rest)
@@ -46,10 +47,12 @@ def behind(reader: ModelStatementReader, node: Node, rest: list[Node]) -> list[m
 
 def _declared(node: Node) -> tuple[str, list[Node], Node | None]:
     """The local, the attributes that it may stand for, and what decides; no attributes if none."""
+    if node.type == "if_statement":
+        return _of_branches(node)
     inner = named(node)[0] if node.type == "expression_statement" and named(node) else node
     left, value = inner.child_by_field_name("left"), inner.child_by_field_name("right")
     if inner.type != "assignment" or left is None or value is None or left.type != "identifier":
-        return "", [], None
+        return _NONE
     while value.type == "parenthesized_expression":
         value = named(value)[0]
     condition: Node | None = None
@@ -61,6 +64,20 @@ def _declared(node: Node) -> tuple[str, list[Node], Node | None]:
     return text_of(left), arrays if is_own else [], condition
 
 
+def _of_branches(node: Node) -> tuple[str, list[Node], Node | None]:
+    """The same of `if c: x = self._a` and `else: x = self._b`."""
+    match node.children_by_field_name("alternative"):
+        case [otherwise] if otherwise.type == "else_clause":
+            blocks = named(field(node, "consequence")), named(field(otherwise, "body"))
+            ways = [_declared(block[0]) if len(block) == 1 else _NONE for block in blocks]
+            (name, arrays, asked), (other, others, also) = ways
+            if name == other and len(arrays) == len(others) == 1 and asked is also is None:
+                return name, [*arrays, *others], field(node, "condition")
+            return _NONE
+        case _:
+            return _NONE
+
+
 def _read(
     reader: ModelStatementReader, name: str, array: Node, rest: list[Node]
 ) -> list[m.Statement]:
@@ -69,15 +86,19 @@ def _read(
         return list(reader.block(rest, array).statements)
 
 
-def _is_kept(reader: ModelStatementReader, array: Node) -> bool:
+def is_kept(reader: ModelStatementReader, array: Node) -> bool:
     """Whether an attribute is an array of one dimension that no other takes the place of."""
-    attribute, names = text_of(field(array, "attribute")), reader.expressions.names
-    type_ = names.types.get(names.variables.get(attribute, ""))
-    return (
-        type_ is not None
-        and len(type_.dimensions) == 1
-        and not _is_put(names.constants.code.code, attribute)
-    )
+    code = reader.expressions.names.constants.code.code
+    return is_array(reader, array) and not _is_put(code, text_of(field(array, "attribute")))
+
+
+def is_array(reader: ModelStatementReader, node: Node) -> bool:
+    """Whether something is an attribute of the object that is an array of one dimension."""
+    if node.type != "attribute" or text_of(field(node, "object")) != "self":
+        return False
+    names = reader.expressions.names
+    type_ = names.types.get(names.variables.get(text_of(field(node, "attribute")), ""))
+    return type_ is not None and len(type_.dimensions) == 1
 
 
 def _is_put(code: PyCode, attribute: str) -> bool:
@@ -100,11 +121,15 @@ def _is_alias(node: Node, name: str) -> bool:
     if function is None:
         return False
     uses = [n for n in nodes_in(function) if n.type == "identifier" and text_of(n) == name]
-    others = [n for n in uses if n != field(named(node)[0], "left")]
-    return len(uses) == len(others) + 1 and all(_is_element(n, function) for n in others)
+    made = [
+        n for n in nodes_in(node) if n.type == "assignment" and text_of(field(n, "left")) == name
+    ]
+    lefts = [field(each, "left") for each in made]
+    others = [n for n in uses if n not in lefts]
+    return len(uses) == len(others) + len(lefts) and all(is_element(n, function) for n in others)
 
 
-def _is_element(use: Node, function: Node) -> bool:
+def is_element(use: Node, function: Node) -> bool:
     """Whether a use is `x[e]`, in a place that does not go by what it is called."""
     place = use.parent
     if place is None or place.type != "subscript" or field(place, "value") != use:

@@ -359,7 +359,7 @@ class ModelBodies:
         silent = silent_in(self.code, self.form, line, [*map(self.roles, line)])
         known = replace(names, imported=imported, posts=posts, fillings=fillings)
         own = self.roles(owner)
-        return replace(known, silent=silent, pairs=own.pairs, inlined=own.inlined)
+        return replace(known, silent=silent, beside=own.beside, inlined=own.inlined)
 
 
 def result_of(function: Scope, variables: Callable[[str], m.Type | None]) -> m.Type | None:

@@ -3,46 +3,82 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import replace
+from functools import partial, reduce
 
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.findings import Unread
-from rebsync.reverse.models.building import negated
+from rebsync.reverse.models.building import binary, is_calm, negated
+from rebsync.reverse.python.expressions.conditions import signs_of
 from rebsync.reverse.python.expressions.values import TRUTH
+from rebsync.reverse.python.generated import tuples
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.names import Callee, ChosenCallee
-from rebsync.reverse.python.generated.py_types import without_parentheses
+from rebsync.reverse.python.generated.py_types import call_parts, without_parentheses
 from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 from rebsync.source import Span
 
+NOBODY = ""  # what is called where a table lacks the key: None is no function
 _BRANCHING = frozenset({"conditional_expression", "boolean_operator"})
 
 
 def callee(reader: ModelExpressionReader, node: Node) -> Callee:
-    """What is called, by its name; of `f if x else g` and `{True: f, False: g}[x]` both."""
+    """What is called, by its name; of `f if x else g` and `{1: f}.get(x, g)` both."""
     node = without_parentheses(node)
     if node.type == "conditional_expression":
         then, condition, otherwise = named(node)
         asked = reader.condition(condition)
         return ChosenCallee(asked, callee(reader, then), callee(reader, otherwise))
-    if node.type == "subscript" and field(node, "value").type == "dictionary":
-        return _looked_up(reader, node)
+    if (found := tuples.table_asked(reader, node)) is not None:
+        return _looked_up(reader, node, *found)
     kept = reader.kept_sends.get(text_of(node))
     return kept if kept is not None else reader.of_run_time(text_of(node))
 
 
-def _looked_up(reader: ModelExpressionReader, node: Node) -> Callee:
-    """One of two functions in a table of truth values. Unread: the table may lack the key."""
-    functions = {}
-    for pair in named(field(node, "value")):
-        if pair.type != "pair" or field(pair, "value").type != "attribute":
-            raise reader.unread(node, "the model has no such function")
-        functions[text_of(field(pair, "key"))] = callee(reader, field(pair, "value"))
-    asked = reader.read(field(node, "subscript"))
-    if asked.kind != TRUTH or functions.keys() != {"True", "False"}:
+def _looked_up(reader: ModelExpressionReader, node: Node, written: Node, key: Node) -> Callee:
+    """One of the functions in a table of numbers or truth values. Unread: it may lack the key."""
+    asked, entries = reader.read(key), [n for n in named(written) if n.type == "pair"]
+    _, arguments = call_parts(node) or ("", [])
+    found = callee(reader, arguments[1]) if len(arguments) == 2 else NOBODY if arguments else None
+    keys = [reader.read(field(entry, "key")) for entry in entries]
+    literals = {
+        k.expression for k in keys if isinstance(k.expression, m.IntLiteral | m.BoolLiteral)
+    }
+    is_known = len(literals) == len(named(written)) > 0 and {k.kind for k in keys} == {asked.kind}
+    is_whole = asked.kind == TRUTH and len(keys) == 2
+    if not (is_known and is_calm(asked.expression)) or (found is None and not is_whole):
         raise reader.unread(node, "say what is called for each value by `if`")
-    return ChosenCallee(asked.expression, functions["True"], functions["False"])
+    for known, entry in [*zip(keys, entries, strict=True)][::-1]:
+        function = callee(reader, field(entry, "value"))
+        is_it = binary("==", asked.expression, known.expression)
+        if asked.kind == TRUTH:
+            is_true = known.expression == m.BoolLiteral(True)
+            is_it = asked.expression if is_true else negated(asked.expression)
+        found = function if found is None else ChosenCallee(is_it, function, found)
+    return found or NOBODY
+
+
+def known_there(reader: ModelExpressionReader, node: Node) -> tuple[str, m.Expression] | None:
+    """The local of `f`, or `f is not None`, that may be no function, and when it is one."""
+    operands = named(node) if node.type == "comparison_operator" else [node]
+    is_none = len(operands) == 2 and signs_of(node) == ["is not"] and operands[1].type == "none"
+    found = reader.kept_sends.get(text_of(operands[0])) if len(operands) == 1 or is_none else None
+    there, asked = list[m.Expression](), found
+    while isinstance(asked, ChosenCallee):
+        there.append(asked.asked)
+        asked = asked.otherwise
+    is_it = asked == NOBODY and bool(there)
+    return (text_of(operands[0]), reduce(partial(binary, "||"), there)) if is_it else None
+
+
+def there(found: Callee) -> Callee:
+    """A function of several that is known to be one: the last is, if none before it is."""
+    if not isinstance(found, ChosenCallee):
+        return found
+    rest = there(found.otherwise)
+    return found.then if rest == NOBODY else replace(found, otherwise=rest)
 
 
 def evaluated(reader: ModelExpressionReader, node: Node) -> m.Statement:

@@ -55,18 +55,19 @@ def with_last(
 ) -> list[m.Statement]:
     """A loop, and before it its variable, if that is read behind it: there it has its last value.
 
-    Of a loop that may do no round the variable is not known behind it.
+    Of a loop that may do no round the variable is not known behind it, unless it was before.
     """
     name, first = text_of(field(node, "left")), _first(reader, node)
     known = reader.expressions.locals
-    if first is None or name in known or not _is_read_behind(node, name):
+    is_known = name in known
+    if not is_known and (first is None or not _is_read_behind(node, name)):
         return [read()]
     reader.lasting = name
     try:
         loop = read()
     finally:
         reader.lasting = ""
-    if name not in known:
+    if is_known or first is None or name not in known:
         return [loop]
     reader.implied.add(name)
     told = m.Declarator(known[name], first)

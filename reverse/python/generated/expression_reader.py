@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import field as with_default
-from typing import ClassVar
+from dataclasses import replace
+from typing import ClassVar, TypeVar
 
 from tree_sitter import Node
 
@@ -22,6 +23,7 @@ from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
 from rebsync.static.types import BOOLEAN, DOUBLE, INT
 
+_Reader = TypeVar("_Reader", bound="ModelExpressionReader")
 _ASKING = frozenset({"bool", "boolean", "to_boolean", "assertion", "any", "all"})
 
 
@@ -104,6 +106,15 @@ class ModelExpressionReader(OperandReader):
         finally:
             self.bound.clear()
             self.bound.update(outer)
+
+    def inside(self: _Reader, bound: Mapping[str, m.Expression]) -> _Reader:
+        """A reader of a method that is read in its place, where its parameters are expressions.
+
+        Locals of the caller have no names there, but still hide variables of these names.
+        """
+        hidden = {f"around {name}": local for name, local in self.locals.items()}
+        around = replace(self, locals=hidden, bound=dict(bound), kept={}, closures={})
+        return replace(around, kept_sends={}, kept_tables={}, moments={})
 
     @abstractmethod
     def index(self, node: Node) -> m.Expression:

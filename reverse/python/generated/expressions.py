@@ -17,7 +17,7 @@ from rebsync.reverse.python.expressions.tables import looked_up, pairs_of
 from rebsync.reverse.python.expressions.values import WHOLE, Value
 from rebsync.reverse.python.generated import arrays, closures, formats, idioms, places, tuples
 from rebsync.reverse.python.generated.arguments import in_order
-from rebsync.reverse.python.generated.callees import callee
+from rebsync.reverse.python.generated.callees import callee, known_there
 from rebsync.reverse.python.generated.decorators import is_cast
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.failing import may_fail
@@ -77,7 +77,8 @@ class Expressions(ModelExpressionReader):
 
     def condition(self, node: Node) -> m.Expression:
         """What must hold."""
-        return self.truth(self.read(node), node)
+        known = known_there(self, node)
+        return known[1] if known is not None else self.truth(self.read(node), node)
 
     def _operation(self, node: Node) -> m.Expression:
         span = self.py.span(node)
@@ -103,11 +104,8 @@ class Expressions(ModelExpressionReader):
                 if operator in "+-*":
                     left, right = idioms.as_number(self, left), idioms.as_number(self, right)
                 read = m.Binary(operator, left, right, span)
-                return (
-                    idioms.divided(self, node, read)
-                    if level == _PRODUCT and operator != "*"
-                    else read
-                )
+                is_divided = level == _PRODUCT and operator != "*"
+                return idioms.divided(self, node, read) if is_divided else read
             case "comparison_operator":
                 return self._comparison(node)
             case "conditional_expression":

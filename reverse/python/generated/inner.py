@@ -15,15 +15,15 @@ from rebsync import model as m
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.arguments import in_order
-from rebsync.reverse.python.generated.callees import callee
+from rebsync.reverse.python.generated.callees import callee, evaluated
 from rebsync.reverse.python.generated.closures import arguments_of
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
-from rebsync.reverse.python.generated.expressions import Expressions
 from rebsync.reverse.python.generated.helpers import own_name
-from rebsync.reverse.python.generated.names import ChosenCallee, Closure
+from rebsync.reverse.python.generated.names import Callee, ChosenCallee, Closure
 from rebsync.reverse.python.generated.pair_methods import takes_time
 from rebsync.reverse.python.generated.py_types import call_parts, type_of
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
+from rebsync.reverse.python.generated.tuples import table_asked
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.descendants import nodes_in
@@ -54,14 +54,15 @@ def declare(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
 
 
 def named_lambda(reader: ModelStatementReader, left: Node, value: Node) -> bool:
-    """Whether `f = lambda x: e` was taken for a function that gives that."""
+    """Whether `f = lambda x: e` was taken for a function that gives that, or does it."""
     if value.type != "lambda" or left.type != "identifier":
         return False
     name, parameters = text_of(left), _parameters(value)
     body = field(value, "body")
-    if parameters is None or not idioms.is_quiet(body) or not _is_bound_once(value, name):
+    if parameters is None or not _is_bound_once(value, name):
         return False
-    reader.expressions.closures[name] = Closure(parameters, body)
+    known = reader.expressions.closures if idioms.is_quiet(body) else reader.inner
+    known[name] = Closure(parameters, body)
     return True
 
 
@@ -75,17 +76,31 @@ def kept_send(reader: ModelStatementReader, left: Node, value: Node) -> list[m.S
         return None
     if not _is_bound_once(value, name):
         return None
-    found = callee(expressions, value)
-    if isinstance(found, ChosenCallee):
-        local = reader.free(f"{name}_then", pattern=f"{name}_then{{}}")
-        made.append(_declared(reader, local, BOOLEAN, found.asked, value))
-        found = replace(found, asked=m.Name(local))
-    expressions.kept_sends[name] = found
+    expressions.kept_sends[name] = _kept_callee(
+        reader, name, callee(expressions, value), value, made
+    )
     return made
 
 
+def _kept_callee(
+    reader: ModelStatementReader, name: str, found: Callee, value: Node, made: list[m.Statement]
+) -> Callee:
+    """A function that is chosen now and called later: locals keep what decides it."""
+    if not isinstance(found, ChosenCallee):
+        return found
+    local = reader.free(f"{name}_then", pattern=f"{name}_then{{}}")
+    made.append(_declared(reader, local, BOOLEAN, found.asked, value))
+    ways = (_kept_callee(reader, name, f, value, made) for f in (found.then, found.otherwise))
+    return ChosenCallee(m.Name(local), *ways)
+
+
 def _is_send(expressions: ModelExpressionReader, value: Node) -> bool:
-    """Whether a value is a function that sends, or another of the object, or one of two."""
+    """Whether a value is a function that sends, or another of the object, or one of several."""
+    if (asked := table_asked(expressions, value)) is not None:
+        _, arguments = call_parts(value) or ("", [])
+        return is_table_of_functions(expressions, asked[0]) and all(
+            _is_send(expressions, each) for each in arguments[1:]
+        )
     if value.type == "conditional_expression":
         then, _, otherwise = named(value)
         plain = (n for n in (then, otherwise) if n.type == "attribute")
@@ -96,19 +111,40 @@ def _is_send(expressions: ModelExpressionReader, value: Node) -> bool:
     return holder == "self" == expressions.own and (name in names.sends or is_method)
 
 
-def kept_table(reader: ModelStatementReader, left: Node, value: Node) -> bool:
-    """Whether `table = {1: a, 2: b}` was taken for what the next statement looks up, and only it.
+def is_table_of_functions(expressions: ModelExpressionReader, table: Node) -> bool:
+    """Whether a table has functions of the object alone."""
+    values = [each.child_by_field_name("value") for each in named(table)]
+    return bool(values) and all(v is not None and _is_send(expressions, v) for v in values)
 
-    Nothing of what the table holds changes until then.
+
+def kept_table(reader: ModelStatementReader, left: Node, value: Node) -> bool:
+    """Whether `table = {1: a, 2: b}` was taken for what is looked up.
+
+    Nothing of what the table holds changes until then: it holds functions, or only the next
+    statement looks up something.
     """
     if value.type != "dictionary" or left.type != "identifier":
         return False
     name, asked = text_of(left), _value_behind(value)
     called, _ = call_parts(asked) or ("", [])
-    if called != f"{name}.get" or len(_mentions(value, name)) != 2:
-        return False
+    mentions = _mentions(value, name)
+    if not (called == f"{name}.get" and len(mentions) == 2):
+        others = [each for each in mentions if each != left]
+        is_asked = len(others) < len(mentions) and all(map(_is_looked_up, others))
+        if not is_asked or not is_table_of_functions(reader.expressions, value):
+            return False
     reader.expressions.kept_tables[name] = value
     return True
+
+
+def _is_looked_up(use: Node) -> bool:
+    """Whether a use of a table is `table.get(...)`, or a call of `table[...]`."""
+    above = use.parent
+    called = above.parent if above is not None else None
+    if above is None or called is None or called.type != "call":
+        return False
+    is_get = above.type == "attribute" and text_of(field(above, "attribute")) == "get"
+    return field(called, "function") == above and (is_get or above.type == "subscript")
 
 
 def _value_behind(value: Node) -> Node | None:
@@ -187,6 +223,12 @@ def _is_bound_once(node: Node, name: str, passed: bool = False) -> bool:
     found = 0
     for each in _mentions(node, name):
         above = each.parent
+        if above is not None and above.type in (
+            "comparison_operator",
+            "if_statement",
+            "elif_clause",
+        ):
+            continue  # which ask whether it is there
         called = above is not None and above.type == "call" and field(above, "function") == each
         is_passed = above is not None and above.type in ("argument_list", "keyword_argument")
         found += not (is_passed if passed else called)
@@ -211,7 +253,10 @@ def inline_call(
     outer = dict(own.locals)
     for (name, _), local in zip(closure.parameters, locals_, strict=True):
         own.locals[name] = local.declaration.declarators[0].name
-    body = reader.block(named(closure.body), closure.body)
+    if closure.body.type == "block":
+        body = reader.block(named(closure.body), closure.body)
+    else:
+        body = m.Block((evaluated(own, closure.body),))
     own.locals.clear()
     own.locals.update(outer)
     if not locals_:
@@ -247,7 +292,7 @@ def inline_method(
     if function.py is not own.py:
         raise own.unread(node, _NOT_INLINED)
     others = {n: f for n, f in own.names.inlined.items() if n != name}  # none calls itself
-    fresh = Expressions(own.py, replace(own.names, inlined=others), types=own.types, cuts=own.cuts)
+    fresh = replace(own.inside({}), names=replace(own.names, inlined=others))
     passed: list[Node | None] = [*in_order(own, node, arguments, parameters)]
     passed += [None] * (len(parameters) - len(passed))
     made, bound = list[m.Local](), dict[str, str]()

@@ -12,7 +12,7 @@ from rebsync import model as m
 from rebsync.reverse.models.building import binary, selected
 from rebsync.reverse.python.expressions.elements import known_range, rows
 from rebsync.reverse.python.expressions.patterns import asked, cases
-from rebsync.reverse.python.generated import endings, idioms
+from rebsync.reverse.python.generated import aliases, endings, idioms
 from rebsync.reverse.python.generated.arrays import NO_LENGTH, array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.py_types import call_parts, markers_above
@@ -80,12 +80,18 @@ def through(
             return numbered(reader, node, "", names, arguments)
         case "reversed", [inner] if len(names) == 1:
             return _backwards(reader, node, names[0], inner)
-        case "", _ if right.type in ("tuple", "list") and len(names) == 1:
+        case "", _ if len(names) == 1 and _are_literals(reader, right):
             return _listed(reader, node, names[0], named(right))
         case "", _ if _is_shown(reader, right):
             return _unrolled(reader, node, names)
         case _:
             return None
+
+
+def _are_literals(reader: ModelStatementReader, node: Node) -> bool:
+    """Whether a display has values alone that are the same at any time."""
+    is_display = node.type in ("tuple", "list")
+    return is_display and all(idioms.is_literal(reader.expressions, v) for v in named(node))
 
 
 def _is_shown(reader: ModelStatementReader, node: Node) -> bool:
@@ -119,7 +125,7 @@ def _listed(reader: ModelStatementReader, node: Node, name: str, values: list[No
     """A loop over numbers, each in its turn."""
     read = [reader.expressions.expression(v) for v in values]
     kinds = {reader.expressions.kind(e) for e in read}
-    if len(kinds) != 1 or not all(idioms.is_literal(reader.expressions, v) for v in values):
+    if len(kinds) != 1:
         raise reader.expressions.unread(node, "the model has no such loop")
     (kind,) = kinds
     index = _free(reader, node, name)
@@ -138,11 +144,24 @@ def _unrolled(reader: ModelStatementReader, node: Node, names: list[str]) -> m.B
         raise expressions.unread(node, "the model has no such loop")
     statements: list[m.Statement] = []
     for values in rows(expressions, field(node, "right"), len(names)):
-        if not all(_is_steady(expressions, v.expression) for v in values):
+        are_arrays = _are_arrays(reader, node, names)
+        if not (are_arrays or all(_is_steady(expressions, v.expression) for v in values)):
             raise expressions.unread(node, "the model has no such loop")
         with expressions.standing_for(names, values):
             statements.append(reader.suite(body))
     return m.Block(tuple(statements), span=expressions.py.span(node))
+
+
+def _are_arrays(reader: ModelStatementReader, node: Node, names: list[str]) -> bool:
+    """Whether a loop goes through arrays of the object, of which it only asks elements."""
+    right, body = field(node, "right"), field(node, "body")
+    arrays = [n for n in named(right) if n.type != "comment"]
+    uses = (n for n in nodes_in(body) if n.type == "identifier" and text_of(n) in names)
+    is_plain = right.type in ("tuple", "list") and len(names) == 1
+    is_calm = idioms.is_quiet(body) and not any("." in name for name in idioms.stored_in(body))
+    is_array = aliases.is_array if is_calm else aliases.is_kept
+    is_plain = is_plain and all(is_array(reader, array) for array in arrays)
+    return is_plain and all(aliases.is_element(use, body) for use in uses)
 
 
 def _is_steady(expressions: ModelExpressionReader, value: m.Expression) -> bool:
@@ -180,14 +199,16 @@ def _round(
     body, known = field(node, "body"), reader.expressions.locals
     lasting, reader.lasting = reader.lasting, ""
     names = [(name, type_) for name, type_, _ in first] + counting
-    taken = {*known, *idioms.stored_in(body)}
+    types = reader.expressions.types
+    own = {n for n, type_, _ in first if n == lasting and types.get(known.get(n, "")) == type_}
+    taken = {*(known.keys() - own), *idioms.stored_in(body)}
     if not all(n.isidentifier() and n not in taken for n, _ in names):
         raise reader.expressions.unread(node, "the variable of this loop is used elsewhere")
     known[f"index of {names[0][0]}"] = index
-    types = reader.expressions.types
     hidden = dict(types)
     for name, type_ in names:
-        known[name] = index if (name, type_) in counting else reader.local(name)
+        if name not in own:
+            known[name] = index if (name, type_) in counting else reader.local(name)
         types[known[name]] = type_
     found = reader.suite(body)
     declared: tuple[m.Statement, ...] = tuple(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import field as with_default
 from typing import TypeAlias
 
@@ -27,7 +27,7 @@ class ModelNames:
     `parameters` are what functions are given besides the object, by their names in the code.
     `imported` are what names of the module are of, `helpers` functions without an object,
     `fillings` what publishers send, `posts` what is posted, by the ids of the calls. `silent` is
-    what only people are told, `pairs` what methods give that give several values at once, `inlined`
+    what only people are told, `beside` methods that give what no variable holds, `inlined`
     methods whose statements stand where they are called.
     """
 
@@ -45,7 +45,7 @@ class ModelNames:
     fillings: Mapping[str, Filling] = with_default(default_factory=dict)
     posts: Mapping[int, Post] = with_default(default_factory=dict)
     silent: Silent = NOTHING
-    pairs: Mapping[str, Sequence[Node]] = with_default(default_factory=dict)
+    beside: Mapping[str, Scope] = with_default(default_factory=dict)
     inlined: Mapping[str, Scope] = with_default(default_factory=dict)
 
 

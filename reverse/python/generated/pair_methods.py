@@ -1,7 +1,7 @@
 """Functions of generated Python that give what the model has no type for: several values, texts.
 
-Where a method is called that gives several values at once, these stand in its place: attributes of
-the object, and numbers.
+Where a method is called that only chooses between tuples, their elements stand in its place
+(`tuples.parts`).
 """
 
 from __future__ import annotations
@@ -13,36 +13,12 @@ from tree_sitter import Node
 
 from rebsync.reverse.python.generated.module_variables import imported_as
 from rebsync.reverse.python.generated.py_types import is_text, type_of
-from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_index import PyCode, Scope
-from rebsync.reverse.syntax.py_tree import calls_in, field, is_label, named, text_of
+from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 
 _TIMES = frozenset({"When", "AT_ONCE"})
-_PLAIN = frozenset({"attribute", "subscript", "integer", "true", "false", "identifier"})
-_TEXTS = frozenset({"string", "concatenated_string"})
-_TUPLES = (["expression_list"], ["tuple"])
-
-
-def values_given(function: Scope) -> list[Node]:
-    """The values of `return self._x, self._y`, if a method does no more; empty for any other."""
-    body = [s for s in body_of(function) if not is_text(s)]
-    given = named(body[0]) if len(body) == 1 and body[0].type == "return_statement" else []
-    takes = [p.name for p in function.parameters]
-    if takes != ["self"] or [g.type for g in given] not in _TUPLES:
-        return []
-    values = named(given[0])
-    inside = [n for v in values for n in nodes_in(v) if n.is_named]
-    is_plain = all(n.type in _PLAIN for n in inside) and all(
-        text_of(field(n, "object")) == "self" for n in inside if n.type == "attribute"
-    )
-    names = {
-        text_of(n)
-        for v in values
-        for n in nodes_in(v)
-        if n.type == "identifier" and not is_label(n)
-    }
-    return values if is_plain and names <= {"self"} else []
+_BESIDE = frozenset({"string", "concatenated_string", "expression_list", "tuple"})
 
 
 def is_alone(code: PyCode, function: Scope) -> bool:
@@ -74,10 +50,17 @@ def is_inlined(code: PyCode, function: Scope, callers: Iterable[Scope]) -> bool:
     is_async = any(child.type == "async" for child in function.node.children)
     if function.decorators or is_async or not any(map(takes_time, function.parameter_nodes)):
         return False
-    word = re.compile(rf"\b{re.escape(function.name)}\b")
-    named_so = sum(len(word.findall(m.py.source.text)) for m in code.modules.values())
+    named_so = sum(_names(function.name, m.node) for m in code.modules.values())
     calls = [text_of(field(call, "function")) for f in callers for call in calls_in(f.node)]
     return named_so == 1 + calls.count(f"self.{function.name}")
+
+
+def _names(name: str, module: Node) -> int:
+    """How often a module says a name, in code or in texts that may be asked for it."""
+    word = re.compile(rf"\b{re.escape(name)}\b")
+    said = (n for n in nodes_in(module) if n.type in ("identifier", "string"))
+    said = (n for n in said if n.parent is None or not is_text(n.parent))
+    return sum(1 for n in said if word.search(text_of(n)))
 
 
 def is_beside(function: Scope) -> bool:
@@ -89,11 +72,11 @@ def is_beside(function: Scope) -> bool:
     if said is not None:
         return type_of(said) is None
     values = [v for r in function.returns for v in named(r)]
-    return bool(values) and all(map(_is_text, values))
+    return bool(values) and all(map(_is_beside, values))
 
 
-def _is_text(node: Node) -> bool:
+def _is_beside(node: Node) -> bool:
     if node.type == "conditional_expression":
         then, _, otherwise = named(node)
-        return _is_text(then) and _is_text(otherwise)
-    return node.type in _TEXTS
+        return _is_beside(then) and _is_beside(otherwise)
+    return node.type in _BESIDE

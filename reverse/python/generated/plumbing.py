@@ -116,7 +116,7 @@ class Plumbing:
 
     def _is_plain(self, function: Scope, decorator: str) -> bool:
         """Whether the model knows what a function is with it: what is called is no property."""
-        if function.name in self.roles.describing:
+        if function.name in self.roles.beside:
             return True  # what it does is asked where it is used
         if decorator != "property":
             return decorator in DECORATORS

@@ -27,7 +27,6 @@ from rebsync.reverse.python.generated.pair_methods import (
     is_alone,
     is_beside,
     is_inlined,
-    values_given,
 )
 from rebsync.reverse.python.generated.parameters import (
     ParameterRead,
@@ -117,8 +116,7 @@ class PyRoles:
     orders: list[tuple[str, tuple[str, ...]]] = with_default(default_factory=list)  # by shims
     shims: set[str] = with_default(default_factory=set)
     ticking: set[str] = with_default(default_factory=set)
-    pairs: dict[str, list[Node]] = with_default(default_factory=dict)  # what methods give at once
-    describing: set[str] = with_default(default_factory=set)  # what no variable holds
+    beside: dict[str, Scope] = with_default(default_factory=dict)  # gives what no variable holds
     inlined: dict[str, Scope] = with_default(default_factory=dict)  # what takes times of sends
     arguments: dict[str, str] = with_default(default_factory=dict)
     own: dict[str, tuple[OwnParameter, Node]] = with_default(default_factory=dict)
@@ -153,7 +151,7 @@ class PyRoles:
 
     def is_plumbing(self, name: str) -> bool:
         """Whether a function is none of the model's."""
-        added = self.ticking, self.pairs, self.describing, self.inlined
+        added = self.ticking, self.beside, self.inlined
         return any(name in of for of in (_PLUMBING, self.shims, self.sends, *added))
 
     @property
@@ -187,8 +185,7 @@ def roles_of(code: PyCode, owner: Scope) -> PyRoles:
     roles.ticking.update(n for n in handed if is_people_own(roles, n))
     added = (f for n, f in roles.functions.items() if is_people_own(roles, n))
     alone = [f for f in added if is_alone(code, f)]
-    roles.pairs = {f.name: given for f in alone if (given := values_given(f))}
-    roles.describing = {f.name for f in alone if is_beside(f)} - roles.pairs.keys()
+    roles.beside = {f.name: f for f in alone if is_beside(f)}
     calling = [f for n, f in roles.functions.items() if not roles.is_plumbing(n)]
     roles.inlined = {f.name: f for f in alone if is_inlined(code, f, calling)}
     return roles

@@ -31,7 +31,6 @@ from rebsync.reverse.syntax.py_index import Scope
 from rebsync.reverse.syntax.py_tree import text_of
 
 _SENDER = "self._mailbox.self()"
-_AT_ONCE = frozenset({"AT_ONCE", "When()"})
 _TIME = "when"
 
 
@@ -67,10 +66,8 @@ def _is_as_generated(
     fields: Sequence[m.Type | None],
     given: Sequence[str],
 ) -> bool:
-    """Whether it sends at once where nothing is said, and its parameters are of fields' types."""
-    defaults = [p.default for p in function.parameters if p.name == _TIME]
-    at_once = all(d is None or text_of(d) in _AT_ONCE for d in defaults)
-    if not at_once or any(p.star for p in function.parameters):
+    """Whether its parameters are of the types of the fields."""
+    if any(p.star for p in function.parameters):
         return False
     is_known = len(fields) == len(given)
     return not is_known or all(map(is_kept, fields, (types.get(name) for name in given)))

@@ -12,12 +12,15 @@ from rebsync.reverse.python.generated import idioms
 from rebsync.reverse.python.generated.arguments import in_order
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.overloads import told
-from rebsync.reverse.python.generated.pairs import values_in_place
 from rebsync.reverse.python.generated.py_types import string_value
 from rebsync.reverse.python.generated.roles import PySends
 from rebsync.reverse.python.generated.tuples import parts
+from rebsync.reverse.syntax.ancestors import climb
 from rebsync.reverse.syntax.py_tree import named, text_of
 
+# What functions that send call the time, and what says that it is at once.
+TIME = "when"
+_AT_ONCE = frozenset({"AT_ONCE", "When()"})
 _CLOCK = names_in_model(Language.PYTHON)
 
 
@@ -84,17 +87,32 @@ def sent(
         values += unpacked(reader, rest.pop(0))
     if len(values) != sends.arguments or len(rest) > 1 or len(arguments) < is_to_any:
         raise reader.unread(node, f"this sends with {expected} arguments")
-    times = idioms.times(reader, rest[0]) if rest else {}
+    times = idioms.times(reader, rest[0]) if rest else _by_default(reader, node, sends)
     given = told(reader, node, sends, tuple(values))
     return m.Call(target, sends.server, given, times.get("after"), times.get("deadline"), span)
+
+
+def _by_default(
+    reader: ModelExpressionReader, node: Node, sends: PySends
+) -> dict[str, m.Expression]:
+    """The time of a send for which nothing is said, which is the same at any time."""
+    default = next((p.default for p in sends.parameters if p.name == TIME), None)
+    if default is None:
+        raise reader.unread(node, "nobody says when this is to arrive")
+    if text_of(default) in _AT_ONCE:
+        return {}
+    module = climb(default, lambda each: each.type == "module")
+    found = idioms.times(reader.inside({}), default)
+    is_same = all(isinstance(time, m.IntLiteral) for time in found.values())
+    if not is_same or module is None or module.id != reader.py.root.id:
+        raise reader.unread(node, "this may arrive at another time")
+    return found
 
 
 def unpacked(reader: ModelExpressionReader, node: Node) -> list[m.Expression]:
     """One argument, or the elements of an array behind a star."""
     if node.type != "list_splat":
         return [reader.expression(node)]
-    if values := values_in_place(reader, named(node)[0]):
-        return [*map(reader.expression, values)]
     elements = parts(reader, named(node)[0])
     if elements is None:
         raise reader.unread(node, "nobody knows how many values this gives")

@@ -15,9 +15,10 @@ from rebsync.records import dataclass
 from rebsync.reserved import PYTHON_RESERVED, uncarry_local
 from rebsync.reverse.analysis.intervals.evaluation_order import note_store
 from rebsync.reverse.findings import Findings
+from rebsync.reverse.python.generated.callees import known_there, there
 from rebsync.reverse.python.generated.expressions import Expressions
 from rebsync.reverse.python.generated.names import Closure
-from rebsync.reverse.syntax.py_tree import named
+from rebsync.reverse.syntax.py_tree import field, named
 
 _AGAIN = re.compile(r"(.+?)__\d+\Z")
 
@@ -77,12 +78,29 @@ class ModelStatementReader(ABC):
         self.expressions.kept_sends = dict(sends)
         moments, self.expressions.moments = self.expressions.moments, dict(self.expressions.moments)
         inner, self.inner = self.inner, dict(self.inner)
+        tables, self.expressions.kept_tables = (
+            self.expressions.kept_tables,
+            {**self.expressions.kept_tables},
+        )
         self.implied, self.expressions.closures = set(), dict(closures)
         found = self.block(named(node) if nodes is None else nodes, node)
         for name in self.implied:
             self.expressions.locals.pop(name, None)
         self.implied, self.expressions.closures, self.inner = outer, closures, inner
         self.expressions.kept_sends, self.expressions.moments = sends, moments
+        self.expressions.kept_tables = tables
+        return found
+
+    def part(self, part: Node) -> m.Block:
+        """A branch of an `if`; a function is there where its condition says so."""
+        if part.type == "else_clause":
+            return self.branch(field(part, "body"))
+        sends = self.expressions.kept_sends
+        if (known := known_there(self.expressions, field(part, "condition"))) is not None:
+            name, _ = known
+            self.expressions.kept_sends = sends | {name: there(sends[name])}
+        found = self.branch(field(part, "consequence"))
+        self.expressions.kept_sends = sends
         return found
 
     @abstractmethod

@@ -275,8 +275,7 @@ class Statements(ModelStatementReader):
             conditions = [*map(self.expressions.condition, asked)]
         bodies = []
         for part in parts:
-            name = "body" if part.type == "else_clause" else "consequence"
-            bodies.append(self.branch(field(part, name)))
+            bodies.append(self.part(part))
         if parts[-1].type == "else_clause":
             said = [n for n in named(field(parts[-1], "body")) if n.type != "comment"]
             is_silent = not bodies[-1].statements and all(n.type != "pass_statement" for n in said)

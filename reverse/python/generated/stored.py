@@ -12,7 +12,6 @@ from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.python.expressions.elements import certain
 from rebsync.reverse.python.generated import arrays, idioms, tuples
 from rebsync.reverse.python.generated.inner import leaves
-from rebsync.reverse.python.generated.pairs import values_in_place
 from rebsync.reverse.python.generated.places import is_kept
 from rebsync.reverse.python.generated.py_types import call_parts, string_value
 from rebsync.reverse.python.generated.statement_reader import ModelStatementReader
@@ -68,17 +67,16 @@ def unpacked(reader: ModelStatementReader, node: Node) -> list[m.Statement]:
     lefts, right = named(field(node, "left")), field(node, "right")
     expressions = reader.expressions
     is_plain = right.type in ("expression_list", "tuple")
-    values = values_in_place(expressions, right)
-    elements = None if is_plain or values else tuples.parts(expressions, right)
+    elements = None if is_plain else tuples.parts(expressions, right)
     if elements is not None and len(elements) == len(lefts):
         read = {n.name for e in elements for n in m.walk(e) if isinstance(n, m.Name | m.Member)}
+        kept_ = list[m.Local]()
         if not read.isdisjoint(map(expressions.variable, map(idioms.base_of, lefts))):
-            raise expressions.unread(node, _WHOLE)
+            kept_ = [_kept(reader, left, e, node) for left, e in zip(lefts, elements, strict=True)]
+            elements = [m.Name(local.declaration.declarators[0].name) for local in kept_]
         pairs = zip(lefts, elements, strict=True)
-        return [s for left, e in pairs for s in _given(reader, left, e, node)]
-    if not values and is_plain:
-        values = named(right)
-    lefts, values = _flat(lefts, values)
+        return [*kept_, *(s for left, e in pairs for s in _given(reader, left, e, node))]
+    lefts, values = _flat(lefts, named(right) if is_plain else [])
     if len(lefts) != len(values) or "list_splat" in {v.type for v in (*lefts, *values)}:
         raise expressions.unread(node, "the model has no such assignment")
     needed = [i for i, v in enumerate(values) if _is_needed(lefts[:i], v)]
@@ -117,9 +115,11 @@ def _is_needed(before: list[Node], value: Node) -> bool:
     return not stored.isdisjoint(idioms.names_in(value))
 
 
-def _kept(reader: ModelStatementReader, left: Node, value: Node, node: Node) -> m.Local:
+def _kept(
+    reader: ModelStatementReader, left: Node, value: Node | m.Expression, node: Node
+) -> m.Local:
     """A local that keeps a value until it is its turn."""
-    read = reader.expressions.expression(value)
+    read = reader.expressions.expression(value) if isinstance(value, Node) else value
     type_ = reader.expressions.kind(read)
     if type_ is None:
         raise reader.expressions.unread(node, "store one after the other, with a variable between")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial, reduce
 
 from tree_sitter import Node
@@ -11,13 +12,15 @@ from rebsync import model as m
 from rebsync.reverse.models.building import binary, chosen, is_calm
 from rebsync.reverse.python.expressions.values import TRUTH, WHOLE
 from rebsync.reverse.python.generated import idioms
+from rebsync.reverse.python.generated.arguments import in_order
 from rebsync.reverse.python.generated.arrays import array_elements
 from rebsync.reverse.python.generated.expression_reader import ModelExpressionReader
 from rebsync.reverse.python.generated.failing import may_fail
+from rebsync.reverse.python.generated.helpers import own_name
 from rebsync.reverse.python.generated.kinds import is_floating
-from rebsync.reverse.python.generated.pairs import values_in_place
-from rebsync.reverse.python.generated.py_types import call_parts, without_parentheses
+from rebsync.reverse.python.generated.py_types import call_parts, is_text, without_parentheses
 from rebsync.reverse.python.generated.record_classes import fields_of, given_to, is_tuple
+from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
@@ -41,24 +44,83 @@ def parts(
     if node.type in ("identifier", "attribute"):
         is_own = reader.hides_name(text.partition(".")[0])
         found = kept(reader, node) or (not is_own and [*reader.names.constants.tuple_of(text)])
-        found = found or [*map(reader.expression, values_in_place(reader, node))]
-        return found or (array_elements(reader, node) if arrays else None)
+        return found or given(reader, node) or (array_elements(reader, node) if arrays else None)
     if may_fail(reader, node):
         return None
     match node.type, named(node):
-        case "tuple", values:
+        case "tuple" | "expression_list", values:
             return _calm([reader.expression(each) for each in values])
         case "conditional_expression", [then, condition, otherwise]:
             ways = [parts(reader, way, arrays=arrays) for way in (then, otherwise)]
             return _chosen(reader.condition(condition), *ways) if all(ways) else None
-        case _ if given := values_in_place(reader, node):
-            return [*map(reader.expression, given)]
+        case "call", _ if (elements := given(reader, node)) is not None:
+            return elements
         case "call", _ if is_tuple(reader, called := text_of(field(node, "function"))):
             fields = fields_of(reader, called) or ()
             of_fields = dict(given_to(node, fields) or ())
             return _calm([reader.expression(of_fields[f]) for f in fields if f in of_fields])
         case _:
             return looked_up(reader, node)
+
+
+def given(reader: ModelExpressionReader, node: Node) -> list[m.Expression] | None:
+    """The elements of what a method, or a property, gives that only chooses between tuples."""
+    called, arguments = call_parts(node) or ("", [])
+    holder, _, name = (called or text_of(node)).rpartition(".")
+    function = reader.names.beside.get(name)
+    if function is None or holder != reader.own or function.py is not reader.py:
+        return None
+    is_property = "property" in function.decorators
+    is_async = any(child.type == "async" for child in function.node.children)
+    parameters = function.parameters[1:]
+    if is_async or is_property == bool(called) or own_name(function) != reader.own:
+        return None
+    values = in_order(reader, node, arguments, parameters)
+    passed = [*map(reader.expression, values)]
+    is_whole = len(passed) == len(parameters) and all(map(is_calm, passed))
+    if not is_whole or any(may_fail(reader, value) for value in values):
+        return None
+    inner = reader.inside({p.name: m.Paren(e) for p, e in zip(parameters, passed, strict=True)})
+    others = {n: f for n, f in reader.names.beside.items() if n != name}  # none calls itself
+    return _returned(replace(inner, names=replace(inner.names, beside=others)), body_of(function))
+
+
+def _returned(reader: ModelExpressionReader, body: Sequence[Node]) -> list[m.Expression] | None:
+    """The elements of the tuple that statements give, each way through them by itself.
+
+    None where they do more than to choose it, or may fail.
+    """
+    match [s for s in body if s.type != "comment" and not is_text(s)]:
+        case [first, *_] if first.type == "return_statement" and named(first):
+            return parts(reader, named(first)[0], arrays=False)
+        case [first, *rest] if first.type == "expression_statement":
+            return _returned_behind(reader, named(first)[0], rest)
+        case [first, *rest] if first.type == "if_statement":
+            clauses = first.children_by_field_name("alternative")
+            last = [n for c in clauses if c.type == "else_clause" for n in named(field(c, "body"))]
+            found = _returned(reader, [*last, *rest])
+            for clause in (c for c in (*reversed(clauses), first) if c.type != "else_clause"):
+                condition = field(clause, "condition")
+                if found is None or may_fail(reader, condition):
+                    return None
+                way = _returned(reader, [*named(field(clause, "consequence")), *rest])
+                found = _chosen(reader.condition(condition), way, found)
+            return found
+        case _:
+            return None
+
+
+def _returned_behind(
+    reader: ModelExpressionReader, made: Node, rest: Sequence[Node]
+) -> list[m.Expression] | None:
+    """The same of what follows a local that a value is given."""
+    left, value = (made.child_by_field_name(n) for n in ("left", "right"))
+    is_local = made.type == "assignment" and left is not None and left.type == "identifier"
+    if left is None or value is None or not is_local or may_fail(reader, value):
+        return None
+    read = reader.expression(value)
+    with reader.standing_for([text_of(left)], [reader.value(m.Paren(read))]):
+        return _returned(reader, rest) if is_calm(read) else None
 
 
 def _calm(found: list[m.Expression]) -> list[m.Expression] | None:
@@ -80,18 +142,16 @@ def looked_up(
 ) -> list[m.Expression] | None:
     """`TABLE.get(key, (a, b))`, and `TABLE[key]` of a truth value: a tuple, or a `single` value."""
     row = _single if single else parts
-    called, arguments = call_parts(node) or ("", [])
-    found: list[m.Expression] | None = None
-    if called.endswith(".get") and len(arguments) == 2:
-        of, key, kind = field(field(node, "function"), "object"), arguments[0], WHOLE
-        found = row(reader, arguments[1])
-    elif node.type == "subscript":
-        of, key, kind = field(node, "value"), field(node, "subscript"), TRUTH
-    else:
+    asked_ = table_asked(reader, node)
+    if asked_ is None:
         return None
-    written = table(reader, of)
-    entries = [n for n in named(written) if n.type == "pair"] if written is not None else []
-    if written is None or len(entries) != len(named(written)) or (kind == WHOLE and not found):
+    (written, key), (_, arguments) = asked_, call_parts(node) or ("", [])
+    if len(arguments) == 1:
+        return None
+    kind = WHOLE if arguments else TRUTH
+    found = row(reader, arguments[1]) if arguments else None
+    entries = [n for n in named(written) if n.type == "pair"]
+    if len(entries) != len(named(written)) or (kind == WHOLE and not found):
         return None
     if kind == TRUTH and {text_of(field(n, "key")) for n in entries} != {"True", "False"}:
         return None
@@ -123,6 +183,19 @@ def table(reader: ModelExpressionReader, node: Node) -> Node | None:
         return node
     kept_ = reader.kept_tables.get(text_of(node))
     return kept_ if kept_ is not None else _constant(reader, node, "dictionary")
+
+
+def table_asked(reader: ModelExpressionReader, node: Node) -> tuple[Node, Node] | None:
+    """The table, and the key, of `TABLE.get(key, ...)` and `TABLE[key]`; None for others."""
+    called, arguments = call_parts(node) or ("", [])
+    if called.endswith(".get") and len(arguments) in (1, 2):
+        of, key = field(field(node, "function"), "object"), arguments[0]
+    elif node.type == "subscript":
+        of, key = field(node, "value"), field(node, "subscript")
+    else:
+        return None
+    written = table(reader, of)
+    return (written, key) if written is not None else None
 
 
 def members(reader: ModelExpressionReader, node: Node) -> list[m.Expression] | None:

@@ -172,6 +172,8 @@ def method_takes(name: str, given: Sequence[tuple[str | None, ValueTypes]], *, w
     """Whether a method of a container or text takes some arguments."""
     if name in _METHODS_OF_WHOLE and not whole:
         return False
+    if name == "format":  # whether the text names these is asked of the form
+        return all(_plain(types) for _, types in given)
     return name in _METHODS and _fits(_METHODS[name], {}, given)
 
 

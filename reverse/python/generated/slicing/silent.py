@@ -221,7 +221,7 @@ def silent_in(
         exceptions,
         ToldEffects(form, variables, {n for r in roles for n in (*r.known, *r.env)}, sent),
         plain,
-        frozenset(name for r in roles for name in r.describing),
+        frozenset(name for r in roles for name in r.beside),
     )
     found = replace(found, texts=found.texts - found.rest)
     giving = makers | {f"self.{name}" for name in found.describing}
