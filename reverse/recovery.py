@@ -231,7 +231,8 @@ class _Reading:
             self.findings.all += defined_again(self.code, owner)
             self.findings.all += at_the_end(self.code, owner)
         if chosen:
-            self.findings.all += (*beside_main(self.code), *ending_the_node(self.code))
+            self.findings.all += beside_main(self.code)
+            self.findings.all += ending_the_node(self.code, classes.form)
         names = {owner.name for owner in chosen}
         for program in self.programs:
             self.findings.all += odd_arguments(self.code, program.main, names)

@@ -84,10 +84,10 @@ class _Flow:
             case s.Call():
                 return self._stored(node, self._call(node, known))
             case _:
-                values = [p for p in parts(node) if p is not getattr(node, "target", None)]
-                is_read = isinstance(node, s.CompoundAssign)
-                known = self._read([node.target] if is_read else [], self._read(values, known))
-                return self._stored(node, known)
+                target = getattr(node, "target", None)
+                values = [p for p in parts(node) if p is not target]
+                changed = [node.target] if isinstance(node, s.CompoundAssign) else []
+                return self._stored(node, self._read([*values, *changed], known))
 
     def _round(self, body: s.Body, known: bool) -> bool:
         """Whether it has a value after a round of a loop, whose breaks are left to be seen."""

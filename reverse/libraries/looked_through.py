@@ -22,7 +22,7 @@ _SCOPES = frozenset(
     }
 )
 _MESSAGES = re.compile(
-    r"\w+(?:_msgs|_srvs|_interfaces)(?:::|/|\Z)|(?:\w+::)+(?:msg|srv|action)::|\w+/\w+\Z"
+    r"\w+(?:_msgs|_srvs|_interfaces)(?:::|/|\Z)|(?:\w+::)*(?:msg|srv|action)::|\w+/\w+\Z"
 )
 # Of matrices whose sizes are computed, assertions look at the sizes of operands and at indices.
 _COMPUTED = re.compile(

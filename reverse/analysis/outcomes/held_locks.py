@@ -74,7 +74,7 @@ class HeldLocks:
                 notes.problem(used, _LONGER)
             if isinstance(used, s.Declare) and has_guard(used.type):
                 notes.problem(used, _LONGER)
-            if self._is_unknown(used):
+            if isinstance(used, s.Call | s.Unsupported) and self._is_unknown(used):
                 notes.problem(used, UNKNOWN_LOCK)
         scoped = _scoped(function.body)
         for node, inside in _with_rest(function.body):
@@ -92,7 +92,7 @@ class HeldLocks:
                 if any(_meet(mutexes, others) for others in later) or _acquires(body):
                     notes.problem(node, _AGAIN)
 
-    def _is_unknown(self, node: Node) -> bool:
+    def _is_unknown(self, node: s.Call | s.Unsupported) -> bool:
         """Whether a node may lock something in a way that is not known."""
         match node:
             case s.Call(_, s.LibraryCallee(name, None), arguments) if not is_guard(name):

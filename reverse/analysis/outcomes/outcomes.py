@@ -77,6 +77,11 @@ class OutcomeAnalysis:
         """What a function itself may do besides giving a value, without what it calls."""
         return self._of_function(name).own
 
+    def called(self, name: str) -> frozenset[str]:
+        """The functions that a function runs itself."""
+        self._of_function(name)
+        return frozenset(self._calls[name])
+
     def _of_function(self, name: str) -> Equation[Problem]:
         if name not in self._equations:
             function = self.program.function(name)

@@ -203,6 +203,36 @@ class CppForm:
         """Whether a call of a function may end with an exception."""
         return any(p.raises for p in self._problems(function))
 
+    def terminating(self, cpp: Cpp, throwing: str, posting: str) -> Iterator[tuple[Span, str]]:
+        """The places in `noexcept` functions of a file that may throw, and what these are called.
+
+        Of the functions of known files only the `throwing` one throws, by the end of its name; the
+        `posting` one runs what it gets later.
+        """
+        for symbol in (f for f in self.places.functions.values() if f.code.cpp is cpp):
+            within = ".".join(filter(None, (symbol.code.owner, symbol.code.name)))
+            for name in (symbol.name, *lambda_names(symbol, self.places.owner(symbol)).values()):
+                function = self._program.function(name)
+                reached = self._reached(name, posting) if function.noexcept else frozenset[str]()
+                own = (p for each in reached - self._of_known for p in self._outcomes.own(each))
+                raised = (p for p in own if p.raises)
+                found = {p.place if p.function == name else function.place for p in raised}
+                found |= {function.place for each in reached if each.endswith(throwing)}
+                yield from ((place, within) for place in sorted(found, key=lambda p: p.start))
+
+    def _reached(self, name: str, posting: str) -> frozenset[str]:
+        """The functions that one runs, but for what is posted; known ones are not looked into."""
+        found, waiting = {name}, [name]
+        while waiting:
+            if (each := waiting.pop()) not in self._of_known:
+                calls = (n for n in walk(self._program.function(each)) if isinstance(n, s.Call))
+                posts = (c for c in calls if getattr(c.callee, "name", "").endswith(posting))
+                later = {n.function for c in posts for n in walk(c) if isinstance(n, e.Closure)}
+                new = self._outcomes.called(each) - later - found
+                found |= new
+                waiting += new
+        return frozenset(found)
+
     def _problems(self, function: CppFunction) -> frozenset[Problem]:
         symbol = self.places.functions.get(function.node.id)
         return self._outcomes.of(symbol.name) if symbol is not None else frozenset()
