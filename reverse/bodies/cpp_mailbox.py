@@ -173,8 +173,8 @@ def times(reader: CppExpressionReader, node: Node) -> dict[str, m.Expression]:
     if squeezed(node) in AT_ONCE:
         return {}
     spelled = text_of(node)
-    constant = reader.scope.constants.get(spelled) if reader.scope.meaning(spelled) is None else None
-    if constant is not None:
+    constant = reader.scope.constants.get(spelled)
+    if constant is not None and reader.scope.meaning(spelled) is None:
         scope = reader.scope.without_constant(spelled)
         return times(elsewhere(replace(reader, scope=scope), constant[0]), constant[1])
     if node.type != "call_expression":
