@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from tree_sitter import Node
 
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader
 from rebsync.reverse.bodies.types.cpp_conversions import type_in
 from rebsync.reverse.bodies.types.cpp_types import Carried, is_time
+from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare
 from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.cpp_tree import named
 from rebsync.static.constants import constant
 from rebsync.static.types import BOOLEAN, BYTE, DOUBLE, INT, SHORT, is_integer
 
@@ -17,7 +21,20 @@ _BITS = {BYTE: 7, SHORT: 15, INT: 31}
 _EXACT = 2**24  # whole numbers up to here are numbers of a `float`
 
 
-def of_constant(reader: CppExpressionReader, value: Node) -> m.Expression:
+def constant_named(
+    reader: CppExpressionReader, node: Node, at: CppExpressionReader, value: Node
+) -> m.Expression:
+    """What a constant is that has a name; `at` can name what its value can.
+
+    What is not known of it is told where it is named: its value may be in another file.
+    """
+    try:
+        return _of_constant(replace(at, inlines=None), value)
+    except Unread as unread:
+        raise type(unread)(reader.cpp.span(node), unread.why, unread.hint) from None
+
+
+def _of_constant(reader: CppExpressionReader, value: Node) -> m.Expression:
     """What a constant is whose value is written so; `reader` can name what the value can.
 
     Unread: its type holds another number, or the model has no number of that type.
@@ -26,6 +43,9 @@ def of_constant(reader: CppExpressionReader, value: Node) -> m.Expression:
     if reader.scope.open and value.type in ("string_literal", "concatenated_string"):
         return reader.read(value)
     kept = reader.scope.carried(type_) if type_ is not None and not is_time(type_) else None
+    is_one = type_ is None or (kept is not None and not kept.type.dimensions)
+    if is_one and value.type == "initializer_list" and len(named(value)) == 1:
+        (value,) = named(value)
     if kept is None or kept.type.dimensions:
         read = reader.read(value)
         if kept is None and type_ is not None and not is_time(type_) and constant(read) is not None:

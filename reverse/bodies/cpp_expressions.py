@@ -18,7 +18,7 @@ from rebsync.reverse.bodies import (
     cpp_pointers,
     cpp_texts,
 )
-from rebsync.reverse.bodies.cpp_constants import of_constant
+from rebsync.reverse.bodies.cpp_constants import constant_named
 from rebsync.reverse.bodies.cpp_expression_reader import CppExpressionReader, Exchange
 from rebsync.reverse.bodies.cpp_misread import Chain, ChainOperand, Operation, chain_of, is_misread
 from rebsync.reverse.bodies.cpp_places import is_this, resolve
@@ -228,7 +228,7 @@ class CppExpressions(CppExpressionReader):
                 scope = self.scope.without_constant(spelled)
                 if spelled == "kNull" and not self.scope.open and text_of(value) == '""':
                     return literal(self.cpp, node)
-                return of_constant(replace(self, cpp=cpp, scope=scope, inlines=None), value)
+                return constant_named(self, node, replace(self, cpp=cpp, scope=scope), value)
         if (known := cpp_idioms.constant_named(name, span)) is not None:
             return known
         if self.scope.open:

@@ -75,9 +75,9 @@ def inlined(
     reader.shared.depth += depth
     try:
         if single is not None:
-            found: Meaning | None = cpp_given.value_of(reader, inside, single, result)
+            value = cpp_given.value_of(reader, inside, single, result)
             reader.before += inside.before
-            found = cpp_given.apart(reader, function, node, result, found)
+            found: Meaning | None = cpp_given.apart(reader, function, node, result, value)
         else:
             found = _body(reader, inside, body, result)
     finally:

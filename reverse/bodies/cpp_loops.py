@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from tree_sitter import Node
@@ -13,10 +13,11 @@ from rebsync.reverse.bodies.cpp_algorithms import plain_type, whole_array
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.scope import Variable
 from rebsync.reverse.bodies.types.cpp_conversions import converted_to, place_of, type_in
+from rebsync.reverse.bodies.types.cpp_widths import wide_of
 from rebsync.reverse.models.building import binary, negated
 from rebsync.reverse.syntax.cpp_calls import call_of
 from rebsync.reverse.syntax.cpp_tree import named, part, text_of
-from rebsync.static.types import BOOLEAN
+from rebsync.static.types import BOOLEAN, BYTE, INT, SHORT
 
 _ONE, _ZERO = m.IntLiteral(1), m.IntLiteral(0)
 # What has a `continue` of its own.
@@ -116,14 +117,25 @@ def _listed(reader: CppStatementReader, node: Node, over: Node) -> tuple[m.Expre
     """The array that holds the values of `for (int x : {1, 2, 3})`."""
     values = named(over)
     kept = reader.scope.carried(part(node, "type"))
-    of = kept.type if kept is not None else m.Type("int")
+    of = kept.type if kept is not None else _type_of_all(reader, over, values)
     bits, wide = (kept.bits, kept.wide) if kept is not None else (0, 0)
-    array = m.Type(of.name, (len(values),))
+    array = m.Type(of.name, (len(values), *of.dimensions))
     local = Variable(reader.fresh("values"), array, bits, (), wide)
     reader.meaning(f"in {node.start_byte}", local)
     inner = Variable("", of, bits, (), wide)
     initial = m.ArrayInitializer(tuple(reader.expressions.stored(v, inner) for v in values))
     return m.Name(local.name), reader.local(over, local, initial)
+
+
+def _type_of_all(reader: CppStatementReader, node: Node, values: Sequence[Node]) -> m.Type:
+    """The one type of several values, which `auto` stands for."""
+    alone = replace(reader.expressions, findings=None, inlines=None)
+    found = {type_in(reader.scope, alone.read(value)) for value in values}
+    found = {INT if of in (BYTE, SHORT) else of for of in found}
+    of = found.pop() if len(found) == 1 else None
+    if of is None or any(wide_of(alone, value) for value in values):
+        raise reader.unread(node, "the type of these values is not known")
+    return of
 
 
 def _element(

@@ -172,10 +172,10 @@ def times(reader: CppExpressionReader, node: Node) -> dict[str, m.Expression]:
         return {kind: m.Name(time.name) for kind, time in held.fields.items()}
     if squeezed(node) in AT_ONCE:
         return {}
-    name_ = text_of(node)
-    constant = reader.scope.constants.get(name_) if reader.scope.meaning(name_) is None else None
-    if constant is not None:
-        scope = reader.scope.without_constant(name_)
+    spelled = text_of(node)
+    constant = reader.scope.constants.get(spelled)
+    if constant is not None and reader.scope.meaning(spelled) is None:
+        scope = reader.scope.without_constant(spelled)
         return times(elsewhere(replace(reader, scope=scope), constant[0]), constant[1])
     if node.type != "call_expression":
         raise reader.unread(node, "this is no time of a send")

@@ -34,7 +34,7 @@ def bound(
     argument: Node | None,
 ) -> Iterator[m.Statement]:
     """The times that a parameter gets, or has where the call leaves it out."""
-    at = reader.expressions
+    at: CppExpressionReader = reader.expressions
     if argument is None:
         if parameter.default is None:
             raise reader.unread(node, "what is left out of this call is not known")

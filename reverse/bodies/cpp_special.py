@@ -179,6 +179,8 @@ def _inline(reader: CppStatementReader, function: Node, count: int) -> Inline | 
         name = text_of(part(function, "field"))
     elif isinstance(held := reader.scope.meaning(name), Lambda):
         return held
+    elif function.type == "template_function":
+        name = text_of(part(function, "name"))
     elif function.type not in ("identifier", "qualified_identifier"):
         return None
     found = reader.scope.functions.get(name.rpartition("::")[2])
