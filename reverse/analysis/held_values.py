@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.origins import ClassOrigin, Origins
-from rebsync.reverse.analysis.stores import ANY_VALUE, AnyValue, Member, Stored, key_of
+from rebsync.reverse.analysis.stores import ANY_VALUE, AnyValue, Member, Stored, Value, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
@@ -36,7 +36,7 @@ def texts_of(origins: Origins, value: e.Expression, function: str) -> list[str]:
     return texts if len(texts) == len(held) else []
 
 
-def _ways(value: Stored) -> list[Stored]:
+def _ways(value: Value) -> list[Value]:
     """What a value is: of `a if x else b` both."""
     if not isinstance(value, e.Conditional):
         return [value]

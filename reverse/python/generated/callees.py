@@ -52,7 +52,7 @@ def _looked_up(reader: ModelExpressionReader, node: Node, written: Node, key: No
         raise reader.unread(node, "say what is called for each value by `if`")
     for known, entry in [*zip(keys, entries, strict=True)][::-1]:
         function = callee(reader, field(entry, "value"))
-        is_it = binary("==", asked.expression, known.expression)
+        is_it: m.Expression = binary("==", asked.expression, known.expression)
         if asked.kind == TRUTH:
             is_true = known.expression == m.BoolLiteral(True)
             is_it = asked.expression if is_true else negated(asked.expression)
