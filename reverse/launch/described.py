@@ -12,7 +12,7 @@ import ast
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TypeAlias
 
-from rebsync.reverse.launch.launch_python_values import called
+from rebsync.reverse.launch.python_arguments import called
 
 _FUNCTION = "generate_launch_description"
 _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda)

@@ -12,7 +12,8 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 
 from rebsync.reverse.launch.described import misleading
-from rebsync.reverse.launch.launch_python_values import PythonValues, called, keywords
+from rebsync.reverse.launch.launch_python_values import PythonValues
+from rebsync.reverse.launch.python_arguments import called
 from rebsync.reverse.launch.ros2_actions import (
     Action,
     CommandAction,
@@ -70,6 +71,14 @@ def bound_once(tree: ast.Module) -> Mapping[str, ast.expr]:
                 found.setdefault(name, []).append(value)
             case ast.Name(id=name, ctx=ast.Store()):
                 stored[name] += 1  # by a loop, a `with` or an unpacking as well
+            case ast.arg(arg=name) | ast.FunctionDef(name=name) | ast.ClassDef(name=name):
+                stored[name] += 1
+            case ast.alias(name=name, asname=other):
+                stored[other or name.partition(".")[0]] += 1
+            case ast.ExceptHandler(name=str() as name) | ast.MatchAs(name=str() as name):
+                stored[name] += 1
+            case ast.MatchStar(name=str() as name) | ast.MatchMapping(rest=str() as name):
+                stored[name] += 1
     changed: set[str] = set()
     while waiting:
         if (name := waiting.pop()) not in changed:
@@ -144,10 +153,10 @@ class _File:
         """The lists of actions that descriptions are made of."""
         for call in _calls(self._tree):
             if called(call) == "LaunchDescription":
-                given = keywords(call)
+                given = self._values.keywords(call)
                 listed = call.args[0] if call.args else given.get("initial_entities")
-                if listed is not None:
-                    yield listed
+                if listed is not None or not self._values.is_whole(call):
+                    yield listed if listed is not None else call
 
     def _elsewhere(self, call: ast.Call) -> Iterator[Action]:
         """A node that no description has: it is made where the file runs it."""
@@ -187,13 +196,22 @@ class _File:
             return
         if found in self._seen:
             return
-        self._seen.add(found)
-        given = keywords(found)
+        self._see(found)
+        given = self._values.keywords(found)
+        if not self._values.is_whole(found):
+            why = "it is computed when the file runs"
+            yield Unlisted(f"an argument of `{called(found)}`", self._span(found), why)
         made = self._made(found, given)
         if "condition" in given and not isinstance(given["condition"], ast.Constant):
             condition = self._condition(given["condition"])
             made = [Only(condition, action) for action in made]
         yield from made
+
+    def _see(self, call: ast.Call) -> None:
+        """Notes that a call is in a description, and what a comprehension copies it from."""
+        self._seen.add(call)
+        if call in self._values.originals:
+            self._see(self._values.originals[call])
 
     def _made(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
         name, args = called(call), call.args
@@ -234,7 +252,7 @@ class _File:
             type=values.words_of(given.get("executable", given.get("plugin"))),
             parameters=tuple(values.parameters(given.get("parameters"))),
             remaps=tuple(values.remaps(given.get("remappings"))),
-            markers=tuple(values.markers(call.lineno)),
+            markers=() if call in values.originals else tuple(values.markers(call.lineno)),
             span=self._span(call),
             texts=values.given_texts(given, "arguments", "ros_arguments"),
             arguments=values.listed(given.get("arguments")),
@@ -270,7 +288,7 @@ class _File:
 
     def command(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:
         described = self._values.resolved(given.get("process_description", call))
-        inner = keywords(described) if isinstance(described, ast.Call) else given
+        inner = self._values.keywords(described) if isinstance(described, ast.Call) else given
         return [CommandAction(self._values.given_texts(inner, "cmd"), self._span(call))]
 
     def push(self, call: ast.Call, given: dict[str, ast.expr]) -> list[Action]:

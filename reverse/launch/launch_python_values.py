@@ -9,7 +9,12 @@ import ast
 import re
 from collections.abc import Iterable, Iterator, Mapping
 
-from rebsync.reverse.launch.parameters import ParameterValue
+from rebsync.reverse.launch.comprehensions import (
+    COMPREHENSIONS,
+    Comprehension,
+    written_out,
+)
+from rebsync.reverse.launch.python_arguments import called, literal, named_arguments
 from rebsync.reverse.launch.ros2_actions import (
     FromFile,
     LaunchParameter,
@@ -37,20 +42,6 @@ _FOLDERS = frozenset({"FindPackageShare", "get_package_share_directory", "get_pa
 _DEEPEST = 40
 
 
-def called(call: ast.Call) -> str:
-    """The last part of the name of what is called."""
-    match call.func:
-        case ast.Name(id=name) | ast.Attribute(attr=name):
-            return name
-        case _:
-            return ""
-
-
-def keywords(call: ast.Call) -> dict[str, ast.expr]:
-    """The arguments that are given by name."""
-    return {k.arg: k.value for k in call.keywords if k.arg is not None}
-
-
 class PythonValues:
     """What expressions of one file stand for."""
 
@@ -58,18 +49,50 @@ class PythonValues:
         self._source = source
         self._names = names
         self._lines = source.text.split("\n")
+        self._lists: dict[ast.expr, ast.expr] = {}
+        self.originals: dict[ast.Call, ast.Call] = {}
 
     def bound(self) -> Iterable[ast.expr]:
         """The values of all names that are bound once."""
         return self._names.values()
 
     def resolved(self, value: ast.expr) -> ast.expr:
-        """What a name that is bound once stands for."""
+        """What a name that is bound once stands for, and a comprehension over what is written."""
         for _ in self._names:
             if not isinstance(value, ast.Name) or value.id not in self._names:
                 break
             value = self._names[value.id]
-        return value
+        return self._written_out(value) if isinstance(value, COMPREHENSIONS) else value
+
+    def _written_out(self, value: Comprehension) -> ast.expr:
+        """The list of a comprehension, the same one each time; itself where it is computed."""
+        if value not in self._lists:
+            self._lists[value] = value  # one that needs itself
+            if (found := written_out(value, self.resolved)) is not None:
+                self._lists[value] = found.value
+                self.originals.update(found.originals)
+        return self._lists[value]
+
+    def walk(self, node: ast.AST) -> Iterator[ast.AST]:
+        """All that stands in a tree, with what comprehensions give in place of them."""
+        found = self.resolved(node) if isinstance(node, COMPREHENSIONS) else node
+        yield found
+        for child in ast.iter_child_nodes(found):
+            yield from self.walk(child)
+
+    # --- arguments ------------------------------------------------------------------------------
+
+    def keywords(self, call: ast.Call) -> dict[str, ast.expr]:
+        """The arguments that are given by name, and by `**` of tables that are written out."""
+        return {
+            name: value for name, value in named_arguments(call, self.resolved) if name is not None
+        }
+
+    def is_whole(self, call: ast.Call) -> bool:
+        """Whether all arguments of a call are known, each of them once."""
+        names = [name for name, _ in named_arguments(call, self.resolved)]
+        is_spread = any(isinstance(a, ast.Starred) for a in call.args)
+        return not is_spread and None not in names and len(set(names)) == len(names)
 
     # --- texts ----------------------------------------------------------------------------------
 
@@ -118,6 +141,9 @@ class PythonValues:
             case ast.JoinedStr(values=pieces):
                 return [p for piece in pieces for p in self._parts(piece, depth + 1)]
             case ast.FormattedValue(value=inner, conversion=-1, format_spec=None):
+                number = literal(self.resolved(inner))
+                if isinstance(number, int) and not isinstance(number, bool):
+                    return [str(number)]
                 return self._parts(inner, depth + 1)
             case ast.Call():
                 return [self._substituted(value, depth)]
@@ -146,7 +172,9 @@ class PythonValues:
                 return COMPUTED
 
     def _substituted(self, call: ast.Call, depth: int) -> Word:
-        name, args, given = called(call), call.args, keywords(call)
+        name, args, given = called(call), call.args, self.keywords(call)
+        if not self.is_whole(call):
+            return COMPUTED
         first = args[0] if args else None
 
         def inner(value: ast.expr | None) -> Words | None:
@@ -194,7 +222,7 @@ class PythonValues:
 
     def compared(self, call: ast.Call) -> Words | None:
         """What `LaunchConfigurationEquals(name, text)` and its contrary compare."""
-        by_name = dict(zip(("name", "value"), call.args, strict=False)) | keywords(call)
+        by_name = dict(zip(("name", "value"), call.args, strict=False)) | self.keywords(call)
         names = {"launch_configuration_name": "name", "expected_value": "value"}
         given = {names.get(key, key): value for key, value in by_name.items()}
         known = called(call) in ("LaunchConfigurationEquals", "LaunchConfigurationNotEquals")
@@ -229,7 +257,7 @@ class PythonValues:
     def _unwrapped(self, value: ast.expr) -> ast.expr:
         """What is in `ParameterFile(...)`."""
         if isinstance(value, ast.Call) and called(value) == "ParameterFile":
-            file = value.args[0] if value.args else keywords(value).get("param_file", value)
+            file = value.args[0] if value.args else self.keywords(value).get("param_file", value)
             return self.resolved(file)
         return value
 
@@ -266,7 +294,7 @@ class PythonValues:
             return LaunchParameter(name, found, span)
         typed = False
         if isinstance(value, ast.Call) and called(value) == "ParameterValue" and value.args:
-            kind = keywords(value).get("value_type")
+            kind = self.keywords(value).get("value_type")
             typed = isinstance(kind, ast.Name) and kind.id == "str"
             value = self.resolved(value.args[0])
         parts = tuple(self._parts(value, 0))
@@ -302,7 +330,8 @@ class PythonValues:
             found = self.resolved(holder)
         if isinstance(found, ast.Dict):
             pairs = zip(found.keys, found.values, strict=True)
-            return tuple((self.words(k), self.words(v)) for k, v in pairs if k is not None)
+            named = [(self.words(k), self.words(v)) for k, v in pairs if k is not None]
+            return tuple(named) if None not in found.keys else None
         if isinstance(found, ast.List | ast.Tuple):
             items = [self.resolved(i) for i in found.elts]
             two = [i.elts for i in items if isinstance(i, ast.Tuple) and len(i.elts) == 2]
@@ -335,19 +364,3 @@ class PythonValues:
         """The offset of a place whose column counts bytes."""
         before = self._lines[line - 1].encode()[:column].decode(errors="ignore")
         return self._source.start_of(line) + len(before)
-
-
-def literal(node: ast.expr) -> ParameterValue | None:
-    """A constant; None where there is none, or one that no parameter holds."""
-    match node:
-        case ast.Constant(value=bool() | int() | float() | str() as value):
-            return value
-        case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int() | float() as value)):
-            return -value
-        case ast.List(elts=items) | ast.Tuple(elts=items):
-            inner = [literal(item) for item in items]
-            return None if None in inner else tuple(v for v in inner if v is not None)
-        case ast.Call(args=[value, *_]) if called(node) == "ParameterValue":
-            return literal(value)
-        case _:
-            return None

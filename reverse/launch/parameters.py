@@ -52,11 +52,13 @@ class Parameter:
 class Parameters:
     """The parameters of a text, each name once, the last value; a lone value has the name ``.
 
-    Each parameter with an open value also has its Unknown.
+    Each parameter with an open value also has its Unknown. `replaced`: what a later entry of the
+    same name takes the place of.
     """
 
     entries: tuple[Parameter, ...]
     unknowns: tuple[Unknown, ...]
+    replaced: tuple[Parameter, ...] = ()
 
 
 def _same(span: Span) -> Span:
@@ -76,7 +78,9 @@ def read_parameters(
         reader.mistake(error)
     except (_TooLarge, RecursionError):
         reader.unknown(YAML, "it is nested too deeply, or too large, to be read", Span(0, 0))
-    return Parameters(tuple(reader.entries.values()), tuple(reader.unknowns))
+    return Parameters(
+        tuple(reader.entries.values()), tuple(reader.unknowns), tuple(reader.replaced)
+    )
 
 
 @lru_cache(maxsize=8)
@@ -99,6 +103,7 @@ class _TooLarge(Exception):
 class _Reader:
     def __init__(self, source: Source, place: Callable[[Span], Span]) -> None:
         self.entries: dict[str, Parameter] = {}
+        self.replaced: list[Parameter] = []
         self.unknowns: list[Unknown] = []
         self._source = source
         self._place = place
@@ -134,7 +139,8 @@ class _Reader:
             self.unknown(
                 f"the parameter `{name}`" if name else "the value", value.why, yaml_span(node)
             )
-        self.entries.pop(name, None)
+        if (before := self.entries.pop(name, None)) is not None:
+            self.replaced.append(before)
         self.entries[name] = Parameter(name, value, self._source, self._place(yaml_span(node)))
 
     def _enter(self, node: yaml.Node) -> int:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch
 from rebsync.reverse.launch.launch_python import bound_once
-from rebsync.reverse.launch.launch_python_values import called
+from rebsync.reverse.launch.launch_python_values import PythonValues
+from rebsync.reverse.launch.python_arguments import called
 from rebsync.reverse.scaffold.fact import (
     CLOCK,
     NOT_GIVEN,
@@ -73,29 +74,27 @@ def _actions(source: Source) -> Iterator[Fact]:
         tree = ast.parse(source.text)
     except (SyntaxError, ValueError):
         return  # what cannot be read, extraction lists
-    names = bound_once(tree)
-    defaults = dict(_defaults(tree))
+    values = PythonValues(source, bound_once(tree))
+    defaults = dict(_defaults(tree, values))
     for each in _prefixes(tree):
         yield Fact("setting", "", "launch-prefix", "given", source, _span(source, each))
-    for call in (n for n in ast.walk(tree) if isinstance(n, ast.Call)):
-        given = {k.arg: k.value for k in call.keywords if k.arg is not None}
+    for call in (n for n in values.walk(tree) if isinstance(n, ast.Call)):
+        given = values.keywords(call)
         if called(call) == "GroupAction" and "condition" in given:
             value = ast.unparse(given["condition"])
             yield Fact("group of nodes", "", value, "there", source, _span(source, call))
         yield from _around(source, call)
         if called(call) not in _ACTIONS:
             continue
-        name = given.get("name")
-        if isinstance(name, ast.Name):
-            name = names.get(name.id)
-        node = str(name.value) if isinstance(name, ast.Constant) else ""
+        parts = values.words(given["name"]).parts if "name" in given else ()
+        node = "".join(p if isinstance(p, str) else "" for p in parts)
         span = _span(source, call)
         for key in _KEYWORDS:
-            value = _said(given[key], names) if key in given else "not given"
-            if key in given and _is_idle(key, _default(given[key], names, defaults), names):
+            value = _said(given[key], values) if key in given else "not given"
+            if key in given and _is_idle(key, _default(given[key], values, defaults), values):
                 value = "not given"
             yield Fact("node", node, key, value, source, span)
-        files = _files(given.get("parameters"), names)
+        files = _files(given["parameters"], values) if "parameters" in given else ()
         told = " and ".join(files) or "none"
         yield Fact("node", node, "parameter file", told, source, span)
 
@@ -122,21 +121,19 @@ def _prefixes(tree: ast.Module) -> Iterator[ast.expr]:
             yield from (each for each in given if not isinstance(each, ast.Constant))
 
 
-def _defaults(tree: ast.Module) -> Iterator[tuple[str, ast.expr]]:
+def _defaults(tree: ast.Module, values: PythonValues) -> Iterator[tuple[str, ast.expr]]:
     """The arguments that a launch file takes, each with its default."""
-    for call in (n for n in ast.walk(tree) if isinstance(n, ast.Call)):
-        given = {k.arg: k.value for k in call.keywords if k.arg is not None}
+    for call in (n for n in values.walk(tree) if isinstance(n, ast.Call)):
+        given = values.keywords(call)
         name = call.args[0] if call.args else given.get("name")
         is_declared = called(call) == "DeclareLaunchArgument" and "default_value" in given
         if is_declared and isinstance(name, ast.Constant):
             yield str(name.value), given["default_value"]
 
 
-def _default(
-    value: ast.expr, names: Mapping[str, ast.expr], defaults: Mapping[str, ast.expr]
-) -> ast.expr:
+def _default(value: ast.expr, values: PythonValues, defaults: Mapping[str, ast.expr]) -> ast.expr:
     """What a node is given if nobody says an argument: the default of that, or the value itself."""
-    found = _resolved(value, names)
+    found = values.resolved(value)
     if isinstance(found, ast.Call) and called(found) == "LaunchConfiguration" and found.args:
         name = found.args[0]
         if isinstance(name, ast.Constant) and len(found.args) == 1 and not found.keywords:
@@ -144,24 +141,24 @@ def _default(
     return value
 
 
-def _is_idle(key: str, value: ast.expr, names: Mapping[str, ast.expr]) -> bool:
+def _is_idle(key: str, value: ast.expr, values: PythonValues) -> bool:
     """Whether what a node is given changes nothing of what it does."""
     match key:
         case "arguments":
             return _only_logs(value)
         case "additional_env":
-            found = _resolved(value, names)
+            found = values.resolved(value)
             keys = found.keys if isinstance(found, ast.Dict) else [None]
             told = [key.value for key in keys if isinstance(key, ast.Constant)]
             return len(told) == len(keys) and all(str(t).startswith(SHOWN) for t in told)
         case "prefix":
-            found = _resolved(value, names)
+            found = values.resolved(value)
             parts = found.elts if isinstance(found, ast.List | ast.Tuple) else [found]
             texts = [p.value for p in parts if isinstance(p, ast.Constant)]
             said = [text for text in texts if isinstance(text, str)]
             return len(said) == len(parts) and is_harmless("".join(said))
         case "respawn":
-            found = _resolved(value, names)
+            found = values.resolved(value)
             return isinstance(found, ast.Constant) and found.value in (False, "false")
         case _:
             return False
@@ -185,9 +182,9 @@ def _is_text(node: ast.expr, text: str) -> bool:
     return isinstance(node, ast.Constant) and node.value == text
 
 
-def _said(value: ast.expr, names: Mapping[str, ast.expr]) -> str:
+def _said(value: ast.expr, values: PythonValues) -> str:
     """What a node is given, but for the least severity that it logs."""
-    found = _resolved(value, names)
+    found = values.resolved(value)
     if not isinstance(found, ast.List | ast.Tuple):
         return ast.unparse(value)
     said = [ast.unparse(each) for each in found.elts]
@@ -195,22 +192,15 @@ def _said(value: ast.expr, names: Mapping[str, ast.expr]) -> str:
     return ", ".join(said[:level] + said[level + 2 :])
 
 
-def _files(value: ast.expr | None, names: Mapping[str, ast.expr]) -> Iterable[str]:
+def _files(value: ast.expr, values: PythonValues) -> Iterable[str]:
     """The names of the files that parameters come from."""
-    listed = _resolved(value, names)
+    listed = values.resolved(value)
     for item in listed.elts if isinstance(listed, ast.List | ast.Tuple) else []:
-        source = _resolved(item, names)
-        if source is not None and not isinstance(source, ast.Dict):
+        source = values.resolved(item)
+        if not isinstance(source, ast.Dict):
             texts = [n for n in ast.walk(source) if isinstance(n, ast.Constant)]
             last = max(texts, key=lambda n: (n.lineno, n.col_offset), default=None)
             yield Path(str(last.value)).name if last is not None else ast.unparse(source)
-
-
-def _resolved(value: ast.expr | None, names: Mapping[str, ast.expr]) -> ast.expr | None:
-    for _ in names:
-        if isinstance(value, ast.Name):
-            value = names.get(value.id, value)
-    return value
 
 
 def _span(source: Source, node: ast.expr) -> Span:

@@ -25,9 +25,8 @@ from rebsync.source import NOWHERE, Source, Span
 
 _PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 
-_ENTRY = re.compile(r"^([ \t]*)(\w+):[ \t]*([^\n#]*?)[ \t]*(?:#.*)?$", re.MULTILINE)
-# A section of parameters in ROS 2 that is not for all nodes.
-_ONE_NODE = re.compile(r"^(?!/\*\*:)([^\s#][^\n]*):[ \t]*\n[ \t]+ros__parameters:", re.MULTILINE)
+_ALL_NODES = "/**/"  # under what ROS 2 has the parameters that all nodes are given
+_ANCHOR = re.compile(r"&\S+\s+")
 _WHOLE, _FRACTION = "a whole number", "a fraction"
 _TYPES = {
     _WHOLE: re.compile(r"[+-]?(?:0x[\da-fA-F]+|\d[\d_]*)"),
@@ -74,26 +73,19 @@ def facts_of_parameters(source: Source) -> Iterator[Fact]:
     for unknown in read.unknowns:
         if unknown.what == YAML:
             yield Fact(UNKNOWN, "", unknown.what, unknown.why, source, unknown.span)
-    section = ""
-    for m in _ONE_NODE.finditer(source.text):
-        yield Fact(
-            "parameters", "", m[1].strip("\"'"), "given for it alone", source, Span(*m.span(1))
-        )
-    for m in _ENTRY.finditer(source.text):
-        if m[3].startswith("{"):
-            section = m[2]
-            for each in (e for e in read.entries if m.start(3) < e.span.start < m.end(3)):
-                _, above, name = f"/{each.name}".rsplit("/", 2)
-                value = source.text[each.span.start : each.span.end]
-                if above == section:
-                    yield from _parameter(section, name, value, source, each.span)
-            continue
-        if m[3] and not m[1]:
-            yield Fact(CONSTANT, "", m[2], _type_of(m[3]), source, Span(*m.span(2)))
-        if not m[1] or not m[3]:
-            section = m[2]
+    alone = set[str]()
+    for given in (*read.replaced, *read.entries):
+        node, is_ros2, path = given.name.rpartition("ros__parameters/")
+        if is_ros2 and node != _ALL_NODES and node not in alone:
+            alone.add(node)
+            yield Fact("parameters", "", node[:-1], "given for it alone", source, given.span)
+        name = path.replace(".", "/") if is_ros2 else path
+        section, _, last = name.rpartition("/")
+        value = _ANCHOR.sub("", source.text[given.span.start : given.span.end])
+        if not section:
+            yield Fact(CONSTANT, "", last, _type_of(value), source, given.span)
         else:
-            yield from _parameter(section, m[2], m[3], source, Span(*m.span(2)))
+            yield from _parameter(section.rpartition("/")[2], last, value, source, given.span)
 
 
 def _parameter(section: str, name: str, value: str, source: Source, at: Span) -> Iterator[Fact]:
