@@ -267,6 +267,9 @@ def _in_order(body: s.Body) -> Iterator[s.Statement]:
         match node:
             case s.Block(inner) | s.Try(inner, ()):
                 yield from _in_order(inner)
+            case s.Unsequenced(parts):
+                for part in parts:
+                    yield from _in_order(part)
             case _:
                 yield node
 

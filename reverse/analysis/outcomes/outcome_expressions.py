@@ -170,7 +170,7 @@ class OutcomeExpressions:
                 is_written = isinstance(right, e.Literal)
                 if not self._is_bounded(right, facts) or (is_written and not is_finite(value)):
                     self.notes.fails(value, "is too great")
-                is_root = self.types.floats.has(right) and not _is_whole(right)
+                is_root = self.types.is_float(right) and not _is_whole(right)
                 if is_root and not self.is_positive(left, facts):
                     self.notes.fails(value, "may be a complex number")
             case e.Binary(Operator.IN | Operator.NOT_IN, left, right):

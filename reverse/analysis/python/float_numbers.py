@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.analysis.python.inferred_types import InferredTypes
 from rebsync.reverse.analysis.python.value_types import MessageType
 from rebsync.reverse.analysis.stores import (
     AnyValue,
     CallResult,
     ElementOf,
+    Key,
     PartOf,
     Source,
     key_of,
@@ -36,17 +38,17 @@ _OF_FLOATS = frozenset(
 
 
 class FloatNumbers:
-    """The values of one function."""
+    """The values of one program."""
 
-    def __init__(self, notes: ProblemNotes) -> None:
-        self._stores = notes.origins.graph.stores
-        self._name = notes.function.name
-        self._types = notes.counts.rules.types
-        self._fields = notes.table.fields
+    def __init__(self, origins: Origins, types: InferredTypes) -> None:
+        self._stores = origins.graph.stores
+        self._types = types
+        self._fields = origins.table.fields
+        self._made: dict[Key, bool] = {}  # which names are of containers of floats
 
-    def has(self, value: e.Expression) -> bool:
-        """Whether a number is a float, or one is stored under its name."""
-        return self._is_float((self._name, value), 0)
+    def has(self, value: e.Expression, function: str) -> bool:
+        """Whether a number of a function is a float, or one is stored under its name."""
+        return self._is_float((function, value), 0)
 
     def _is_float_field(self, of: e.Expression, name: str, function: str) -> bool:
         """Whether a field of a message is a float."""
@@ -118,8 +120,11 @@ class FloatNumbers:
                 return True
             case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():
                 key = key_of(value, function)
-                stored = self._stores.sources(key) if key is not None and depth < _DEEPEST else ()
-                return any(self._is_made_of_floats(each, depth + 1) for each in stored)
+                if key is not None and key not in self._made:
+                    self._made[key] = False  # of itself it is made of no others
+                    stored = self._stores.sources(key)
+                    self._made[key] = any(self._is_made_of_floats(each, 1) for each in stored)
+                return key is not None and self._made[key]
             case _:
                 return False
         parts = [(function, each) for each in inside]
