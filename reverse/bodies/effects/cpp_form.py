@@ -11,7 +11,13 @@ from tree_sitter import Node
 from rebsync.reverse.analysis.outcomes.held_locks import HeldLocks
 from rebsync.reverse.analysis.outcomes.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes.outcomes import RECURSES, OutcomeAnalysis
-from rebsync.reverse.analysis.problems import NO_RESULT, NOTHING_THERE, UNSAID, Problem
+from rebsync.reverse.analysis.problems import (
+    NO_RESULT,
+    NOTHING_THERE,
+    SHIFTS_TOO_FAR,
+    UNSAID,
+    Problem,
+)
 from rebsync.reverse.analysis.unread_code import UnreadCode
 from rebsync.reverse.bodies.effects.cpp_form_places import FormPlaces
 from rebsync.reverse.bodies.effects.cpp_known_objects import KnownObjects
@@ -45,7 +51,7 @@ _INHERITED = re.compile(rb"\busing\s[^;=]*::\s*\w+\s*;")
 _ALIAS = re.compile(rb"\busing\s+(\w+)\s*=([^;]*);|\btypedef\b([^;]*?)(\w+)\s*;")
 _WORD = re.compile(rb"\w+")
 _ACTING = ("call_expression", "assignment_expression", "update_expression", "new_expression")
-_UNSEEN = UNSAID | {NOTHING_THERE, NO_RESULT}
+_UNSEEN = UNSAID | {NOTHING_THERE, NO_RESULT, SHIFTS_TOO_FAR}
 _UNKNOWN = "what this locks is not known"
 # Headers of messages of ROS 1, which are named as these are.
 _MESSAGE = re.compile(rb"#\s*include\s*[<\"](\w+)/([A-Z]\w*)\.h[>\"]")
