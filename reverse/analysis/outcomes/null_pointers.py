@@ -330,8 +330,9 @@ def _bare(value: e.Expression) -> e.Expression:
 
 
 def _may_be_null(type_: t.Type) -> bool:
-    is_reference = isinstance(type_, t.Reference)
-    return is_reference and (type_.may_be_null or bool(type_.ownership.value))
+    if not isinstance(type_, t.Reference):
+        return False
+    return type_.may_be_null or bool(type_.ownership.value)
 
 
 def _type_of(value: e.Expression | None) -> t.Type:

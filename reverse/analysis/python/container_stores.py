@@ -84,8 +84,7 @@ class ContainerStores:
         self._depth = depth
 
     @cached_property
-    def puts(self) -> list[Put]:
-        """All that the program puts into containers."""
+    def _puts(self) -> list[Put]:
         program = self._program
         return [
             put
@@ -97,7 +96,7 @@ class ContainerStores:
     def contents(self, before: ValueTypes) -> ValueTypes:
         """What is put into containers, each time as one of its site, with what was known before."""
         found = {type_.sites: type_ for type_ in before if isinstance(type_, ContainerType)}
-        for number, put in enumerate(self.puts):
+        for number, put in enumerate(self._puts):
             into = set[tuple[object, OwnType]]()
             for type_ in self._types.of(put.container, put.function):
                 if type_ is None:
