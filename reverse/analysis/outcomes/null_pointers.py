@@ -60,8 +60,8 @@ class NullPointers:
 
     def may_be(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a pointer, or what is handed over by its address, may lead to nothing."""
-        is_address = isinstance(value, e.AddressOf)
-        return self._may_be(value.target if is_address else value, self._name, facts, 0)
+        value = value.target if isinstance(value, e.AddressOf) else value
+        return self._may_be(value, self._name, facts, 0)
 
     def given(self, value: e.Expression, facts: Facts) -> ParameterNeed | None:
         """That it is up to those who call the function whether a pointer leads to something."""
