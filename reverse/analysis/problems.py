@@ -19,6 +19,7 @@ BEYOND_TIMES = "this may be no time, or compare times of other clocks: then it t
 ODD_PARAMETER = "this parameter may be of another type, or be declared already: then it throws"
 NOTHING_THERE = "what this looks at may not be there, and the node may end"
 NO_RESULT = "this may come to the end without a result, and the node may end"
+SHIFTS_TOO_FAR = "this shifts by more than there are bits, and may do anything"
 ODD_FORMAT = "this takes a value for a text, or lacks one, and may crash"
 UNSAID = frozenset({BEYOND_TIMES, ODD_PARAMETER})  # what models say nothing of
 

@@ -38,7 +38,12 @@ def check(reader: CppStatementReader, node: Node) -> None:
 
 
 def _indexes_model(reader: CppStatementReader, node: Node, place: Span) -> bool:
-    """Whether an element that a statement names is one that the model has, or of its arrays."""
+    """Whether an element that a statement names is one that the model has, or of its arrays.
+
+    Locals that nothing needs are not in a model, nor is what they are computed of.
+    """
+    if node.type == "declaration":
+        return False
     indexed = [n for n in inside(node, "subscript_expression") if reader.cpp.span(n) == place]
     arrays = (resolve(reader.scope, part(n, "argument")) for n in indexed)
     is_known = any(resolve(reader.scope, n) is not None for n in indexed)

@@ -42,7 +42,7 @@ def assumed(extracted: Extracted) -> Iterator[str]:
     if any(_PLAIN_CHAR.search(text) for text in texts):
         yield "a char that does not say it has a sign, as on x86"
     if extracted.asking.code.files:
-        yield "no reference or iterator of C++ outlives what it leads to, and no number is too great"
+        yield "no reference of C++ outlives what it leads to, and numbers fit into their types"
     yield from dict.fromkeys(_programs(extracted))
     yield "no callback ends by an exception"
 

@@ -60,8 +60,8 @@ class NullPointers:
 
     def may_be(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a pointer, or what is handed over by its address, may lead to nothing."""
-        is_address = isinstance(value, e.AddressOf)
-        return self._may_be(value.target if is_address else value, self._name, facts, 0)
+        value = value.target if isinstance(value, e.AddressOf) else value
+        return self._may_be(value, self._name, facts, 0)
 
     def given(self, value: e.Expression, facts: Facts) -> ParameterNeed | None:
         """That it is up to those who call the function whether a pointer leads to something."""
@@ -267,6 +267,9 @@ def _in_order(body: s.Body) -> Iterator[s.Statement]:
         match node:
             case s.Block(inner) | s.Try(inner, ()):
                 yield from _in_order(inner)
+            case s.Unsequenced(parts):
+                for part in parts:
+                    yield from _in_order(part)
             case _:
                 yield node
 
@@ -327,8 +330,9 @@ def _bare(value: e.Expression) -> e.Expression:
 
 
 def _may_be_null(type_: t.Type) -> bool:
-    is_reference = isinstance(type_, t.Reference)
-    return is_reference and (type_.may_be_null or bool(type_.ownership.value))
+    if not isinstance(type_, t.Reference):
+        return False
+    return type_.may_be_null or bool(type_.ownership.value)
 
 
 def _type_of(value: e.Expression | None) -> t.Type:

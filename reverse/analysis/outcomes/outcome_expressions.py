@@ -23,7 +23,7 @@ from rebsync.reverse.analysis.origins import AnyOrigin, ClassOrigin, LibraryOrig
 from rebsync.reverse.analysis.outcomes.element_bounds import ElementBounds
 from rebsync.reverse.analysis.outcomes.library_operators import LibraryOperators
 from rebsync.reverse.analysis.outcomes.undefined_lookups import UndefinedLookups
-from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
+from rebsync.reverse.analysis.problems import SHIFTS_TOO_FAR, ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.python.none_values import NoneValues
 from rebsync.reverse.analysis.python.type_errors import TypeErrors
 from rebsync.reverse.analysis.python.unset_names import UnsetNames
@@ -33,7 +33,7 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.ir.walk import parts
-from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES
+from rebsync.reverse.libraries.outcome_classes import PLAIN_CLASSES, TERMINATES
 from rebsync.reverse.libraries.routines import Language
 
 _DIVIDING = frozenset(
@@ -170,7 +170,7 @@ class OutcomeExpressions:
                 is_written = isinstance(right, e.Literal)
                 if not self._is_bounded(right, facts) or (is_written and not is_finite(value)):
                     self.notes.fails(value, "is too great")
-                is_root = self.types.floats.has(right) and not _is_whole(right)
+                is_root = self.types.is_float(right) and not _is_whole(right)
                 if is_root and not self.is_positive(left, facts):
                     self.notes.fails(value, "may be a complex number")
             case e.Binary(Operator.IN | Operator.NOT_IN, left, right):
@@ -187,7 +187,7 @@ class OutcomeExpressions:
         if isinstance(type_, t.Integer):
             by = self.bounds.range_of(right, facts)
             if by.low < 0 or by.high >= max(type_.bits or 32, 32):
-                self.notes.fails(value, "shifts by more than there are bits")
+                self.notes.problem(value, SHIFTS_TOO_FAR, TERMINATES)
 
     def _is_bounded(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a number is below one that the source has, by how it is computed."""

@@ -263,8 +263,8 @@ class OutcomeWalk:
             case s.Switch(value, cases):
                 self.value(value, facts)
                 inside = self._changed(facts, tuple(s for c in cases for s in c.body))
-                after = [self.body(c.body, inside) for c in cases][-1:]
-                leaves = after != [None] or any(isinstance(n, s.Break) for n in walk(node))
+                ends = [self.body(c.body, inside) for c in cases][-1:]
+                leaves = ends != [None] or any(isinstance(n, s.Break) for n in walk(node))
                 return inside if leaves or not any(c.is_default for c in cases) else None
             case s.Try():
                 return self._try(node, facts)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.numbers.magnitudes import Magnitudes
 from rebsync.reverse.analysis.problems import ProblemNotes
-from rebsync.reverse.analysis.python.float_numbers import FloatNumbers
 from rebsync.reverse.analysis.python.format_strings import (
     conversions,
     conversions_by_name,
@@ -28,10 +27,9 @@ _WHOLE = frozenset("xXoc")  # conversions that take no floats
 class FilledTexts:
     """The texts that one function fills in."""
 
-    def __init__(self, notes: ProblemNotes, kinds: OperandKinds, floats: FloatNumbers) -> None:
+    def __init__(self, notes: ProblemNotes, kinds: OperandKinds) -> None:
         self._notes = notes
         self._kinds = kinds
-        self._floats = floats
 
     def refuse(self, text: str, value: e.Expression, facts: Facts) -> bool:
         """Whether `%` may not put values into a text: too many, too few, or of another type."""
@@ -51,9 +49,10 @@ class FilledTexts:
             tuples = [t for t in self._kinds.types(value, facts) if own_type(t) is OwnType.TUPLE]
             found = any(self._puts_parts(text, each) for each in tuples)
             found |= kinds != {OwnType.TUPLE} and refuses(text, [kinds - {OwnType.TUPLE}])
-        is_float = any(map(self._floats.has, numbers_of(text, values, _WHOLE)))
+        floats, name = self._notes.counts.rules.floats, self._notes.function.name
+        is_float = any(floats.has(v, name) for v in numbers_of(text, values, _WHOLE))
         is_object = any(self._kinds.is_object(v, facts) for v in numbers_of(text, values))
-        numbers = Magnitudes(self._notes.origins, self._notes.function.name)
+        numbers = Magnitudes(self._notes.origins, name)
         is_finite = all(map(numbers.is_finite, numbers_of(text, values, _DECIMAL)))
         return found or is_float or is_object or not is_finite
 

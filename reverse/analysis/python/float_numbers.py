@@ -2,18 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
-from rebsync.reverse.analysis.problems import ProblemNotes
+from rebsync.reverse.analysis.origins import Origins
+from rebsync.reverse.analysis.python.inferred_types import InferredTypes
 from rebsync.reverse.analysis.python.value_types import MessageType
-from rebsync.reverse.analysis.stores import (
-    AnyValue,
-    CallResult,
-    ElementOf,
-    PartOf,
-    Source,
-    key_of,
-)
+from rebsync.reverse.analysis.stores import AnyValue, CallResult, Source, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir.operators import Operator
 from rebsync.reverse.libraries.attributes import FLOAT_METHODS, is_float
@@ -36,17 +28,16 @@ _OF_FLOATS = frozenset(
 
 
 class FloatNumbers:
-    """The values of one function."""
+    """The values of one program."""
 
-    def __init__(self, notes: ProblemNotes) -> None:
-        self._stores = notes.origins.graph.stores
-        self._name = notes.function.name
-        self._types = notes.counts.rules.types
-        self._fields = notes.table.fields
+    def __init__(self, origins: Origins, types: InferredTypes) -> None:
+        self._stores = origins.graph.stores
+        self._types = types
+        self._fields = origins.table.fields
 
-    def has(self, value: e.Expression) -> bool:
-        """Whether a number is a float, or one is stored under its name."""
-        return self._is_float((self._name, value), 0)
+    def has(self, value: e.Expression, function: str) -> bool:
+        """Whether a number of a function is a float, or one is stored under its name."""
+        return self._is_float((function, value), 0)
 
     def _is_float_field(self, of: e.Expression, name: str, function: str) -> bool:
         """Whether a field of a message is a float."""
@@ -75,10 +66,6 @@ class FloatNumbers:
                 return True
             case AnyValue():
                 return False
-            case e.Index(of, index):
-                return not isinstance(index, e.Slice) and self._has_floats((function, of), depth)
-            case ElementOf(of) | PartOf(of):
-                return self._has_floats((function, of), depth)
             case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():
                 key = key_of(value, function)
                 if key is None or depth == _DEEPEST:
@@ -86,41 +73,3 @@ class FloatNumbers:
                 return any(self._is_float(each, depth + 1) for each in self._stores.sources(key))
             case _:
                 return False
-
-    def _has_floats(self, source: Source, depth: int) -> bool:
-        """Whether a float may be among the elements of a container.
-
-        What is put into any container of the program may be put into this one.
-        """
-        return self._puts_floats or self._is_made_of_floats(source, depth)
-
-    @cached_property
-    def _puts_floats(self) -> bool:
-        puts = ((p.function, p.value) for p in self._types.containers.puts if p.value is not None)
-        return any(self._is_float(put, 1) or self._is_made_of_floats(put, 1) for put in puts)
-
-    def _is_made_of_floats(self, source: Source, depth: int) -> bool:
-        function, value = source
-        match value:
-            case e.Build(_, elements):
-                inside = [p.operand if isinstance(p, e.Spread) else p for p in elements]
-            case e.BuildMapping(_, entries):
-                inside = [p.operand if isinstance(p, e.Spread) else p[1] for p in entries]
-            case e.Binary(Operator.ADD | Operator.MULTIPLY, left, right):
-                inside = [left, right]
-            case CallResult(call):
-                inside = [a.value for a in call.arguments]
-            case e.Index(of) | ElementOf(of) | PartOf(of) | e.Copy(of):
-                return self._is_made_of_floats((function, of), depth)
-            case e.LibraryReference(name):  # that `map` calls
-                return name in _OF_FLOATS
-            case e.Attribute(of, name) if self._is_float_field(of, name, function):
-                return True
-            case e.Local() | e.Temporary() | e.Captured() | e.Global() | e.Attribute():
-                key = key_of(value, function)
-                stored = self._stores.sources(key) if key is not None and depth < _DEEPEST else ()
-                return any(self._is_made_of_floats(each, depth + 1) for each in stored)
-            case _:
-                return False
-        parts = [(function, each) for each in inside]
-        return any(self._is_float(p, depth) or self._is_made_of_floats(p, depth) for p in parts)

@@ -103,7 +103,7 @@ class InferredTypes:
         self._graph = origins.graph
         self._arguments = arguments
         own = proxy(self)  # they are parts of this: no circle keeps the trees of a program
-        self.containers = ContainerStores(origins.graph.program, own, _DEEPEST)
+        self._containers = ContainerStores(origins.graph.program, own, _DEEPEST)
         self.attributes = AttributeTypes(origins, own)
         self._calls = GivenTypes(origins, own, self.attributes, arguments)
         self._rounds = Rounds[Node, ValueTypes](self._found, NO_TYPES)
@@ -191,7 +191,7 @@ class InferredTypes:
 
     def with_puts(self, key: Key, types: ValueTypes) -> ValueTypes:
         """The types of what is stored under a name, with what is put into that under any."""
-        return self.containers.filled(key, types)
+        return self._containers.filled(key, types)
 
     def contents(self) -> ValueTypes:
         """What is put into containers, each time as one of its site."""
@@ -203,7 +203,7 @@ class InferredTypes:
         """The types of what is stored under a name, or a function gives, of a bounded depth."""
         match node:
             case _Contents():
-                return self.containers.contents(before)
+                return self._containers.contents(before)
             case str():
                 found = self._result(node)
             case OwnMember(owner, name):

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from rebsync.reverse.analysis.facts import Facts
 from rebsync.reverse.analysis.held_values import held_by
-from rebsync.reverse.analysis.python.float_numbers import FloatNumbers
 from rebsync.reverse.analysis.python.operator_types import (
     ITERABLE,
     SEQUENCES,
@@ -84,7 +83,6 @@ class LibraryArguments:
         self._kinds = expressions.types.kinds
         self._objects = expressions.notes.counts.rules.objects
         self._has_hash = expressions.notes.counts.rules.decorators.has_hash
-        self._floats = FloatNumbers(expressions.notes)
         self._copying: set[str] = set()
 
     def check(self, node: s.Call, facts: Facts) -> None:
@@ -182,7 +180,7 @@ class LibraryArguments:
                 return is_written(types, is_sorted=kind == "orderly")
             case "shallow" | "deep":
                 return is_copied(types, self._is_copied_object, is_deep=kind == "deep")
-            case "whole" | "natural" if self._floats.has(value):
+            case "whole" | "natural" if self._expressions.types.is_float(value):
                 return False
         return all(self._is_type(type_, kind) for type_ in types)
 

@@ -11,6 +11,7 @@ from rebsync.reverse.analysis.python.class_decorators import ClassDecorators
 from rebsync.reverse.analysis.python.construction_order import ConstructionOrder
 from rebsync.reverse.analysis.python.declared_parameters import DeclaredParameters
 from rebsync.reverse.analysis.python.fixed_attributes import FixedAttributes
+from rebsync.reverse.analysis.python.float_numbers import FloatNumbers
 from rebsync.reverse.analysis.python.inferred_types import InferredTypes
 from rebsync.reverse.analysis.python.message_values import MessageValues
 from rebsync.reverse.analysis.python.object_operators import ObjectOperators
@@ -53,6 +54,11 @@ class PythonRules:
     def types(self) -> InferredTypes:
         """Of which types values may be."""
         return InferredTypes(self._origins, self.arguments)
+
+    @cached_property
+    def floats(self) -> FloatNumbers:
+        """Which numbers may be floats."""
+        return FloatNumbers(self._origins, self.types)
 
     @cached_property
     def arguments(self) -> ArgumentTypes:

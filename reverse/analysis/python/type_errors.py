@@ -15,7 +15,6 @@ from rebsync.reverse.analysis.python.attribute_errors import AttributeErrors
 from rebsync.reverse.analysis.python.class_values import are_classes, is_in_class, is_searched
 from rebsync.reverse.analysis.python.element_errors import ElementErrors
 from rebsync.reverse.analysis.python.filled_texts import FilledTexts
-from rebsync.reverse.analysis.python.float_numbers import FloatNumbers
 from rebsync.reverse.analysis.python.format_strings import (
     OF_NUMBERS,
     styles_in,
@@ -67,8 +66,7 @@ class TypeErrors:
         self._attributes = AttributeErrors(notes, self.kinds)
         self._elements = ElementErrors(notes, self.kinds)
         self._messages = MessageErrors(notes, self.kinds)
-        self.floats = FloatNumbers(notes)
-        self._filled = FilledTexts(notes, self.kinds, self.floats)
+        self._filled = FilledTexts(notes, self.kinds)
         self._logs = LogArguments(notes, self.kinds, self._filled)
         self._objects = notes.counts.rules.objects
         self._is_python = notes.table.language is Language.PYTHON
@@ -76,6 +74,10 @@ class TypeErrors:
     def of(self, value: e.Expression, facts: Facts) -> ValueTypes | None:
         """The types that a value may be of; None in other languages."""
         return self.kinds.types(value, facts) if self._is_python else None
+
+    def is_float(self, number: e.Expression) -> bool:
+        """Whether a number may be a float."""
+        return self._notes.counts.rules.floats.has(number, self._notes.function.name)
 
     def caught(self, facts: Facts, target: e.Lvalue | None) -> Facts:
         """What is known where a handler has stored what it catches."""
@@ -98,7 +100,7 @@ class TypeErrors:
             case e.Unary(Operator.NEGATE | Operator.PLUS | Operator.INVERT as operator, of):
                 self._answers(value, of, operator)
                 self._needs(value, of, {NUMBER}, facts)
-                if operator is Operator.INVERT and self.floats.has(of):
+                if operator is Operator.INVERT and self.is_float(of):
                     self._notes.fails(value, _WRONG)
             case e.Index(of, index):
                 self._at(value, of, index, facts)
@@ -288,8 +290,8 @@ class TypeErrors:
             wrong = any(not takes(operator, a, b) for a in kinds[0] for b in kinds[1])
             wrong |= any(self._refuses(operator, a, b) for a in types[0] for b in types[1])
             wrong |= operator in ORDERED and not self._elements.are_comparable(*types)
-            wrong |= operator in _OF_BITS and any(map(self.floats.has, (left, right)))
-            is_times = operator is Operator.MULTIPLY and self.floats.has(right)
+            wrong |= operator in _OF_BITS and any(map(self.is_float, (left, right)))
+            is_times = operator is Operator.MULTIPLY and self.is_float(right)
             wrong |= is_times and bool(kinds[0] - {NUMBER, None})
         if operator is Operator.FLOOR_MODULO and TEXT in kinds[0]:
             texts = self._notes.texts_of(left)
@@ -326,7 +328,7 @@ class TypeErrors:
             return
         if kinds and kinds <= SEQUENCES | {OwnType.QUEUE, OwnType.MODEL_ARRAY}:
             self._needs(value, index, {NUMBER}, facts)
-            if self.floats.has(index):
+            if self.is_float(index):
                 self._notes.fails(value, _WRONG)
         elif kinds == {OwnType.MAPPING}:
             self._elements.is_key(value, index, facts)
@@ -348,7 +350,7 @@ class TypeErrors:
             self._needs(node, value, {TEXT}, facts)
         elif letter in OF_NUMBERS:
             self._needs(node, value, {NUMBER}, facts)
-            if letter in _OF_WHOLE and self.floats.has(value):
+            if letter in _OF_WHOLE and self.is_float(value):
                 self._notes.fails(node, _WRONG)
         else:
             self._needs(node, value, {NUMBER, TEXT}, facts)

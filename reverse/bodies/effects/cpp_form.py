@@ -12,7 +12,13 @@ from rebsync.reverse.analysis.definite_assignment import may_be_unset
 from rebsync.reverse.analysis.outcomes.held_locks import UNKNOWN_LOCK, HeldLocks
 from rebsync.reverse.analysis.outcomes.loop_endings import ProgramLoops
 from rebsync.reverse.analysis.outcomes.outcomes import RECURSES, OutcomeAnalysis
-from rebsync.reverse.analysis.problems import NO_RESULT, NOTHING_THERE, UNSAID, Problem
+from rebsync.reverse.analysis.problems import (
+    NO_RESULT,
+    NOTHING_THERE,
+    SHIFTS_TOO_FAR,
+    UNSAID,
+    Problem,
+)
 from rebsync.reverse.analysis.unread_code import UnreadCode
 from rebsync.reverse.bodies.effects.cpp_form_places import FormPlaces
 from rebsync.reverse.bodies.effects.cpp_known_objects import KnownObjects
@@ -34,7 +40,7 @@ from rebsync.source import NOWHERE, Span
 # Words without which nothing locks, or waits for who does.
 _LOCKS = re.compile(rb"(?<![cCbB])lock|\bsem_\w*wait")
 _ACTING = ("call_expression", "assignment_expression", "update_expression", "new_expression")
-_UNSEEN = UNSAID | {NOTHING_THERE, NO_RESULT}
+_UNSEEN = UNSAID | {NOTHING_THERE, NO_RESULT, SHIFTS_TOO_FAR}
 # Headers of messages of ROS 1, which are named as these are.
 _MESSAGE = re.compile(rb"#\s*include\s*[<\"](\w+)/([A-Z]\w*)\.h[>\"]")
 

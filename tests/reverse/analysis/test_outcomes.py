@@ -28,6 +28,10 @@ else:
 
 _HERE = Path(__file__).parent / "outcomes"
 _GOT = (-1000, -7, -1, 0, 1, 2, 3, 10, 20, 100)  # what sensors get
+# Where an index is within bounds, or a key there, for a reason that no analysis here has.
+_NOT_SHOWN = frozenset(
+    (name, "cpp") for name in ("map_tested", "counted_loop", "median_of_deque", "ring_buffer")
+)
 _DEFINED = re.compile(r"#define (\w+)")
 
 
@@ -47,13 +51,13 @@ def _problems(key: str, text: str) -> list[str]:
         program = python_program(PyCode.of([parse_python(Source("sensors.py", text))]))
         table = LibraryOutcomes(Language.PYTHON)
         found = OutcomeAnalysis(program, table, lambda _: False).of("sensors.py:seen_S11")
-    # What C++ leaves undefined is asked of generated code alone: `edits/undefined.toml`.
-    return sorted(p.why for p in found if p.why != NOTHING_THERE)
+    return sorted(p.why for p in found)
 
 
 @pytest.mark.parametrize(("name", "key", "text"), _cases("harmless.toml"))
 def test_harmless_functions_are_known(name: str, key: str, text: str) -> None:
-    assert _problems(key, text) == []
+    known = [NOTHING_THERE] if (name, key) in _NOT_SHOWN else []
+    assert _problems(key, text) == known
 
 
 @pytest.mark.parametrize(("name", "key", "text"), _cases("harmful.toml"))
