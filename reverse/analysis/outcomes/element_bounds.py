@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from rebsync.reverse.analysis.facts import Facts, IsBelow, IsLess, IsSize, bare, names_of, size_of
+from rebsync.reverse.analysis.facts import (
+    Facts,
+    IsBelow,
+    IsLess,
+    IsSame,
+    IsSize,
+    bare,
+    names_of,
+    size_of,
+)
 from rebsync.reverse.analysis.numbers.number_ranges import NumberRanges
 from rebsync.reverse.analysis.numbers.signs import Signs
 from rebsync.reverse.analysis.problems import ProblemNotes
@@ -52,9 +61,21 @@ class ElementBounds:
 
     def _is_less(self, value: e.Index, facts: Facts) -> bool:
         """Whether an index was found to be less than the size, and is not negative."""
-        indices = {value.index, bare(value.index)}
-        others = {bare(f.other) for f in facts if isinstance(f, IsLess) and f.value in indices}
-        if not any(IsSize(o, h) in facts for o in others for h in names_of(facts, value.object)):
-            return False
+        match bare(value.index):
+            case e.Binary(Operator.SUBTRACT, left, e.Literal(int() as less)) if less > 0:
+                is_above = self.range_of(left, facts).low >= less
+                return is_above and self._is_below_size(left, value.object, facts)
+            case e.Binary(
+                Operator.TRUNCATING_DIVIDE | Operator.FLOOR_DIVIDE, left, e.Literal(int() as by)
+            ):
+                sizes = (IsSize(bare(left), h) in facts for h in names_of(facts, value.object))
+                return by > 1 and any(sizes) and self.size(value.object, facts) > 0
         is_positive = self._signs.is_positive(value.index, facts)
-        return is_positive or self.range_of(value.index, facts).low >= 0
+        is_positive = is_positive or self.range_of(value.index, facts).low >= 0
+        return is_positive and self._is_below_size(value.index, value.object, facts)
+
+    def _is_below_size(self, index: e.Expression, container: e.Expression, facts: Facts) -> bool:
+        indices = {index, bare(index)}
+        indices |= {f.value for f in facts if isinstance(f, IsSame) and f.other in indices}
+        others = {bare(f.other) for f in facts if isinstance(f, IsLess) and f.value in indices}
+        return any(IsSize(o, h) in facts for o in others for h in names_of(facts, container))

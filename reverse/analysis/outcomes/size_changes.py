@@ -358,7 +358,13 @@ class SizeChanges:
         """Whether a reference that is read may lead to a variable, which is no older than it."""
         if function != self.function or self._is_unshared(stored):
             return False
-        return not all(self.notes.is_parameter(r.reference) for r in referred)
+        return not all(self._is_older_than_locals(r.reference) for r in referred)
+
+    def _is_older_than_locals(self, reference: e.Expression) -> bool:
+        """Whether a reference leads to no variable of the function: a smart pointer owns."""
+        type_ = getattr(reference, "type", None)
+        is_owner = isinstance(type_, t.Reference) and type_.ownership is not t.Ownership.NONE
+        return is_owner or self.notes.is_parameter(reference)
 
     def _is_private(self, container: e.Expression, function: str) -> bool:
         """Whether a container is one that a function made itself, and that has no other name."""

@@ -20,6 +20,8 @@ from rebsync.reverse.ir.operators import Conversion
 from rebsync.source import Span
 
 _PUTTING = frozenset({"push_back", "push_front", "push", "insert", "assign", "resize", "append"})
+# What all fields of messages give alike, whichever message it is.
+_OF_FIELDS: dict[str, t.Type] = {"size": SIZE, "empty": t.Truth()}
 _EMPTYING = frozenset({"pop_back", "pop_front", "pop", "clear", "reserve", "shrink_to_fit"})
 
 
@@ -43,6 +45,9 @@ def library_method(
 
 def _called(context: Context, of: Value, name: str, nodes: Sequence[Node], place: Span) -> Value:
     class_name = _library_base(context, of.type) or library_class(of.type)
+    given = method_result(of.type, name)
+    if class_name is None and name in _OF_FIELDS and _is_field(of.expression):
+        class_name, given = "std::vector", _OF_FIELDS[name]
     if class_name is None:
         arguments = library_arguments(context, nodes, place, is_pure=False)
         method = s.MethodCallee(of.expression, name)
@@ -50,8 +55,14 @@ def _called(context: Context, of: Value, name: str, nodes: Sequence[Node], place
     full = f"{class_name}::{name}"
     arguments = library_arguments(context, nodes, place, is_pure(full))
     callee = s.LibraryCallee(full, of.expression)
-    result = Declared(method_result(of.type, name))
-    return stored_result(context, callee, arguments, result, place)
+    return stored_result(context, callee, arguments, Declared(given), place)
+
+
+def _is_field(value: e.Expression) -> bool:
+    """Whether a value is a field of a message; one that has methods is a container, or a text."""
+    return isinstance(value, e.Attribute) and isinstance(
+        getattr(value.object, "type", None), t.RosMessage
+    )
 
 
 def _library_base(context: Context, type_: t.Type) -> str | None:
