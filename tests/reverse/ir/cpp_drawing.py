@@ -228,7 +228,7 @@ class Drawing:
 _END = """
   note(total); note(i8); note(u8); note(i16); note(u16); note(i); note(u); note(l); note(ul);
   note(p.x); note(p.small); note(q.wide); note(q.small); note(list[0]); note(table[1]); note(s);
-  return r.x + (int)d + base.a;
+  return r.x + (d > 1e9 || d < -1e9 ? 0 : (int)d) + base.a;
 """
 
 
