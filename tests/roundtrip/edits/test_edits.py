@@ -1,6 +1,6 @@
 """Edits by hand in roscpp, rclcpp, rospy, rclpy and mixed packages are what they mean.
 
-Here one in six, or in twelve, is read and judged, and some go through a sync as well;
+Here one in eight, or in sixteen, is read and judged, and some go through a sync as well;
 `python -m tests.roundtrip.edits` does all of it with all of them, in each dialect.
 """
 
@@ -18,8 +18,8 @@ _EVERY = 12  # of how many edits one goes through all steps
 
 
 def drawn_cases(file: str) -> list[Case]:
-    """One in six of the cases of a file, or in twelve of the longest one."""
-    every = 12 if file == "cpp.toml" else 6
+    """One in eight of the cases of a file, or in sixteen of the longest one."""
+    every = 16 if file == "cpp.toml" else 8
     return [case for case in in_one_dialect(file) if drawn("tested", case.name, every) == 0]
 
 
