@@ -27,6 +27,7 @@ SHOWN = ("ROSCONSOLE_", "RCUTILS_", "ROS_LOG_DIR")
 # Programs of ROS by their names, and what they are told to do, that act on what others hear.
 _SPEAKING = frozenset(
     {"pub", "play", "call", "set", "load", "relay", "mux", "throttle", "drop", "transform", "kill"}
+    | {"pkill", "killall"}
 )
 
 Facts: TypeAlias = "dict[tuple[str, str, str], list[Fact]]"

@@ -96,7 +96,7 @@ def _of_file(name: str, source: Source, package: str, beside: tuple[str, ...]) -
         case last if last.endswith(".cfg"):
             return facts_of_setup(source)
         case last if last.endswith(".txt"):
-            return facts_of_build(source)
+            return facts_of_build(source, package)
         case last if last.endswith(".launch.py"):
             return facts_of_python_launch(source, package)
         case last if last.endswith(".launch"):

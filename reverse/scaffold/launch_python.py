@@ -33,7 +33,10 @@ _KEYWORDS = (
 )
 _ACTIONS = frozenset({"ComposableNode", "LifecycleNode", "Node"})
 _PROCESSES = frozenset({"ExecuteProcess", "ExecuteLocal"})
-_SETTING_ENVIRONMENT = frozenset({"SetEnvironmentVariable", "AppendEnvironmentVariable"})
+_ENVIRONMENT = frozenset(
+    {"SetEnvironmentVariable", "AppendEnvironmentVariable", "UnsetEnvironmentVariable"}
+    | {"ResetEnvironment"}
+)
 _CONFIGURING = frozenset({"DeclareLaunchArgument", "SetLaunchConfiguration"})
 
 
@@ -83,7 +86,7 @@ def _actions(source: Source) -> Iterator[Fact]:
         if called(call) == "GroupAction" and "condition" in given:
             value = ast.unparse(given["condition"])
             yield Fact("group of nodes", "", value, "there", source, _span(source, call))
-        yield from _around(source, call)
+        yield from _around(source, call, values)
         if called(call) not in _ACTIONS:
             continue
         parts = values.words(given["name"]).parts if "name" in given else ()
@@ -99,14 +102,16 @@ def _actions(source: Source) -> Iterator[Fact]:
         yield Fact("node", node, "parameter file", told, source, span)
 
 
-def _around(source: Source, call: ast.Call) -> Iterator[Fact]:
+def _around(source: Source, call: ast.Call, values: PythonValues) -> Iterator[Fact]:
     """Commands that act on what the nodes hear, and what is set in their environment."""
     texts = [n.value for n in ast.walk(call) if isinstance(n, ast.Constant)]
     words = [word for text in texts if isinstance(text, str) for word in text.split()]
     if called(call) in _PROCESSES and speaks(words):
         yield Fact("command", "", " ".join(words), "started", source, _span(source, call))
-    if called(call) in _SETTING_ENVIRONMENT:
-        name = words[0] if words else ""
+    if called(call) in _ENVIRONMENT:
+        named = call.args[0] if call.args else values.keywords(call).get("name")
+        parts = values.words(named).parts if named is not None else ()
+        name = parts[0] if parts and isinstance(parts[0], str) else ""
         if not name.startswith(SHOWN):
             yield Fact("environment", "", name, ast.unparse(call), source, _span(source, call))
 
