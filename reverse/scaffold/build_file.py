@@ -106,8 +106,8 @@ def facts_of_build(source: Source, package: str) -> Iterator[Fact]:
         lists.passed(command, condition)
         words = [argument.text for argument in command.arguments]
         found = (
-            *_compiled(command, words),
-            *(() if _only_remembers(words, caches) else _steps(command, words)),
+            *_compiled(command, words, libraries),
+            *(() if _only_remembers(words, caches) else _steps(command, words, condition)),
             *_included(command, words, own),
         )
         made = lists.written_out(command)
@@ -173,12 +173,20 @@ def _names_files(command: str, words: Sequence[str]) -> bool:
     return any(map(_NAMING.fullmatch, _properties(command, words)))
 
 
-def _compiled(command: Command, words: Sequence[str]) -> Iterator[_Told]:
-    """The options of the compiler that change what code means."""
-    for option in _OPTION.findall(" ".join(words)):
-        if _CALM.fullmatch(squeezed(option)):
+def _compiled(
+    command: Command, words: Sequence[str], libraries: Collection[str]
+) -> Iterator[_Told]:
+    """The options of the compiler that change what code means; the nodes' code is in libraries."""
+    text = " ".join(words)
+    is_of_target = command.name.startswith("target_")
+    for found in _OPTION.finditer(text):
+        option, before = squeezed(found[1]), text[: found.start()].split()
+        if _CALM.fullmatch(option):
             continue
-        yield "compiler option", "", squeezed(option), "given", command.span
+        scope = next((word for word in reversed(before) if word in _SCOPES), "")
+        is_whole = not is_of_target or (words[0] in libraries and scope != "INTERFACE")
+        value = "given" if is_whole else f"given to {words[0]} {scope}".rstrip()
+        yield "compiler option", "", option, value, command.span
     defined: Sequence[str] = ()
     match command.name:
         case "add_compile_definitions":
@@ -192,7 +200,7 @@ def _compiled(command: Command, words: Sequence[str]) -> Iterator[_Told]:
         yield "compiler option", "", option, "given", command.span
 
 
-def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
+def _steps(command: Command, words: Sequence[str], condition: str) -> Iterator[_Told]:
     """What may change the files of the package, or what programs are linked to and made of."""
     is_step = command.name in _CHANGING or (command.name == "set" and _LINKING & {*words[:1]})
     match command.name, words:
@@ -210,6 +218,8 @@ def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
             is_step = True
         case "return", _:
             is_step = True
+        case "message", ["FATAL_ERROR" | "SEND_ERROR", *_]:
+            is_step = not condition
         case name, [*options] if name in _LINKS:
             options = options[name.startswith("target") :]
             is_step = not all(o in _ORDERS or _CALM.fullmatch(o) for o in options)

@@ -158,7 +158,8 @@ def facts_of_other_package(source: Source, package: str) -> Iterator[Fact]:
     if isinstance(root, Unknown) or not found:
         return  # what is missing extraction lists
     named = " and ".join(" ".join(each.text.split()) for each in found)
-    told = [tool for e in root.elements() for tool in _build_tools(e)]
+    every = [tool for e in root.elements() for tool in _build_tools(e)]
+    told = [tool for tool in every if tool[1].name == "build_type"] or every
     tools = " and ".join(tool for tool, _ in told) or NOT_GIVEN
     name = "of the nodes" if named == package else "of messages"
     yield Fact("build tool", "", name, tools, source, (told[0][1] if told else found[0]).span)
