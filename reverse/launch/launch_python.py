@@ -38,11 +38,13 @@ _CONTAINERS = frozenset({"ComposableNodeContainer", "LoadComposableNodes"})
 # Actions that start no node and set nothing that a node can tell.
 _SILENT = frozenset(
     {
-        *("LogInfo", "EmitEvent", "Shutdown", "ReadyToTest"),
+        *("LogInfo", "ReadyToTest", "UnregisterEventHandler", "ResetEnvironment"),
         *("SetEnvironmentVariable", "UnsetEnvironmentVariable", "AppendEnvironmentVariable"),
-        *("UnregisterEventHandler", "ResetEnvironment", "UnsetLaunchConfiguration"),
     }
 )
+_ENDING = frozenset({"EmitEvent", "Shutdown"})
+# What these handle comes after the end of a process, of which no model tells.
+_AFTERWARDS = frozenset({"OnProcessExit", "OnShutdown"})
 
 
 def actions_of(source: Source) -> tuple[Action, ...] | Unknown:
@@ -225,7 +227,8 @@ class _File:
             listed = args[0] if args else given.get("actions")
             inner = tuple(self._listed(listed)) if listed is not None else ()
             scoped = given.get("scoped")
-            return [Group(inner, not (isinstance(scoped, ast.Constant) and scoped.value is False))]
+            is_scoped = not (isinstance(scoped, ast.Constant) and scoped.value is False)
+            return [Group((*self._configured(given), *inner), is_scoped)]
         if name == "TimerAction":
             listed = given.get("actions", args[1] if len(args) > 1 else None)
             return list(self._listed(listed)) if listed is not None else []
@@ -233,15 +236,26 @@ class _File:
             return make(self, call, given)
         if name in _SILENT:
             return []
-        if name == "RegisterEventHandler" and not self._has_nodes(call):
+        if name == "RegisterEventHandler" and not self._acts(call):
             return []
-        why = "it is computed when the file runs"
+        why = "it may end what runs" if name in _ENDING else "it is computed when the file runs"
         return [Unlisted(f"the action `{name}`" if name else "an action", self._span(call), why)]
 
-    def _has_nodes(self, call: ast.Call) -> bool:
-        """Whether an action holds one that starts a node that nothing else has."""
-        inner = (n for n in ast.walk(call) if isinstance(n, ast.Call))
-        return any(called(n) in _NODES for n in inner)
+    def _acts(self, call: ast.Call) -> bool:
+        """Whether what a handler of events holds starts a node, or acts on those that run."""
+        inner = {called(n) for n in self._values.walk(call) if isinstance(n, ast.Call)} - {""}
+        is_afterwards = not _AFTERWARDS.isdisjoint(inner)
+        return not _NODES.isdisjoint(inner) or not (is_afterwards or _ACTING.isdisjoint(inner))
+
+    def _configured(self, given: dict[str, ast.expr]) -> Iterator[Action]:
+        """The arguments that the actions of a group have; they may have none but these."""
+        why = "the arguments of the file need not hold in it"
+        configured, forwarding = given.get("launch_configurations"), given.get("forwarding")
+        listed = self._values.arguments(configured)
+        yield from (Let(*pair) for pair in listed or ())
+        for odd in (configured if listed is None else None, forwarding):
+            if odd is not None and not (isinstance(odd, ast.Constant) and odd.value is True):
+                yield Unlisted("a group", self._values.span(odd), why)
 
     def _start(self, call: ast.Call, given: dict[str, ast.expr]) -> NodeAction:
         values = self._values
@@ -338,6 +352,9 @@ _MAKERS: dict[str, _Maker] = {
     "SetParameter": _File.set_parameter,
     "SetParametersFromFile": _File.parameters_from,
     "IncludeLaunchDescription": _File.include,
+}
+_ACTING = _ENDING | {*_MAKERS, "OpaqueFunction", "UnsetLaunchConfiguration"} - {
+    *("ExecuteProcess", "ExecuteLocal", "DeclareLaunchArgument")
 }
 
 

@@ -6,14 +6,17 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from rebsync.reverse.build.cmake_targets import EXECUTABLE, LIBRARY, TARGETLESS
-from rebsync.reverse.build.cmake_text import Argument, Command, CommandBlock, Item, read_cmake
+from rebsync.reverse.build.cmake_text import Command, CommandBlock, Item, read_cmake
 from rebsync.reverse.scaffold.build_lists import ConstantLists
-from rebsync.reverse.scaffold.fact import Fact
+from rebsync.reverse.scaffold.fact import OWN, Fact
+from rebsync.reverse.scaffold.installs import installed
 from rebsync.reverse.scaffold.texts import squeezed
 from rebsync.source import Source, Span
 
+# Options stand alone, in a list, or in a generator expression: `$<$<CONFIG:Debug>:-DX>`.
 _OPTION = re.compile(
-    r"(?:^|[\s\"])((?:-D|-U|-f|-include|-I|-isystem|-iquote|-Wp,|-x(?=\s)|-Ofast)\s*[^\s\"]*)"
+    r"(?:^|[\s\";:])((?:-D|-U|-f|-include|-I|-isystem|-iquote|-Wp,|-x(?=\s)|-Ofast|-specs=|-m(?:16|32|x32)\b"
+    r"|--(?:define-macro|undefine-macro|include)|@(?=[\w./$]))\s*[^\s\";]*)"
 )
 # What finds mistakes, measures, or says where code is laid: what the code means stays.
 _CALM = re.compile(
@@ -28,6 +31,7 @@ _CHANGING = frozenset(
     {"configure_file", "add_custom_command", "link_libraries", "add_link_options"}
     | {"target_precompile_headers", "link_directories", "target_link_directories"}
     | {"target_link_options", "cmake_language", "write_file", "exec_program"}
+    | {"ament_environment_hooks", "catkin_add_env_hooks"}
 )
 _LINKING = frozenset(
     {"CMAKE_EXE_LINKER_FLAGS", "CMAKE_SHARED_LINKER_FLAGS", "CMAKE_CXX_STANDARD_LIBRARIES"}
@@ -38,6 +42,7 @@ _STEERING = re.compile(
     r".*_LAUNCHER|RULE_LAUNCH_\w+|CMAKE_\w+_COMPILE(?:R|_OBJECT)|LANGUAGE|HEADER_FILE_ONLY"
     r"|EXTERNAL_OBJECT|GENERATED|EXCLUDE_FROM_ALL|(?:\w+_)?INCLUDE_DIRECTORIES"
     r"|CMAKE_(?:UNITY_BUILD\w*|PRECOMPILE_HEADERS|LINK_\w+|MODULE_PATH|PREFIX_PATH|FIND_\w+|AUTO\w+)"
+    r"|PROJECT_NAME|CATKIN_\w+_DESTINATION|CMAKE_(?:EXECUTABLE_SUFFIX\w*|INSTALL_PREFIX)"
 )
 # Properties of targets, and variables that these get them from, that change nothing of what is run.
 _CALM_PROPERTY = re.compile(
@@ -52,6 +57,9 @@ _WITH_PROPERTIES = frozenset(
     {"set_target_properties", "set_source_files_properties", "set_directory_properties"}
     | {"set_property"}
 )
+# Options that are set in this way stand in place of those that were given before.
+_REPLACING = frozenset({"COMPILE_OPTIONS"})
+_NAMING = re.compile(r"(?:RUNTIME_)?OUTPUT_NAME(?:_\w+)?|PREFIX|SUFFIX|\w+_POSTFIX")
 _LAUNCHING = re.compile(r"CMAKE_C(?:XX)?_COMPILER_LAUNCHER|RULE_LAUNCH_COMPILE")
 _CACHES = frozenset({"ccache", "sccache"})
 _SETTING = ("set", "list", "string", "find_", "option", "foreach")
@@ -75,17 +83,18 @@ _SCOPES = frozenset({"PRIVATE", "PUBLIC", "INTERFACE"})
 _ORDERS = _SCOPES | {"AFTER", "BEFORE", "SYSTEM"}
 _DEFINING = "COMPILE_DEFINITIONS"
 _MESSAGES = frozenset({"rosidl_generate_interfaces", "add_message_files"})
-_SCRIPT = re.compile(r"scripts/(\w+)")
 _MESSAGE = re.compile(r"(?:.*/)?(\w+)\.msg")
-_PROGRAMS, _SHARED = "${CATKIN_PACKAGE_BIN_DESTINATION}", "${CATKIN_PACKAGE_SHARE_DESTINATION}"
 
 
-def facts_of_build(source: Source) -> Iterator[Fact]:
-    """The facts of a file; values say under which conditions the commands are."""
+def facts_of_build(source: Source, package: str) -> Iterator[Fact]:
+    """The facts of a file; values say under which conditions the commands are.
+
+    `package` is the name of the package of the nodes.
+    """
     items = read_cmake(source).items
     as_written = list(_commands(items))
     commands = list(_commands(items, ConstantLists(as_written, _sets_what_it_names)))
-    names = dict(filter(None, (_named(command) for command, _ in commands)))
+    names = dict(name for command, _ in commands for name in _named(command))
     adding = (c for c, _ in commands if c.name == "add_library" and c.arguments)
     libraries = frozenset(command.arguments[0].text for command in adding)
     own = {argument.text for command, _ in commands for argument in command.arguments}
@@ -97,12 +106,13 @@ def facts_of_build(source: Source) -> Iterator[Fact]:
         lists.passed(command, condition)
         words = [argument.text for argument in command.arguments]
         found = (
-            *_compiled(command, words),
-            *(() if _only_remembers(words, caches) else _steps(command, words)),
+            *_compiled(command, words, libraries),
+            *(() if _only_remembers(words, caches) else _steps(command, words, condition)),
             *_included(command, words, own),
         )
         made = lists.written_out(command)
-        for fact in (*found, *_made(made, names, project), *_joined(made, names, libraries)):
+        built = (*_made(made, names, project, package), *_joined(made, names, libraries))
+        for fact in (*found, *built):
             kind, owner, name, value, span = fact
             yield Fact(kind, owner, name, f"{value}{condition}", source, span)
 
@@ -152,20 +162,31 @@ def _sets_what_it_names(name: str) -> bool:
     return is_block or name in _COMMANDS or _OTHERS.fullmatch(name) is not None
 
 
-def _named(command: Command) -> tuple[str, str] | None:
-    """A target and the name that its program gets."""
+def _named(command: Command) -> Iterator[tuple[str, str]]:
+    """The targets, each with the name that its program gets."""
     words = [argument.text for argument in command.arguments]
-    if command.name != "set_target_properties" or "OUTPUT_NAME" not in words[:-1]:
-        return None
-    return words[0], words[words.index("OUTPUT_NAME") + 1]
+    if command.name == "set_target_properties" and "OUTPUT_NAME" in words[:-1]:
+        yield words[0], words[words.index("OUTPUT_NAME") + 1]
 
 
-def _compiled(command: Command, words: Sequence[str]) -> Iterator[_Told]:
-    """The options of the compiler that change what code means."""
-    for option in _OPTION.findall(" ".join(words)):
-        if _CALM.fullmatch(squeezed(option)):
+def _names_files(command: str, words: Sequence[str]) -> bool:
+    return any(map(_NAMING.fullmatch, _properties(command, words)))
+
+
+def _compiled(
+    command: Command, words: Sequence[str], libraries: Collection[str]
+) -> Iterator[_Told]:
+    """The options of the compiler that change what code means; the nodes' code is in libraries."""
+    text = " ".join(words)
+    is_of_target = command.name.startswith("target_")
+    for found in _OPTION.finditer(text):
+        option, before = squeezed(found[1]), text[: found.start()].split()
+        if _CALM.fullmatch(option):
             continue
-        yield "compiler option", "", squeezed(option), "given", command.span
+        scope = next((word for word in reversed(before) if word in _SCOPES), "")
+        is_whole = not is_of_target or (words[0] in libraries and scope != "INTERFACE")
+        value = "given" if is_whole else f"given to {words[0]} {scope}".rstrip()
+        yield "compiler option", "", option, value, command.span
     defined: Sequence[str] = ()
     match command.name:
         case "add_compile_definitions":
@@ -179,7 +200,7 @@ def _compiled(command: Command, words: Sequence[str]) -> Iterator[_Told]:
         yield "compiler option", "", option, "given", command.span
 
 
-def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
+def _steps(command: Command, words: Sequence[str], condition: str) -> Iterator[_Told]:
     """What may change the files of the package, or what programs are linked to and made of."""
     is_step = command.name in _CHANGING or (command.name == "set" and _LINKING & {*words[:1]})
     match command.name, words:
@@ -191,8 +212,14 @@ def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
             is_step = "BEFORE" in words
         case "execute_process", _:
             is_step = _COMMAND not in words or not _asks(words)
+        case "add_custom_target", _:
+            is_step = _COMMAND in words
+        case "install", ["CODE" | "SCRIPT", *_]:
+            is_step = True
         case "return", _:
             is_step = True
+        case "message", ["FATAL_ERROR" | "SEND_ERROR", *_]:
+            is_step = not condition
         case name, [*options] if name in _LINKS:
             options = options[name.startswith("target") :]
             is_step = not all(o in _ORDERS or _CALM.fullmatch(o) for o in options)
@@ -203,7 +230,7 @@ def _steps(command: Command, words: Sequence[str]) -> Iterator[_Told]:
             is_step = not all(map(_CALM.fullmatch, said))
         case name, _ if name in _WITH_PROPERTIES:
             is_step = not all(map(_CALM_PROPERTY.fullmatch, _properties(name, words)))
-            is_step = is_step or any(map(_STEERING.fullmatch, words))
+            is_step = is_step or any(map(_STEERING.fullmatch, words)) or _replaces(name, words)
         case name, _ if name.startswith(_SETTING):
             is_step = is_step or any(map(_STEERING.fullmatch, words))
         case _:
@@ -223,6 +250,13 @@ def _properties(command: str, words: Sequence[str]) -> Sequence[str]:
     if command == "set_property":
         return words[words.index("PROPERTY") + 1 :][:1] if "PROPERTY" in words else words
     return words[words.index("PROPERTIES") + 1 :: 2] if "PROPERTIES" in words else words
+
+
+def _replaces(command: str, words: Sequence[str]) -> bool:
+    """Whether options of a target or folder are set in place of those that it has."""
+    of_files = command == "set_source_files_properties" or words[:1] == ["SOURCE"]
+    is_added = not {"APPEND", "APPEND_STRING"}.isdisjoint(words)
+    return not (of_files or is_added) and not _REPLACING.isdisjoint(_properties(command, words))
 
 
 def _found_caches(commands: Iterable[tuple[Command, str]]) -> Iterator[str]:
@@ -266,17 +300,18 @@ def _included(command: Command, words: Sequence[str], own: Collection[str]) -> I
 
 
 def _asks(words: Sequence[str]) -> bool:
-    """Whether the command that is run only tells of the version of the package."""
-    run = words[words.index(_COMMAND) + 1 :]
-    return run[:2] in (["git", "describe"], ["git", "rev-parse"], ["git", "log"])
+    """Whether the commands that are run only tell of the version of the package."""
+    runs = [words[at + 1 : at + 3] for at, word in enumerate(words) if word == _COMMAND]
+    return all(run in (["git", "describe"], ["git", "rev-parse"], ["git", "log"]) for run in runs)
 
 
-def _made(command: Command, names: dict[str, str], project: str) -> Iterator[_Told]:
+def _made(command: Command, names: dict[str, str], project: str, package: str) -> Iterator[_Told]:
     """What is built, and what is installed."""
     span, words = command.span, [argument.text for argument in command.arguments]
     match command.name:
         case "project" if words:
-            yield "project of the build", "", "", "there", span
+            name = words[0].replace(package, OWN) if package else words[0]
+            yield "project of the build", "", "", name, span
         case "add_executable" if words:
             target = names.get(words[0], words[0])
             for path in words[1:]:
@@ -287,12 +322,18 @@ def _made(command: Command, names: dict[str, str], project: str) -> Iterator[_To
                 if "." in path:
                     at = command.arguments[0].span
                     yield "source of a program", words[0], path, "there", at
+        case "set_property" if words[:1] == ["TARGET"] and _names_files(command.name, words):
+            for target in words[1 : words.index("PROPERTY")]:
+                shown = squeezed(" ".join(words))
+                yield "name of a program", names.get(target, target), "", shown, span
         case "set_target_properties" if words:
             target = names.get(words[0], words[0])
             shown = (f'"{w}"' if w == "" else w for w in words[1:])
             yield "name of a program", target, "", squeezed(" ".join(shown)), span
+        case "ament_package" | "catkin_package":
+            yield "project of the build", "", "package", "there", span
         case "install" | "catkin_install_python":
-            yield from _installed(command.arguments, names, project)
+            yield from installed(command.arguments, names, project)
         case "generate_messages":
             yield "code of the messages", "", "", "generated", span
         case "catkin_python_setup":
@@ -314,40 +355,3 @@ def _joined(command: Command, names: dict[str, str], libraries: frozenset[str]) 
     is_linked = command.name == "target_link_libraries" and not libraries.isdisjoint(words[1:])
     if is_program or (is_linked and words[0] not in libraries):
         yield "own code of a program", names.get(words[0], words[0]), "", "there", command.span
-
-
-def _installed(
-    arguments: Sequence[Argument], names: dict[str, str], project: str
-) -> Iterator[_Told]:
-    """The programs and folders that one command installs, where ROS looks for them or elsewhere."""
-    kind, words = "", [argument.text for argument in arguments]
-    for at, argument in enumerate(arguments):
-        text, span = argument.text, argument.span
-        to = _destination(words, at, project)
-        if text.isupper():
-            kind = text
-        elif kind == "TARGETS":
-            place = _place(_PROGRAMS in to or not to, to)
-            yield "installed program", "", names.get(text, text), place, span
-        elif kind == "DIRECTORY" and not text.startswith("include"):  # no node needs headers there
-            inside = f"{_SHARED}/{text.strip('/')}" if text.endswith("/") else _SHARED
-            place = _place(to == [inside], to)
-            yield "installed folder", "", text.strip("/"), place, span
-        elif (script := _SCRIPT.fullmatch(text)) is not None:
-            yield "installed program", "", script[1], _place(to == [_PROGRAMS], to), span
-
-
-def _destination(words: Sequence[str], at: int, project: str) -> list[str]:
-    """The folders that something may be installed in, as ROS calls them."""
-    after = (words[i + 1] for i in range(at, len(words) - 1) if words[i] == "DESTINATION")
-    named = (w.replace("${PROJECT_NAME}", project).rstrip("/") for w in after)
-    known = {f"lib/{project}": _PROGRAMS, f"share/{project}": _SHARED}
-    found = []
-    for word in named:
-        whole = next((n for n in known if word == n or word.startswith(f"{n}/")), "")
-        found.append(f"{known[whole]}{word[len(whole) :]}" if whole else word)
-    return found
-
-
-def _place(is_there: bool, to: Sequence[str]) -> str:
-    return "there" if is_there else f"there in {' '.join(to)}"

@@ -14,6 +14,7 @@ PROGRAM, PLAYED, TYPE, SPACE = "program", "played sensor", "type of a node", "sp
 PYTHON_SETTING = "setting of the packages of Python"
 CONSTANT, CLOCK = "type of the constant", "use_sim_time"
 TOLD, TOLD_TYPE = "state field", "type of the state field"
+PARAMETERS = "config/params.yaml"  # the file of parameters that is generated
 UNKNOWN = "unknown"  # what a file leaves open, with the reason as its value
 NOT_GIVEN, OWN = "not given", "this package"
 # What nodes of other packages are given; and a text of which the files do not tell what it is.
@@ -27,6 +28,7 @@ SHOWN = ("ROSCONSOLE_", "RCUTILS_", "ROS_LOG_DIR")
 # Programs of ROS by their names, and what they are told to do, that act on what others hear.
 _SPEAKING = frozenset(
     {"pub", "play", "call", "set", "load", "relay", "mux", "throttle", "drop", "transform", "kill"}
+    | {"pkill", "killall"}
 )
 
 Facts: TypeAlias = "dict[tuple[str, str, str], list[Fact]]"

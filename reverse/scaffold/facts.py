@@ -17,10 +17,10 @@ from rebsync.reverse.files.python_files import is_python
 from rebsync.reverse.launch.xml_tree import text_below
 from rebsync.reverse.scaffold.build_file import facts_of_build
 from rebsync.reverse.scaffold.cpp import facts_in_cpp
-from rebsync.reverse.scaffold.fact import Fact, Facts
+from rebsync.reverse.scaffold.fact import PARAMETERS, Fact, Facts
 from rebsync.reverse.scaffold.launch_python import facts_of_python_launch
-from rebsync.reverse.scaffold.launch_xml import PARAMETERS, facts_of_launch, facts_of_settings
-from rebsync.reverse.scaffold.others import facts_of_others, is_launch
+from rebsync.reverse.scaffold.launch_xml import facts_of_launch, facts_of_settings
+from rebsync.reverse.scaffold.others import Load, facts_of_others, is_launch
 from rebsync.reverse.scaffold.settings import (
     facts_of_message,
     facts_of_other_package,
@@ -57,11 +57,19 @@ def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
             for fact in _told(name, source, package, _beside(name, paths)):
                 found.setdefault(fact.key, []).append(fact)
             launches += [source] if is_launch(name) else []
-            for fact in facts_of_settings(source, load) if name.endswith(".launch") else ():
+            for fact in _with_others(name, source, package, load):
                 found.setdefault(fact.key, []).append(fact)
     for fact in facts_of_others(launches, load, package):
         found.setdefault(fact.key, []).append(fact)
     return found
+
+
+def _with_others(name: str, source: Source, package: str, load: Load) -> Iterable[Fact]:
+    """The facts of a launch file together with the files that it loads and includes."""
+    if name.endswith(".launch"):
+        return facts_of_settings(source, load)
+    is_python = name.endswith(".launch.py")
+    return facts_of_python_launch(source, package, load) if is_python else ()
 
 
 @lru_cache(maxsize=256)  # most texts are there as they were and as they are, and asked for again
@@ -96,9 +104,9 @@ def _of_file(name: str, source: Source, package: str, beside: tuple[str, ...]) -
         case last if last.endswith(".cfg"):
             return facts_of_setup(source)
         case last if last.endswith(".txt"):
-            return facts_of_build(source)
+            return facts_of_build(source, package)
         case last if last.endswith(".launch.py"):
-            return facts_of_python_launch(source, package)
+            return ()  # what it says depends on other files
         case last if last.endswith(".launch"):
             return facts_of_launch(source, package)
         case _ if is_python(name, source):

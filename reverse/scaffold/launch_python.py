@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
 from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch
@@ -14,6 +14,7 @@ from rebsync.reverse.scaffold.fact import (
     CLOCK,
     NOT_GIVEN,
     OWN,
+    PARAMETERS,
     SHOWN,
     TYPE,
     UNKNOWN,
@@ -26,29 +27,42 @@ from rebsync.reverse.scaffold.prefixes import is_harmless
 from rebsync.reverse.scaffold.texts import is_of_package
 from rebsync.source import Source, Span
 
+Load = Callable[[str], "Source | None"]
+
 # What decides how a node runs, or what it is told beside the model's; `output` only shows.
 _KEYWORDS = (
     *("respawn", "arguments", "ros_arguments", "prefix"),
     *("additional_env", "env", "condition"),
 )
+_READ_ALONE = (".launch.py", PARAMETERS)  # files that have facts of their own
 _ACTIONS = frozenset({"ComposableNode", "LifecycleNode", "Node"})
 _PROCESSES = frozenset({"ExecuteProcess", "ExecuteLocal"})
-_SETTING_ENVIRONMENT = frozenset({"SetEnvironmentVariable", "AppendEnvironmentVariable"})
+_STARTING = (["ros2", "run"], ["ros2", "launch"])
+_ENVIRONMENT = frozenset(
+    {"SetEnvironmentVariable", "AppendEnvironmentVariable", "UnsetEnvironmentVariable"}
+    | {"ResetEnvironment"}
+)
 _CONFIGURING = frozenset({"DeclareLaunchArgument", "SetLaunchConfiguration"})
 
 
-def facts_of_python_launch(source: Source, package: str) -> Iterator[Fact]:
-    """What it starts, and what else it says of that."""
-    launch = read_ros2_launch(source, lambda _: None)
-    others = [node.span for node in launch.nodes if node.package != package]
+def facts_of_python_launch(source: Source, package: str, load: Load) -> Iterator[Fact]:
+    """What it starts, and what else it says of that, with what included files set before.
+
+    Nodes that other files start are facts of these, and so are the values of the parameters.
+    """
+    launch = read_ros2_launch(source, load, package)
+    own = [node for node in launch.nodes if node.source is source]
+    others = [node.span for node in own if node.package != package]
     for unknown in launch.unknowns:
+        if unknown.source is not source and unknown.source.path.endswith(_READ_ALONE):
+            continue
         said, at = source.text[unknown.span.start : unknown.span.end], unknown.span.start
         is_handed = any(span.start <= at < span.end for span in others)
         if is_handed and unknown.what.startswith("the parameter "):
             continue  # what they are handed are facts of their own
         if not is_of_package(said, package):
-            yield Fact(UNKNOWN, "", unknown.what, unknown.why, source, unknown.span)
-    for node in launch.nodes:
+            yield Fact(UNKNOWN, "", unknown.what, unknown.why, unknown.source, unknown.span)
+    for node in own:
         name = str(node.name)
         of = OWN if node.package == package else str(node.package)
         facts = {"pkg": of, "ns": str(node.namespace), "if": " ".join(node.only_if)}
@@ -59,16 +73,16 @@ def facts_of_python_launch(source: Source, package: str) -> Iterator[Fact]:
             yield Fact("remap", name, remap.private, str(remap.target), source, remap.span)
         clocks = [repr(p.value) for p in node.parameters if p.name == CLOCK]
         yield Fact("node", name, CLOCK, (clocks or [NOT_GIVEN])[-1], source, node.span)
-        for given in node.parameters:
+        for given in (p for p in node.parameters if not p.source.path.endswith(PARAMETERS)):
             section = given.name.partition("/")[0]
             is_constant = section == "env"  # whose value is read where parameters are
             kind = "setting" if is_constant or has_bearing(given.name) else "parameter"
             if is_constant or is_of_runtime(section):
                 yield Fact(kind, name, given.name, repr(given.value), source, given.span)
-    yield from _actions(source)
+    yield from _actions(source, package)
 
 
-def _actions(source: Source) -> Iterator[Fact]:
+def _actions(source: Source, package: str) -> Iterator[Fact]:
     """What else a node is given, and its files of parameters."""
     try:
         tree = ast.parse(source.text)
@@ -83,7 +97,7 @@ def _actions(source: Source) -> Iterator[Fact]:
         if called(call) == "GroupAction" and "condition" in given:
             value = ast.unparse(given["condition"])
             yield Fact("group of nodes", "", value, "there", source, _span(source, call))
-        yield from _around(source, call)
+        yield from _around(source, call, values, package)
         if called(call) not in _ACTIONS:
             continue
         parts = values.words(given["name"]).parts if "name" in given else ()
@@ -99,14 +113,19 @@ def _actions(source: Source) -> Iterator[Fact]:
         yield Fact("node", node, "parameter file", told, source, span)
 
 
-def _around(source: Source, call: ast.Call) -> Iterator[Fact]:
+def _around(source: Source, call: ast.Call, values: PythonValues, package: str) -> Iterator[Fact]:
     """Commands that act on what the nodes hear, and what is set in their environment."""
     texts = [n.value for n in ast.walk(call) if isinstance(n, ast.Constant)]
     words = [word for text in texts if isinstance(text, str) for word in text.split()]
-    if called(call) in _PROCESSES and speaks(words):
+    # nodes of `ros2 run` are read where its words stand apart, other launch files are not
+    is_read = words[:2] != ["ros2", "launch"] and words == texts
+    is_own = words[:2] in _STARTING and package in words and not is_read
+    if called(call) in _PROCESSES and (speaks(words) or is_own):
         yield Fact("command", "", " ".join(words), "started", source, _span(source, call))
-    if called(call) in _SETTING_ENVIRONMENT:
-        name = words[0] if words else ""
+    if called(call) in _ENVIRONMENT:
+        named = call.args[0] if call.args else values.keywords(call).get("name")
+        parts = values.words(named).parts if named is not None else ()
+        name = parts[0] if parts and isinstance(parts[0], str) else ""
         if not name.startswith(SHOWN):
             yield Fact("environment", "", name, ast.unparse(call), source, _span(source, call))
 

@@ -15,6 +15,7 @@ from rebsync.reverse.launch.xml_tree import XmlElement, read_xml
 from rebsync.reverse.scaffold.fact import (
     NOT_GIVEN,
     OWN,
+    PARAMETERS,
     SHOWN,
     SPACE,
     TYPE,
@@ -28,7 +29,6 @@ from rebsync.reverse.scaffold.texts import conditions, is_of_package, space, squ
 from rebsync.reverse.unknowns import Unknown
 from rebsync.source import Source
 
-PARAMETERS = "config/params.yaml"
 _ENTRY = re.compile(r"\s*(\w+):\s*(?:-?\d+|true|false)\s*")
 Load = Callable[[str], "Source | None"]
 _ARGUMENT = re.compile(r"\$\(arg\s+(\w+)\s*\)")

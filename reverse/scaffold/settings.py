@@ -10,6 +10,7 @@ from pathlib import Path
 
 from rebsync.reverse.build.messages import read_message
 from rebsync.reverse.launch.parameters import YAML, read_parameters
+from rebsync.reverse.launch.xml_tree import XmlElement, read_xml
 from rebsync.reverse.scaffold.fact import (
     CONSTANT,
     NOT_GIVEN,
@@ -21,9 +22,8 @@ from rebsync.reverse.scaffold.fact import (
     is_of_runtime,
 )
 from rebsync.reverse.scaffold.state_messages import FIELD, facts_of_state_message, is_state_message
+from rebsync.reverse.unknowns import Unknown
 from rebsync.source import NOWHERE, Source, Span
-
-_PACKAGE = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 
 _ALL_NODES = "/**/"  # under what ROS 2 has the parameters that all nodes are given
 _ANCHOR = re.compile(r"&\S+\s+")
@@ -39,11 +39,7 @@ _METRES = "metres"
 _SETTLES, _LEAST, _MOST = "long enough", 0.05, 0.2
 _ROS2 = "ros__parameters:"
 _UNIT = re.compile(r"^[ \t]*time_unit:[ \t]*([\d.]+)[ \t]*(?:#.*)?$", re.MULTILINE)
-_FOLDER = re.compile(r"^(script_dir|install_scripts)[ \t]*=[ \t]*(\S+)", re.MULTILINE)
-_REMARK = re.compile(r"<!--.*?-->", re.DOTALL)
-_BUILT_BY = re.compile(r"<build_type>\s*(\w+)\s*</build_type>")
-_CATKIN = re.compile(r"<buildtool_depend\b[^>]*>\s*(catkin)\s*</buildtool_depend>")
-_LINE = re.compile(r"^(?:\[([^\]\n]*)\].*|(?![#;])(.*\S))$", re.MULTILINE)
+_FOLDERS = frozenset({("develop", "script_dir"), ("install", "install_scripts")})
 _BUILDING = re.compile(
     r"options.*|entry_points|build(?!_scripts).*|install.*|develop|global|easy_install"
 )
@@ -130,35 +126,53 @@ def facts_of_setup(source: Source) -> Iterator[Fact]:
 
     Sections of tools that only look at code say nothing of it.
     """
+    read = configparser.RawConfigParser()
     try:
-        configparser.RawConfigParser().read_string(source.text)
+        read.read_string(source.text)
     except configparser.Error as error:
         why = " ".join(error.message.split())
         yield Fact(UNKNOWN, "", Path(source.path).name, why, source, NOWHERE)
-    for m in _FOLDER.finditer(source.text):
-        yield Fact("folder of programs", "", m[1], m[2], source, Span(*m.span()))
-    section, option = "", ""
-    for m in _LINE.finditer(source.text):
-        section = m[1] or section
-        if _BUILDING.fullmatch(section) and m[2] and not _FOLDER.fullmatch(m[2]):
-            is_inside = m[2][0].isspace()  # it goes on with the value of the option above
-            option = option if is_inside else m[2].partition("=")[0].strip()
-            value = " ".join(m[2].split())
-            name = f"[{section}] {option}"
-            yield Fact(PYTHON_SETTING, "", name, value, source, Span(*m.span()))
+        return
+    for section in (s for s in read.sections() if _BUILDING.fullmatch(s)):
+        for option, given in read.items(section):
+            at, value = _place(source, section, option), " ".join(given.split())
+            name = option.replace("-", "_")  # as distutils takes it
+            if (section, name) in _FOLDERS:
+                yield Fact("folder of programs", "", name, value, source, at)
+            else:
+                yield Fact(PYTHON_SETTING, "", f"[{section}] {name}", value, source, at)
+
+
+def _place(source: Source, section: str, option: str) -> Span:
+    """The line of an option in a section."""
+    start = max(source.text.find(f"[{section}]"), 0)
+    line = re.compile(rf"^{re.escape(option)}[ \t]*[=:].*$", re.MULTILINE | re.IGNORECASE)
+    found = line.search(source.text, start)
+    return Span(*found.span()) if found is not None else NOWHERE
 
 
 def facts_of_other_package(source: Source, package: str) -> Iterator[Fact]:
     """What a package is built by, and its name if it is not that of the nodes, `package`."""
-    found = _PACKAGE.search(source.text)
-    if found is not None:
-        name = "of the nodes" if found[1] == package else "of messages"
-        text = _REMARK.sub(lambda m: " " * len(m[0]), source.text)
-        told = _BUILT_BY.search(text) or _CATKIN.search(text)
-        at = told or found
-        yield Fact(
-            "build tool", "", name, told[1] if told else NOT_GIVEN, source, Span(*at.span(1))
-        )
-    if found is not None and package and found[1] != package:
-        value = found[1].replace(package, OWN)
-        yield Fact("name of the package", "", "messages", value, source, Span(*found.span(1)))
+    root = read_xml(source)
+    found = [] if isinstance(root, Unknown) else [e for e in root.elements() if e.name == "name"]
+    if isinstance(root, Unknown) or not found:
+        return  # what is missing extraction lists
+    named = " and ".join(" ".join(each.text.split()) for each in found)
+    every = [tool for e in root.elements() for tool in _build_tools(e)]
+    told = [tool for tool in every if tool[1].name == "build_type"] or every
+    tools = " and ".join(tool for tool, _ in told) or NOT_GIVEN
+    name = "of the nodes" if named == package else "of messages"
+    yield Fact("build tool", "", name, tools, source, (told[0][1] if told else found[0]).span)
+    if package and named != package:
+        value = named.replace(package, OWN)
+        yield Fact("name of the package", "", "messages", value, source, found[0].span)
+
+
+def _build_tools(element: XmlElement) -> Iterator[tuple[str, XmlElement]]:
+    """What a tag of a package.xml has the package built by, and under which condition."""
+    if element.name == "export":
+        for each in (e for e in element.elements() if e.name == "build_type"):
+            condition = each.get("condition")
+            yield each.text.strip() + (f" if {condition}" if condition else ""), each
+    elif element.name == "buildtool_depend" and element.text.strip() == "catkin":
+        yield "catkin", element

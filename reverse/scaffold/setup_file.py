@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 import posixpath
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from fnmatch import fnmatchcase
 
 from rebsync.records import dataclass
@@ -20,7 +20,8 @@ _ENTRY = re.compile(r"\s*(\w+)\s*=\s*([\w.]+:\w+)\s*\Z")
 _INIT = "/__init__.py"
 _PACKAGE = "{package_name}"  # stands for the name of the package in paths
 _TESTS = frozenset({"test", "tests"})
-_OF_CATKIN = "generate_distutils_setup("
+_OF_CATKIN = "generate_distutils_setup"
+_SCRIPTS = frozenset({"console_scripts", "gui_scripts"})
 _SETUP = frozenset({"setuptools.setup", "distutils.core.setup"})
 # Arguments of `setup` by which other modules, or others in place of them, are installed.
 BUILDING = frozenset(
@@ -40,25 +41,52 @@ class SetupFile:
 
     def facts(self) -> Iterator[Fact]:
         """All of them."""
+        always = list(_always_run(self.tree.body))
         for node in ast.walk(self.tree):
-            match node:
-                case ast.Call(function) if self._full(function) in _SETUP:
-                    yield self._fact(PYTHON_SETTING, "setup", "called", node)
-                case ast.Constant(str(text)) if (entry := _ENTRY.match(text)) is not None:
-                    value = re.sub(rf"^{re.escape(self.package)}\.", "", entry[2])
-                    yield self._fact("installed program", entry[1], value, node)
-                case ast.keyword("data_files", ast.List(listed)):
-                    for each in listed:
-                        for name, text in self._installed(each):
-                            yield self._fact("installed file", name, text, each)
-                case ast.keyword("packages", value):
-                    yield self._fact("Python package", "packages", self._packages(value), value)
-                case ast.keyword(str(name), value) if name in BUILDING:
-                    yield self._fact(PYTHON_SETTING, name, plain(value), value)
-                case ast.keyword(None, value) if not self._is_of_catkin(value):
-                    yield self._fact(PYTHON_SETTING, "**", plain(value), value)
-                case _:
-                    pass
+            full = self._full(node.func) if isinstance(node, ast.Call) else ""
+            if isinstance(node, ast.Call) and (full in _SETUP or full.endswith(_OF_CATKIN)):
+                if full in _SETUP:
+                    value = "called" if node in always else "called at times"
+                    yield self._fact(PYTHON_SETTING, "setup", value, node)
+                for given in node.keywords:
+                    yield from self._given(given)
+
+    def _given(self, given: ast.keyword) -> Iterator[Fact]:
+        """What an argument of `setup` says."""
+        match given:
+            case ast.keyword("entry_points", value):
+                yield from self._programs(value)
+            case ast.keyword("data_files", ast.List(listed)):
+                for each in listed:
+                    for name, text in self._installed(each):
+                        yield self._fact("installed file", name, text, each)
+            case ast.keyword("packages", value):
+                yield self._fact("Python package", "packages", self._packages(value), value)
+            case ast.keyword(str(name), value) if name in BUILDING:
+                yield self._fact(PYTHON_SETTING, name, plain(value), value)
+            case ast.keyword(None, value) if not self._is_of_catkin(value):
+                yield self._fact(PYTHON_SETTING, "**", plain(value), value)
+            case _:
+                pass
+
+    def _programs(self, points: ast.expr) -> Iterator[Fact]:
+        """The programs of `console_scripts`; other entry points no node is started by."""
+        table = self._bound(points)
+        if not isinstance(table, ast.Dict):
+            yield self._fact(PYTHON_SETTING, "entry_points", plain(table), points)
+            return
+        for key, value in zip(table.keys, table.values, strict=True):
+            group = self._text(key) if key is not None else None
+            listed = self._listed(self._bound(value)) if group in _SCRIPTS else []
+            if group is None or listed is None:
+                yield self._fact(PYTHON_SETTING, "entry_points", plain(value), value)
+            for entry in filter(None, map(_ENTRY.match, listed or ())):
+                target = re.sub(rf"^{re.escape(self.package)}\.", "", entry[2])
+                yield self._fact("installed program", entry[1], target, self._place(value, entry))
+
+    def _place(self, listed: ast.expr, entry: re.Match[str]) -> ast.expr:
+        texts = (n for n in ast.walk(listed) if isinstance(n, ast.Constant))
+        return next((n for n in texts if n.value == entry.string), listed)
 
     def _fact(self, kind: str, name: str, value: str, node: ast.AST) -> Fact:
         return Fact(kind, "", name, value, self.source, span_of(self.source, node))
@@ -141,7 +169,12 @@ class SetupFile:
     def _is_of_catkin(self, value: ast.expr) -> bool:
         """Whether all that `setup` gets is what catkin makes of the manifest: as is usual."""
         made = self._value(value.id) if isinstance(value, ast.Name) else value
-        return made is not None and ast.unparse(made).startswith(_OF_CATKIN)
+        return made is not None and ast.unparse(made).startswith(f"{_OF_CATKIN}(")
+
+    def _bound(self, node: ast.expr) -> ast.expr:
+        """What a name that is bound once stands for, or the expression itself."""
+        value = self._value(node.id) if isinstance(node, ast.Name) else None
+        return node if value is None else value
 
     def _constant(self, name: str) -> str | None:
         """The text that a name of the file stands for, if it is bound once."""
@@ -169,8 +202,32 @@ class SetupFile:
     def _full(self, function: ast.expr) -> str:
         """The full name of what is called, by the imports."""
         first, _, rest = ast.unparse(function).partition(".")
-        of = bindings(self.tree).get(first)
+        of = bindings(self.tree).get(first) if first not in _defined(self.tree) else None
         return ".".join(filter(None, (of[0] if of is not None else "", rest)))
+
+
+def _always_run(body: Iterable[ast.stmt]) -> Iterator[ast.expr]:
+    """The expressions that stand alone as statements and run whenever the file is a program."""
+    for statement in body:
+        match statement:
+            case ast.Expr(value):
+                yield value
+            case ast.If(test, inner, []) if ast.unparse(test) == "__name__ == '__main__'":
+                yield from _always_run(inner)
+            case _:
+                pass
+
+
+def _defined(tree: ast.Module) -> Iterator[str]:
+    """The names that functions, classes, and assignments anywhere in a file may bind."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.FunctionDef(name) | ast.AsyncFunctionDef(name) | ast.ClassDef(name):
+                yield name
+            case ast.Name(name, ast.Store() | ast.Del()):
+                yield name
+            case _:
+                pass
 
 
 def _above(folder: str) -> list[str]:

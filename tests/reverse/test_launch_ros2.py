@@ -217,8 +217,8 @@ ONLY_PYTHON = {
         "DeclareLaunchArgument('k', default_value=str(0)),"
         " Node(package='p' + str(), executable='e',"
         " name=f'n{1}', parameters=[{'a': LaunchConfiguration('k')}])",
-        ["? p e {a: 0} []"],
-        ["the name of a node: it is computed when the file runs"],
+        ["/n1 p e {a: 0} []"],
+        [],
     ),
     "an argument that equals": (
         "DeclareLaunchArgument('k', 'x'), Node(package='p', executable='e', name='a', condition="
