@@ -59,18 +59,22 @@ def filled(reader: CppStatementReader, node: Node) -> Sequence[m.Statement] | No
 
 
 def _assigned(reader: CppStatementReader, node: Node) -> Sequence[m.Statement] | None:
-    """`array = {x, y}`, or `std::array<int, 2>{x, y}`, of a state variable of a generated class.
+    """`array = {x, y}`, or `std::array<int, 2>{x, y}`, in a generated class.
 
-    All values are known before an element changes; elements that no value is for are zero.
+    All values are known before an element changes; elements that no value is for are zero. Of
+    `one = other = {x, y}` the other has them first, and then the one what that has.
     """
     target, value = part(node, "left"), part(node, "right")
-    is_made = value.type in ("initializer_list", "compound_literal_expression")
-    is_set = text_of(part(node, "operator")) == "=" and is_made
-    if not is_set or not has_mailbox(reader.scope):
+    type_ = plain_type(reader.expressions, target)
+    if text_of(part(node, "operator")) != "=" or type_ is None or not has_mailbox(reader.scope):
         return None
-    name = text_of(target).removeprefix("this->")
-    member, type_ = reader.scope.members.get(name), plain_type(reader.expressions, target)
-    if type_ is None or member is None or resolve(reader.scope, target) != member:
+    if value.type == "assignment_expression" and (first := _assigned(reader, value)) is not None:
+        other = part(value, "left")
+        if plain_type(reader.expressions, other) != type_:
+            return None
+        copied = m.Assign("=", *(reader.expressions.read(n) for n in (target, other)))
+        return [*first, m.ExpressionStatement(copied, (), reader.cpp.span(node))]
+    if value.type not in ("initializer_list", "compound_literal_expression"):
         return None
     of, zero = m.Type(type_.name), zero_of(m.Type(type_.name))
     is_typed = value.type != "initializer_list"
@@ -78,11 +82,14 @@ def _assigned(reader: CppStatementReader, node: Node) -> Sequence[m.Statement] |
     if zero is None or values is None:
         return None
     array, count = reader.expressions.read(target), type_.dimensions[0]
-    if not values:
+    # A local may be a vector, which has as many elements as it gets.
+    is_member = resolve(reader.scope, target) in reader.scope.members.values()
+    if not values and is_member:
         return [_set(reader, node, array, count, zero)]
     if len(values) == 1 and values[0].type == "initializer_list":
         values = named(values[0])
-    if len(values) > count or any(v.type == "initializer_list" for v in values):
+    is_whole = len(values) == count or (is_member and len(values) < count)
+    if not is_whole or any(v.type == "initializer_list" for v in values):
         return None
     read = [reader.expressions.stored(v, Variable("", of)) for v in values]
     for each, source in zip(read, values, strict=True):

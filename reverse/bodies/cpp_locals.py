@@ -33,7 +33,7 @@ from rebsync.reverse.bodies.effects.touches import Touches
 from rebsync.reverse.bodies.scope import Itself, Meaning, Outside, Record, Variable
 from rebsync.reverse.bodies.types.cpp_conversions import converted_to, type_in
 from rebsync.reverse.bodies.types.cpp_types import Carried
-from rebsync.reverse.bodies.types.cpp_widths import place_of, wide_of
+from rebsync.reverse.bodies.types.cpp_widths import is_only_compared, place_of, wide_of
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import is_calm
 from rebsync.reverse.models.texts import TEXT, is_constant
@@ -237,7 +237,8 @@ def _typed(
             initial = reader.expressions.read(value)
     elif value is not None:
         initial = reader.expressions.stored(value, local)
-    if local.name in reader.scope.overflowing:
+    overflows = local.name in reader.scope.overflowing
+    if overflows and not is_only_compared(declared.node, declared.name):
         span = reader.cpp.span(declared.node)
         reader.findings.assumed(reader.cpp.source, span, kept.why, "", reader.within)
     reader.meaning(declared.name, local, own=True)

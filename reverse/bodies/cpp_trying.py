@@ -10,7 +10,10 @@ from tree_sitter import Node
 from rebsync import model as m
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_unknowns import Unknown
+from rebsync.reverse.bodies.cpp_users import is_logging
 from rebsync.reverse.bodies.effects.cpp_effects import touching
+from rebsync.reverse.bodies.effects.cpp_roots import declared_in
+from rebsync.reverse.bodies.scope import Outside
 from rebsync.reverse.findings import Unread
 from rebsync.reverse.models.building import bare, is_calm
 from rebsync.reverse.syntax.cpp_calls import calls_in
@@ -29,9 +32,14 @@ def tried(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
     """`try`: what is outside may throw; what the model has does not.
 
     So nothing has happened in the model where a handler starts, if all that may throw is first.
+    Handlers that only log, and throw it again, change nothing of what becomes of an exception.
     """
     body, span = part(node, "body"), reader.cpp.span(node)
     handlers = [c for c in named(node) if c.type == "catch_clause"]
+    if handlers and all(map(_goes_on, handlers)):
+        told = (statement for handler in handlers for statement in _logged(reader, handler))
+        yield m.Block((*reader.branch(body).statements, *told), (), span)
+        return
     statements = named(body)
     risky = [touching(reader.cpp, reader.scope, s) is None or _unknown(s) for s in statements]
     last = max((i for i, r in enumerate(risky) if r), default=-1)
@@ -60,6 +68,24 @@ def tried(reader: CppStatementReader, node: Node) -> Iterator[m.Statement]:
     for way in reversed(ways[:-1]):
         chosen = m.If(_TRUTH, way, chosen)
     yield m.If(_TRUTH, inside, chosen, (), span)
+
+
+def _goes_on(handler: Node) -> bool:
+    """Whether a handler only logs what it takes, and throws it again ([except.throw])."""
+    *logs, last = named(part(handler, "body")) or [handler]
+    return last.type == "throw_statement" and not named(last) and all(map(is_logging, logs))
+
+
+def _logged(reader: CppStatementReader, handler: Node) -> list[m.Statement]:
+    """What the model has of the logs of a handler: nothing, or what is listed of them."""
+    outside = reader.scope
+    for each in named(handler.child_by_field_name("parameters") or handler):
+        if (declarator := each.child_by_field_name("declarator")) is not None:
+            for name in declared_in(declarator):
+                reader.meaning(name, Outside())
+    read = list(reader.statements(named(part(handler, "body"))[:-1]))
+    reader.scope = outside
+    return read
 
 
 def _is_literal(indices: Sequence[Node]) -> bool:

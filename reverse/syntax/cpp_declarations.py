@@ -109,10 +109,7 @@ class CppFunction:
     def gives_place(self) -> bool:
         """Whether it returns a reference or a pointer."""
         declarator = self.node.child_by_field_name("declarator")
-        return declarator is not None and declarator.type in (
-            "reference_declarator",
-            "pointer_declarator",
-        )
+        return declarator is not None and declarator.type in REFERRING
 
 
 @dataclass(frozen=True, slots=True)

@@ -184,7 +184,7 @@ class OutcomeExpressions:
     ) -> None:
         """A number has as many bits as it is promoted to; streams are of no such type."""
         type_ = getattr(left, "type", t.UNKNOWN)
-        if isinstance(type_, t.Integer):
+        if isinstance(type_, t.Integer) and not _is_streamed(value):
             by = self.bounds.range_of(right, facts)
             if by.low < 0 or by.high >= max(type_.bits or 32, 32):
                 self.notes.problem(value, SHIFTS_TOO_FAR, TERMINATES)
@@ -380,3 +380,13 @@ def _as_key(value: e.Index) -> e.Expression:
 def _is_typed_mapping(value: e.Expression) -> bool:
     type_ = getattr(value, "type", None)
     return isinstance(type_, t.Container) and type_.kind is t.ContainerKind.MAPPING
+
+
+def _is_streamed(value: e.Expression) -> bool:
+    """Whether a text is in a chain of `<<`, as in what a macro puts behind a stream."""
+    match value:
+        case e.Binary(Operator.SHIFT_LEFT, left, right):
+            texts = t.Text | t.Reference
+            return isinstance(getattr(right, "type", t.UNKNOWN), texts) or _is_streamed(left)
+        case _:
+            return False

@@ -28,8 +28,9 @@ from rebsync.reverse.bodies.types.cpp_ranges import (
     range_of,
 )
 from rebsync.reverse.bodies.types.cpp_types import Carried
-from rebsync.reverse.models.building import binary, is_calm
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.models.building import bare, binary, is_calm
+from rebsync.reverse.syntax.ancestors import climb
+from rebsync.reverse.syntax.cpp_tree import inside, named, operator_of, part, text_of
 from rebsync.static.constants import constant
 from rebsync.static.types import is_floating
 
@@ -83,6 +84,8 @@ def ordered(
 ) -> m.Expression | None:
     """`<` and its like where the wider type has no sign, by the signs of the model's numbers.
 
+    `>= 0` holds of all of them.
+
     None where these compare alike, and where one of 64 bits may be more than an `int` can be.
     """
     if operator not in _ORDERS or not reader.scope.open:
@@ -91,6 +94,9 @@ def ordered(
     if left is None or right is None or max(left.bits, right.bits) not in (32, 64):
         return None
     bits = max(left.bits, right.bits)
+    is_zero = right.values == exactly(0) and isinstance(bare(values[0]), m.Name | m.Member)
+    if is_zero and operator in ("<", ">="):  # no number without a sign is below it
+        return m.BoolLiteral(operator == ">=")
     if any(bits == 64 and not side.fits for side in (left, right)):
         return None
     signs = [side.values.low < 0 or not side.fits for side in (left, right)]
@@ -135,6 +141,15 @@ def check(reader: CppExpressionReader, node: Node, operator: str, sides: Sequenc
     for side, found in zip(sides, (left, right), strict=True):
         if not as_type(found, bits).fits:
             _raise(reader, side)
+
+
+def is_only_compared(declarator: Node, name: str) -> bool:
+    """Whether nothing but comparisons, which are read exactly or not at all, look at a local."""
+    block = climb(declarator, lambda n: n.type == "compound_statement")
+    names = inside(block, "identifier") if block is not None else []
+    uses = [n.parent for n in names if text_of(n) == name and n.parent != declarator]
+    is_compare = (n is not None and operator_of(n) in COMPARES for n in uses)
+    return bool(names) and all(is_compare)
 
 
 def check_whole(reader: CppExpressionReader, node: Node) -> None:

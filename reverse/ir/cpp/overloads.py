@@ -72,7 +72,8 @@ def _signature(world: World, function: FunctionSymbol) -> CallSignature:
         declared = world.types.declared(code.cpp, function.scope, parameter.type, declarator)
         if declared.type == t.NOTHING and declarator is None:
             continue
-        if isinstance(declared.type, t.Array):  # it decays to a pointer ([dcl.fct])
+        is_plain = declared.reference is ReferenceKind.NONE and "<" not in text_of(parameter.type)
+        if is_plain and isinstance(declared.type, t.Array):  # it decays to a pointer ([dcl.fct])
             declared = Declared(t.Reference(declared.type.element, may_be_null=True))
         parameters.append(ParameterSignature(parameter.name, declared, _default(function, number)))
     return CallSignature(tuple(parameters), _result(world, function))
