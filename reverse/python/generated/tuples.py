@@ -241,7 +241,10 @@ def _elements(
     """What is in a tuple or list that is written out, kept, or made of an array; else None."""
     node = without_parentheses(node)
     if node.type in ("tuple", "list"):
-        return node.type, named(node)
+        values: Sequence[Node | m.Expression] | None = named(node)
+        if any(each.type == "list_splat" for each in named(node)):
+            values = None if may_fail(reader, node) else _unpacked(reader, named(node))
+        return None if values is None else (node.type, values)
     called, arguments = call_parts(node) or ("", [])
     is_copy = called in ("tuple", "list") and reader.library(field(node, "function"))
     if is_copy and len(arguments) == 1:
