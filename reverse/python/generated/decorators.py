@@ -110,7 +110,7 @@ def _is_told_class(code: PyCode, owner: Scope, call: Node, silent: Silent) -> bo
     made = methods["__init__"].parameters[1:] if "__init__" in methods else ()
     return (
         (is_kept and is_called and _is_given(call, made) and effects is not None)
-        and effects.keeps_time_of(owner.py, owner.py.span(ends.node))
+        and effects.tells_around(owner.py, owner.py.span(ends.node))
         and not any(silent.exceptions.raises(n) for f in methods.values() for n in body_of(f))
     )
 

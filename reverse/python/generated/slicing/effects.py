@@ -64,10 +64,10 @@ class ToldEffects(Foreign):
             return False
         return self._is_apart(function, body, place)
 
-    def keeps_time_of(self, py: Py, method: Span) -> bool:
-        """Whether objects of a class enter and leave a context, and do nothing else to the model.
+    def tells_around(self, py: Py, method: Span) -> bool:
+        """Whether contexts of the class of a method are made, entered and left, and do nothing else.
 
-        The class is that of a method, which has no other for these.
+        The class extends no other, and nothing is stored under the names of these methods.
         """
         found, _ = self.form.statements(py, method)
         owner, graph = found.owner if found is not None else None, self.origins.graph
