@@ -65,7 +65,7 @@ class ToldEffects(Foreign):
         return self._is_apart(function, body, place)
 
     def tells_around(self, py: Py, method: Span) -> bool:
-        """Whether contexts of the class of a method are made, entered and left, and do nothing else.
+        """Whether contexts of the class of a method only compute where they are made, entered, left.
 
         The class extends no other, and nothing is stored under the names of these methods.
         """
