@@ -65,9 +65,9 @@ class ToldEffects(Foreign):
         return self._is_apart(function, body, place)
 
     def tells_around(self, py: Py, method: Span) -> bool:
-        """Whether contexts of the class of a method only compute where they are made, entered, left.
+        """Whether contexts of a class only compute where they are made, entered and left.
 
-        The class extends no other, and nothing is stored under the names of these methods.
+        It is that of a `method`, extends no other, and nothing else is stored under these names.
         """
         found, _ = self.form.statements(py, method)
         owner, graph = found.owner if found is not None else None, self.origins.graph
