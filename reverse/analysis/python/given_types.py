@@ -26,11 +26,12 @@ from rebsync.reverse.analysis.python.value_types import (
     union,
     values_of,
 )
-from rebsync.reverse.analysis.stores import Member
+from rebsync.reverse.analysis.stores import Member, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.libraries.attributes import NODE, OF_NUMBERS_ALONE, OTHERWISE, result_of
 from rebsync.reverse.libraries.routines import Access
+from rebsync.reverse.libraries.tables.runtime import WHOLE
 
 _COMPUTING = OF_NUMBERS_ALONE | {"builtins.divmod"}
 _LIST, _QUEUE, _SET = OwnType.LIST, OwnType.QUEUE, OwnType.SET
@@ -95,6 +96,11 @@ class GivenTypes:
                     return NO_TYPES
                 if all(map(_has_methods, types)):
                     return union(self._of_method(t, name, call, function) for t in types)
+            case s.ValueCallee(e.Global(module, name) as value) if name in WHOLE:
+                key = key_of(value, function)
+                is_plain = key is not None and not self._graph.stores.of(key)
+                if is_plain and module not in self._graph.program.modules:
+                    return A_NUMBER  # the run-time part, which is the same in all programs
         return self._of_program(call, function)
 
     def _of_program(self, call: s.Call, function: str) -> ValueTypes:

@@ -46,6 +46,13 @@ def names_in_model(language: Language) -> dict[str, str]:
     return {n: r.result for n, r in found.items() if n != "self"}
 
 
+# What gives whole numbers alone in Python, whatever it is given, if it gives something.
+WHOLE = frozenset(
+    {
+        *("int8", "int16", "int32", "boolean", "truncated", "divide", "shift_left"),
+        *("to_byte", "to_short", "to_int"),
+    }
+)
 _MOVE = {"move": Routine(arguments=("motion", "callback"), does=Effect.ASKS)}
 
 LIBRARIES = (

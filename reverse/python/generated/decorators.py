@@ -5,6 +5,8 @@ These do the same with it as without.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from tree_sitter import Node
 
 from rebsync.records import dataclass
@@ -16,16 +18,18 @@ from rebsync.reverse.python.generated.module_variables import (
 )
 from rebsync.reverse.python.generated.named_constants import CodeConstants
 from rebsync.reverse.python.generated.pair_methods import is_context
-from rebsync.reverse.python.generated.py_types import expression_in, stored_into
+from rebsync.reverse.python.generated.py_types import expression_in, is_text, stored_into
 from rebsync.reverse.python.generated.slicing.logs import Looks, only_logs
 from rebsync.reverse.python.generated.slicing.silent import Silent
 from rebsync.reverse.python.values.py_callbacks import body_of
-from rebsync.reverse.python.values.py_worth import Function
-from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.python.values.py_worth import Class, Function
+from rebsync.reverse.syntax.py_index import PyCode, PyParameter, Scope
 from rebsync.reverse.syntax.py_tree import field, named, parse, text_of
 from rebsync.source import Source
 
 _PLAIN = frozenset({"string", "integer", "float", "true", "false", "none"})
+_CONTEXT = frozenset({"__init__", "__enter__", "__exit__"})
+_PASSING = frozenset({"none", "false"})
 _WRAPS = ("wraps", "functools.wraps")
 
 
@@ -64,23 +68,51 @@ def context_of(
     items = [i for i in named(head) if i.type == "with_item"]
     call = field(items[0], "value") if len(items) == 1 else statement
     name = text_of(field(call, "function")) if call.type == "call" else ""
-    is_own, methods = name.startswith("self."), constants.code.methods.get(name[5:], [])
+    code = constants.code
+    is_own, methods = name.startswith("self."), code.methods.get(name[5:], [])
     made = methods[0] if is_own and len(methods) == 1 else None
     match constants.of(module, name):
         case Function(found) if not is_own:
             made = found
+        case Class(owner) if not is_own and _is_told_class(code, owner, call, silent):
+            return field(statement, "body")
         case _:
             pass
     if made is None or not is_context(made.module, made):
         return None
-    given, parameters = named(field(call, "arguments")), made.parameters[is_own:]
+    is_known = _is_given(call, made.parameters[is_own:])
+    is_telling = is_known and _tells_around(code, module, made, silent)
+    return field(statement, "body") if is_telling else None
+
+
+def _is_given(call: Node, parameters: Sequence[PyParameter]) -> bool:
+    """Whether a call gives literals alone, as many as are taken."""
+    given = named(field(call, "arguments"))
     needed = [p for p in parameters if p.default is None]
     values = [n.child_by_field_name("value") or n for n in given]
-    is_given = len(needed) <= len(given) <= len(parameters)
-    is_given = is_given and all(p.star == 0 for p in parameters)
-    is_known = is_given and all(v.type in _PLAIN for v in values)
-    is_telling = is_known and _tells_around(constants.code, module, made, silent)
-    return field(statement, "body") if is_telling else None
+    is_whole = len(needed) <= len(given) <= len(parameters)
+    is_whole = is_whole and all(p.star == 0 for p in parameters)
+    return is_whole and all(v.type in _PLAIN for v in values)
+
+
+def _is_told_class(code: PyCode, owner: Scope, call: Node, silent: Silent) -> bool:
+    """Whether contexts of a class only tell people of what is within, and let exceptions pass."""
+    effects, body = silent.effects, named(field(owner.node, "body"))
+    written = [n for n in body if n.type == "function_definition"]
+    rest = [n for n in body if n not in written and n.type != "comment" and not is_text(n)]
+    methods = {f.name: f for f in (code.scope_of(n, owner.py) for n in written)}
+    if rest or len(methods) < len(written) or methods.keys() | {"__init__"} != _CONTEXT:
+        return False
+    begins, ends = methods["__enter__"], methods["__exit__"]
+    taken = [[p.star for p in f.parameters[1:]] for f in (begins, ends)]
+    is_kept = all(n.type in _PASSING for r in ends.returns for n in named(r))
+    is_called = taken in ([[], [0, 0, 0]], [[], [1]]) and not owner.decorators
+    made = methods["__init__"].parameters[1:] if "__init__" in methods else ()
+    return (
+        (is_kept and is_called and _is_given(call, made) and effects is not None)
+        and effects.tells_around(owner.py, owner.py.span(ends.node))
+        and not any(silent.exceptions.raises(n) for f in methods.values() for n in body_of(f))
+    )
 
 
 def _tells_around(code: PyCode, module: Scope, made: Scope, silent: Silent) -> bool:

@@ -14,7 +14,8 @@ from tree_sitter import Node
 from rebsync.reverse.python.generated.module_variables import imported_as
 from rebsync.reverse.python.generated.py_types import is_text, type_of
 from rebsync.reverse.syntax.descendants import nodes_in
-from rebsync.reverse.syntax.py_index import PyCode, Scope
+from rebsync.reverse.syntax.py_index import CLASS, PyCode, Scope, module_named
+from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
 from rebsync.reverse.syntax.py_tree import calls_in, field, named, text_of
 
 _TIMES = frozenset({"When", "AT_ONCE"})
@@ -26,7 +27,32 @@ def is_alone(code: PyCode, function: Scope) -> bool:
     is_written = [*function.decorators] in ([], ["property"])
     is_written = is_written or is_context(function.module, function)
     is_called = is_written and function.name[:2] != "__"
-    return is_called and len(code.methods.get(function.name, ())) == 1
+    others = [f for f in code.methods.get(function.name, ()) if f != function]
+    return is_called and not any(f.module in _asking(code) for f in others)
+
+
+def _asking(code: PyCode) -> list[Scope]:
+    """The modules that may ask a node for its methods by name.
+
+    The run-time part asks only those that it declares itself, for the classes that extend it.
+    """
+    found = [m for m in code.modules.values() if not is_runtime_file(m.py.source)]
+    classes = [s for s in code.scopes.values() if s.kind == CLASS and s.module in found]
+    for owner in classes:
+        head = owner.node.child_by_field_name("superclasses")
+        for base in named(head) if head is not None else ():
+            if base.type not in ("keyword_argument", "subscript"):
+                found += _of_base(code, owner.module, base)
+    return found
+
+
+def _of_base(code: PyCode, module: Scope, base: Node) -> Iterable[Scope]:
+    """The modules that a base may be of, but the module itself."""
+    whole, bound = imported_as(module, text_of(base)), module.names.get(text_of(base), ())
+    if not whole and (base.type != "identifier" or any(b.how != "scope" for b in bound)):
+        return code.modules.values()
+    above = module_named(code, whole.rpartition(".")[0], module) if whole else None
+    return () if above is None else (above,)
 
 
 def is_context(module: Scope, function: Scope) -> bool:
@@ -50,7 +76,8 @@ def is_inlined(code: PyCode, function: Scope, callers: Iterable[Scope]) -> bool:
     is_async = any(child.type == "async" for child in function.node.children)
     if function.decorators or is_async or not any(map(takes_time, function.parameter_nodes)):
         return False
-    named_so = sum(_names(function.name, m.node) for m in code.modules.values())
+    asking = {id(m): m for m in _asking(code)}.values()
+    named_so = sum(_names(function.name, m.node) for m in asking)
     calls = [text_of(field(call, "function")) for f in callers for call in calls_in(f.node)]
     return named_so == 1 + calls.count(f"self.{function.name}")
 

@@ -22,6 +22,7 @@ from rebsync.reverse.python.generated.py_types import call_parts, is_text, witho
 from rebsync.reverse.python.generated.record_classes import fields_of, given_to, is_tuple
 from rebsync.reverse.python.values.py_callbacks import body_of
 from rebsync.reverse.syntax.descendants import nodes_in
+from rebsync.reverse.syntax.py_index import has_splat
 from rebsync.reverse.syntax.py_tree import field, named, text_of
 
 
@@ -49,7 +50,7 @@ def parts(
         return None
     match node.type, named(node):
         case "tuple" | "expression_list", values:
-            return _calm([reader.expression(each) for each in values])
+            return _unpacked(reader, values)
         case "conditional_expression", [then, condition, otherwise]:
             ways = [parts(reader, way, arrays=arrays) for way in (then, otherwise)]
             return _chosen(reader.condition(condition), *ways) if all(ways) else None
@@ -57,10 +58,30 @@ def parts(
             return elements
         case "call", _ if is_tuple(reader, called := text_of(field(node, "function"))):
             fields = fields_of(reader, called) or ()
+            if has_splat(node):
+                found = _unpacked(reader, named(field(node, "arguments")))
+                return found if found and len(found) == len(fields) else None
             of_fields = dict(given_to(node, fields) or ())
             return _calm([reader.expression(of_fields[f]) for f in fields if f in of_fields])
         case _:
             return looked_up(reader, node)
+
+
+def _unpacked(reader: ModelExpressionReader, values: Sequence[Node]) -> list[m.Expression] | None:
+    """The elements of a display, or arguments by position; None: nobody knows how many."""
+    found = list[m.Expression]()
+    for each in values:
+        match each.type:
+            case "list_splat":
+                inner = parts(reader, named(each)[0])
+                if inner is None:
+                    return None
+                found += inner
+            case "keyword_argument" | "dictionary_splat":
+                return None
+            case _:
+                found.append(reader.expression(each))
+    return _calm(found)
 
 
 def given(reader: ModelExpressionReader, node: Node) -> list[m.Expression] | None:
@@ -220,12 +241,16 @@ def _elements(
     """What is in a tuple or list that is written out, kept, or made of an array; else None."""
     node = without_parentheses(node)
     if node.type in ("tuple", "list"):
-        return node.type, named(node)
+        values: Sequence[Node | m.Expression] | None = named(node)
+        if any(each.type == "list_splat" for each in named(node)):
+            values = None if may_fail(reader, node) else _unpacked(reader, named(node))
+        return None if values is None else (node.type, values)
     called, arguments = call_parts(node) or ("", [])
-    if called == "tuple" and reader.library(field(node, "function")) and len(arguments) == 1:
+    is_copy = called in ("tuple", "list") and reader.library(field(node, "function"))
+    if is_copy and len(arguments) == 1:
         found = array_elements(reader, arguments[0])
-    else:
-        found = parts(reader, node, arrays=False)
+        return None if found is None else (called, found)
+    found = parts(reader, node, arrays=False)
     return None if found is None else ("tuple", found)
 
 
@@ -255,7 +280,7 @@ def compared(
     """
     left, right = (_elements(reader, side) for side in sides)
     if left is None or right is None or left[0] != right[0]:
-        return None
+        return _of_other_classes(reader, operator, sides)
     pairs = list(zip(left[1], right[1], strict=False))
     parts = [each for both in pairs for each in both]
     is_even = len(left[1]) == len(right[1]) > 0
@@ -270,6 +295,19 @@ def compared(
             raise reader.unread(node, "the model has no such comparison")
         idioms.assert_alike(reader, node, operator, pair)
     return idioms.grouped(node, _lexicographical(operator, read))
+
+
+def _of_other_classes(
+    reader: ModelExpressionReader, operator: str, sides: Sequence[Node]
+) -> m.Expression | None:
+    """An array beside a display, to which none is equal, whatever they hold."""
+    arrays = [side for side in sides if array_elements(reader, without_parentheses(side))]
+    shown = [without_parentheses(side) for side in sides if side not in arrays]
+    values = [each for side in shown for each in named(side)]
+    if operator not in ("==", "!=") or len(arrays) != 1 or shown[0].type not in ("tuple", "list"):
+        return None
+    is_quiet = not any(may_fail(reader, each) for each in values) and _unpacked(reader, values)
+    return m.BoolLiteral(operator == "!=") if is_quiet else None
 
 
 def _read(reader: ModelExpressionReader, element: Node | m.Expression) -> m.Expression:

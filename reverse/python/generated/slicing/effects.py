@@ -10,10 +10,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 
 from rebsync import model as m
+from rebsync.reverse.analysis.call_graph import Targets
 from rebsync.reverse.analysis.python.value_types import A_TEXT
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
-from rebsync.reverse.ir.program import Function
+from rebsync.reverse.ir.program import Function, FunctionKind
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.python.bodies.body_form import PyForm
 from rebsync.reverse.python.generated.slicing.escapes import Foreign, ToldPlaces
@@ -21,6 +22,8 @@ from rebsync.reverse.python.generated.slicing.log_words import TEXTS
 from rebsync.reverse.python.generated.slicing.scopes import ToldScope
 from rebsync.reverse.syntax.py_tree import Py
 from rebsync.source import Span
+
+_AT_ONCE = (FunctionKind.FUNCTION, FunctionKind.CONSTRUCTOR)  # others run when they are asked to
 
 
 class ToldEffects(Foreign):
@@ -59,6 +62,27 @@ class ToldEffects(Foreign):
             return False
         if any(isinstance(n, s.Return | s.Yield) for n in walk(body)):
             return False
+        return self._is_apart(function, body, place)
+
+    def tells_around(self, py: Py, method: Span) -> bool:
+        """Whether contexts of a class only compute where they are made, entered and left.
+
+        It is that of a `method`, extends no other, and nothing else is stored under these names.
+        """
+        found, _ = self.form.statements(py, method)
+        owner, graph = found.owner if found is not None else None, self.origins.graph
+        if found is None or owner is None or graph.bases(owner):
+            return False
+        ends = (s.MethodCallee(e.Literal(None), n, owner) for n in ("__enter__", "__exit__"))
+        reached = [graph.construction(owner), *(graph.callee(end, found) for end in ends)]
+        names = {name for targets in reached for name in targets.functions}
+        if any(t != Targets(t.functions) or len(t.functions) > 1 for t in reached):
+            return False
+        functions = [*map(self.form.program.function, names)]
+        is_run = all(f.kind in _AT_ONCE for f in functions)
+        return is_run and all(self._is_apart(f, f.body, f.place) for f in functions)
+
+    def _is_apart(self, function: Function, body: s.Body, place: Span) -> bool:
         scope = ToldScope(self, function, None)
         return scope.body(body) and self._acts_as_known(scope, function, place)
 
