@@ -146,6 +146,24 @@ class CppFacts:
                         pass
         return {name: calls for name, calls in found.items() if name not in others}
 
+    @cached_property
+    def handed_to(self) -> Mapping[str, tuple[str, s.Call]]:
+        """By each lambda the call of a library that alone gets it, with where that stands."""
+        found: dict[str, tuple[str, s.Call]] = {}
+        every = Counter[str]()
+        for function in self._functions:
+            for node in walk(function):
+                match node:
+                    case e.Closure(name):
+                        every[name] += 1
+                    case s.Call(_, s.LibraryCallee(), arguments):
+                        values = (a.value for a in arguments)
+                        lambdas = (v.function for v in values if isinstance(v, e.Closure))
+                        found |= dict.fromkeys(lambdas, (function.name, node))
+                    case _:
+                        pass
+        return {name: call for name, call in found.items() if every[name] == 1}
+
     @property
     def _functions(self) -> Iterator[Function]:
         return (self._program.function(name) for name in self._program.functions)
