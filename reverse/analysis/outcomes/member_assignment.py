@@ -87,10 +87,18 @@ class MemberAssignment:
 
     # --- definite assignment ---------------------------------------------------------------------
 
-    def unset_in(self, key: Key, nothing: Iterable[str], depth: int) -> frozenset[str] | None:
+    def is_end(self, value: e.Expression, function: Function) -> bool:
+        """Whether a member is asked for at the end of its object, which its constructors made."""
+        is_own = isinstance(value, e.Attribute) and self._is_own(value.object, function.name)
+        return is_own and function.kind is FunctionKind.DESTRUCTOR
+
+    def unset_in(
+        self, key: Key, nothing: Iterable[str], is_end: bool, depth: int
+    ) -> frozenset[str] | None:
         """The functions that may run before a variable leads to something.
 
         Of the functions that store `nothing` in it; None where it may stay so, or become so again.
+        Nothing that is asked for at the end of an object runs before this is made.
         """
         if not isinstance(key, Member | GlobalVariable):
             return None
@@ -98,10 +106,11 @@ class MemberAssignment:
         firsts = [f for f in map(self._program.function, nothing) if f.kind in _FIRST]
         for first in firsts:
             found.add(first.name)
-            bodies = [each for each in self._entries(first) if each in self._program]
+            entries = [first.name] if is_end else self._entries(first)
+            bodies = [each for each in entries if each in self._program]
             for at, entry in enumerate(bodies):
                 body = tuple(_in_order(self._program.function(entry).body))
-                before = self._before(key, entry, body, depth)
+                before = self._before(key, entry, body, is_end, depth)
                 if before is not None:
                     asked.add(entry)
                     found |= before | self._origins.all_run(bodies[:at])
@@ -119,14 +128,21 @@ class MemberAssignment:
             return [n for n, p in places.items() if _is_in(p, first.name)]
         return [first.name, *(f"{first.owner}::{entry}" for entry in sorted(first_called()))]
 
-    def _before(self, key: Key, function: str, body: s.Body, depth: int) -> frozenset[str] | None:
+    def _before(
+        self, key: Key, function: str, body: s.Body, is_end: bool, depth: int
+    ) -> frozenset[str] | None:
         """What runs before a function stores something under a name; None where it may not do so.
 
         Neither does it where it stores nothing there again, or lets callbacks run before.
         """
         at = self._first_store(key, body, function, depth)
-        if at is None or self._empties(key, _until_served(body, at + 1), function, depth):
+        if at is None:
             return None
+        rest = body[at + 1 :] if is_end else _until_served(body, at + 1)
+        if self._empties(key, rest, function, depth):
+            return None
+        if is_end:
+            return frozenset()
         before = list(self._origins.runs(_at_once(body[:at]), function))
         if any(map(_serves, (n for _, inner in before for n in walk(inner)))):
             return None

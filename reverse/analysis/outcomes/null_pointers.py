@@ -123,9 +123,10 @@ class NullPointers:
         ]
         if not nothing:
             return False
-        known_of, asked = self._notes.counts.unset, (key, frozenset(f for f, _ in nothing))
+        known_of = self._notes.counts.unset
+        asked = key, frozenset(f for f, _ in nothing), self._assignment.is_end(value, around)
         if asked not in known_of:
-            known_of[asked] = self._assignment.unset_in(key, asked[1], depth)
+            known_of[asked] = self._assignment.unset_in(*asked, depth)
         unset = known_of[asked]
         may_be_unset = unset is None or (function in unset and IsThere(value) not in facts)
         return may_be_unset and not self._assignment.is_kept_by(

@@ -213,6 +213,11 @@ def _constructs(world: World, declared: Declared) -> bool:
 
 def implicit_constructor(owner: ClassSymbol) -> str:
     """The name of the constructor that the language declares by itself."""
+    return f"{owner.name}::{owner.simple}"
+
+
+def called_implicitly(owner: ClassSymbol) -> str:
+    """The same where it is called; templates have none, as it depends on their arguments."""
     if owner.is_template:
         raise Unlowered("an object of a template that declares no constructor")
-    return f"{owner.name}::{owner.simple}"
+    return implicit_constructor(owner)

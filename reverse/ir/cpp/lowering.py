@@ -77,10 +77,9 @@ class CppLowering:
         self._implicit: dict[str, ClassSymbol] = {}
         self._modules: dict[str, Cpp] = {cpp.source.path: cpp for cpp in code.files}
         for owner in self.world.symbols.classes.values():
-            if _has_implicit(self.world, owner):
-                name = implicit_constructor(owner)
-                if name not in self._defined():
-                    self._implicit[name] = owner
+            name = implicit_constructor(owner)
+            if _has_implicit(self.world, owner) and name not in self._defined():
+                self._implicit[name] = owner
 
     def file_of(self, name: str) -> Cpp:
         """The file that a function or lambda of the program stands in."""
