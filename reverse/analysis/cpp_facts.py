@@ -152,12 +152,18 @@ class CppFacts:
         found: dict[str, tuple[str, s.Call]] = {}
         every = Counter[str]()
         for function in self._functions:
-            for node in walk(function):
+            nodes = list(walk(function))
+            every.update(n.function for n in nodes if isinstance(n, e.Closure))
+            named = Counter[e.Expression](n for n in nodes if isinstance(n, e.Temporary))
+            stores = (n for n in nodes if isinstance(n, s.Assign))
+            # A temporary is named where it is stored in, and where it is handed over.
+            kept: dict[e.Expression, e.Expression] = {
+                n.target: n.value for n in stores if named[n.target] == 2
+            }
+            for node in nodes:
                 match node:
-                    case e.Closure(name):
-                        every[name] += 1
                     case s.Call(_, s.LibraryCallee(), arguments):
-                        values = (a.value for a in arguments)
+                        values = (kept.get(a.value, a.value) for a in arguments)
                         lambdas = (v.function for v in values if isinstance(v, e.Closure))
                         found |= dict.fromkeys(lambdas, (function.name, node))
                     case _:
