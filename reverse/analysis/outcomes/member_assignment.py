@@ -88,9 +88,15 @@ class MemberAssignment:
     # --- definite assignment ---------------------------------------------------------------------
 
     def is_end(self, value: e.Expression, function: Function) -> bool:
-        """Whether a member is asked for at the end of its object, which its constructors made."""
+        """Whether a member is asked for at the end of an object that is as constructors made it."""
         is_own = isinstance(value, e.Attribute) and self._is_own(value.object, function.name)
-        return is_own and function.kind is FunctionKind.DESTRUCTOR
+        return is_own and self._ends_whole(function)
+
+    def _ends_whole(self, function: Function) -> bool:
+        """Whether a function is the end of objects that nothing moves from."""
+        family = self._origins.graph.family(function.owner or "")
+        is_moved = not family.isdisjoint(self._origins.of_cpp.moved_classes)
+        return function.kind is FunctionKind.DESTRUCTOR and not is_moved
 
     def unset_in(
         self, key: Key, nothing: Iterable[str], is_end: bool, depth: int
@@ -151,7 +157,7 @@ class MemberAssignment:
     def _ends_made(self, constructor: str, function: str) -> bool:
         """Whether a function is the end of what a constructor makes, which is after that."""
         first, last = map(self._program.function, (constructor, function))
-        is_pair = first.kind is FunctionKind.CONSTRUCTOR and last.kind is FunctionKind.DESTRUCTOR
+        is_pair = first.kind is FunctionKind.CONSTRUCTOR and self._ends_whole(last)
         return is_pair and last.owner in self._origins.graph.family(first.owner or "")
 
     def _first_store(self, key: Key, body: s.Body, function: str, depth: int) -> int | None:
