@@ -10,6 +10,7 @@ from rebsync.reverse.analysis.facts import Facts, without
 from rebsync.reverse.analysis.stores import Key, Stored, key_of
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
+from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.program import Function, FunctionKind, Program
 from rebsync.reverse.ir.walk import Node, walk
 from rebsync.reverse.libraries.client_times import is_of_times
@@ -146,6 +147,36 @@ class CppFacts:
                         pass
         return {name: calls for name, calls in found.items() if name not in others}
 
+    @cached_property
+    def handed_to(self) -> Mapping[str, tuple[str, s.Call]]:
+        """By each lambda the call of a library that alone gets it, with where that stands."""
+        found: dict[str, tuple[str, s.Call]] = {}
+        every = Counter[str]()
+        for function in self._functions:
+            nodes = list(walk(function))
+            every.update(n.function for n in nodes if isinstance(n, e.Closure))
+            named = Counter[e.Expression](n for n in nodes if isinstance(n, e.Temporary))
+            stores = (n for n in nodes if isinstance(n, s.Assign))
+            # A temporary is named where it is stored in, and where it is handed over.
+            kept: dict[e.Expression, e.Expression] = {
+                n.target: n.value for n in stores if named[n.target] == 2
+            }
+            for node in nodes:
+                match node:
+                    case s.Call(_, s.LibraryCallee(), arguments):
+                        values = (kept.get(a.value, a.value) for a in arguments)
+                        lambdas = (v.function for v in values if isinstance(v, e.Closure))
+                        found |= dict.fromkeys(lambdas, (function.name, node))
+                    case _:
+                        pass
+        return {name: call for name, call in found.items() if every[name] == 1}
+
+    @cached_property
+    def moved_classes(self) -> frozenset[str]:
+        """The classes whose objects may be moved from: copied, handed to libraries, or elements."""
+        types = (type_ for f in self._functions for n in walk(f) for type_ in _moved(n))
+        return frozenset(type_.name for type_ in types if isinstance(type_, t.Record))
+
     @property
     def _functions(self) -> Iterator[Function]:
         return (self._program.function(name) for name in self._program.functions)
@@ -201,6 +232,26 @@ def moved_out_by(node: object) -> Iterator[e.Expression]:
             last = name.rpartition("::")[2]
             if last in RELEASING and not (values and last == "reset"):
                 yield of
+        case _:
+            pass
+
+
+def _moved(node: Node) -> Iterator[t.Type]:
+    """The types of what a node may move from."""
+    match node:
+        case e.Copy(of) | e.Move(of):
+            yield getattr(of, "type", t.UNKNOWN)
+        case s.Call(_, s.LibraryCallee(), arguments):
+            values = (a.value for a in arguments)
+            targets = (v.target if isinstance(v, e.AddressOf) else v for v in values)
+            yield from (getattr(v, "type", t.UNKNOWN) for v in targets)
+        case _:
+            pass
+    match getattr(node, "type", None):
+        case t.Container(_, elements):
+            yield from elements
+        case t.Optional(of):
+            yield of
         case _:
             pass
 

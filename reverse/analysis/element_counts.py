@@ -45,7 +45,7 @@ class ElementCounts:
         self.table = origins.table
         self.emptying = ForeignEmptying(origins)
         self.rules = PythonRules(origins)
-        self.unset: dict[tuple[Key, frozenset[str]], frozenset[str] | None] = {}  # `NullPointers`
+        self.unset: dict[tuple[Key, frozenset[str], bool], frozenset[str] | None] = {}
 
     def size(self, value: e.Expression, function: str) -> int:
         """How many elements a container has at least, whenever that is asked."""

@@ -164,6 +164,15 @@ def names_of(facts: Facts, value: e.Expression) -> frozenset[e.Expression]:
     return frozenset({value, *others})
 
 
+def _led_to(facts: Facts, target: e.Expression) -> e.Expression:
+    """What is stored in where a temporary has its address; else the target itself."""
+    if isinstance(target, e.Dereference):
+        for other in names_of(facts, target.reference):
+            if isinstance(other, e.AddressOf):
+                return other.target
+    return target
+
+
 def without(facts: Facts, target: e.Expression) -> Facts:
     """The facts that are left when something else is stored in a target."""
     base = target
@@ -194,7 +203,7 @@ def _without_referred(facts: Facts, target: e.Dereference) -> Facts:
 def stored(facts: Facts, target: e.Expression, types: ValueTypes | None = None) -> Facts:
     """What is known when something of some types is stored in a target, which then has a value."""
     is_of = IsOf(target, ANY_TYPE if types is None else types)
-    return without(facts, target) | {IsBound(target), is_of}
+    return without(facts, _led_to(facts, target)) | {IsBound(target), is_of}
 
 
 def is_bound(fact: Fact) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from rebsync.reverse.analysis.call_graph import CallGraph
 from rebsync.reverse.analysis.origins import ClassOrigin, Origins
 from rebsync.reverse.analysis.stores import ANY_VALUE, AnyValue, Member, Stored, Value, key_of
@@ -77,23 +79,45 @@ def is_own(origins: Origins, value: e.Expression, function: str) -> bool:
 def is_of_other(
     graph: CallGraph, here: Function, value: e.Expression, key: object, function: str
 ) -> bool:
-    """Whether what a function stores is an attribute of its own object, of another class.
+    """Whether what a function stores is an attribute of objects of another class.
 
-    It is none of the objects whose attribute `value` the function `here` asks, its own too.
+    It is none of the objects whose attribute `value` the function `here` asks.
     """
     if not (isinstance(key, Member) and isinstance(value, e.Attribute)):
         return False
-    if not (isinstance(value.object, e.Local) and value.object.name == here.receiver):
-        return False
-    return here.owner is not None and is_of_other_class(graph, here.owner, key, function)
+    owner = _class_of(graph, value, here)
+    return owner is not None and is_of_other_class(graph, owner, key, function)
 
 
 def is_of_other_class(graph: CallGraph, owner: str, key: Member, function: str) -> bool:
-    """Whether what a function stores is an attribute of its own object, and not of a class."""
-    there = graph.program.function(function)
-    if there.owner is None or there.owner in graph.family(owner):
-        return False
-    targets = [n.target for n in walk(there) if isinstance(n, s.Assign | s.Call | s.Declare)]
-    own = e.Local(there.receiver or "")
-    asked = [n for n in targets if isinstance(n, e.Attribute) and n.name == key.name]
-    return all(n.object == own for n in asked)
+    """Whether what a function stores is an attribute of objects of other classes than one."""
+    there, family = graph.program.function(function), graph.family(owner)
+    asked = [n for n in _stored_in(there) if isinstance(n, e.Attribute) and n.name == key.name]
+    classes = {_class_of(graph, n, there) for n in asked}
+    return bool(classes) and None not in classes and classes.isdisjoint(family)
+
+
+def _class_of(graph: CallGraph, of: e.Attribute, function: Function) -> str | None:
+    """The class of the program that the object is of whose attribute is named, as declared.
+
+    Without declarations it is that of a method whose own object it is. Attributes that such a class
+    is not known to have may be of another, which it extends as the argument of a template.
+    """
+    type_ = getattr(of.object, "type", t.UNKNOWN)
+    type_ = type_.to if isinstance(type_, t.Reference) else type_
+    if isinstance(type_, t.Record):
+        return type_.name if type_.name in graph.program.classes and not of.dynamic else None
+    is_own = isinstance(of.object, e.Local) and of.object.name == function.receiver
+    return function.owner if is_own else None
+
+
+def _stored_in(function: Function) -> Iterator[e.Expression | None]:
+    """What a function stores in, or lets others store in by its address."""
+    for node in walk(function):
+        match node:
+            case s.Unsupported(target=target, writes=writes):
+                yield from (target, *writes)
+            case _ if hasattr(node, "target"):
+                yield node.target
+            case _:
+                pass

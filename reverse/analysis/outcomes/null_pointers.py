@@ -7,41 +7,30 @@ assignment), and nothing else empties it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-
-from rebsync.reverse.analysis.cpp_facts import emptied_by
 from rebsync.reverse.analysis.facts import NO_FACTS, Facts, Holds, IsThere, names_of, tested
 from rebsync.reverse.analysis.held_values import all_held, is_of_other
 from rebsync.reverse.analysis.outcomes.element_bounds import ElementBounds
+from rebsync.reverse.analysis.outcomes.member_assignment import MemberAssignment, bare, last_name
 from rebsync.reverse.analysis.problems import ParameterNeed, ProblemNotes
 from rebsync.reverse.analysis.python.call_binding import bound
 from rebsync.reverse.analysis.stores import (
     AnyValue,
     CallResult,
-    GlobalVariable,
-    Key,
-    Member,
     Stored,
-    Value,
     key_of,
 )
 from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Conversion
-from rebsync.reverse.ir.program import Function, FunctionKind
+from rebsync.reverse.ir.program import FunctionKind
 from rebsync.reverse.ir.walk import walk
-from rebsync.reverse.libraries.cpp import named, running_callbacks, waiting
-from rebsync.reverse.libraries.cpp_calls import first_called
-from rebsync.reverse.libraries.routines import ASKING
 from rebsync.reverse.libraries.size_effects import (
-    BINDING,
     LEADING_ON,
     LEADING_TO_FIRST,
     MAKING,
     SEARCHING,
 )
-from rebsync.source import SourceSpan, Span
 
 _DEEPEST = 4  # of variables that are stored in others
 _FIRST = (FunctionKind.CONSTRUCTOR, FunctionKind.MODULE)
@@ -57,6 +46,9 @@ class NullPointers:
         self._bounds = bounds
         self._origins = notes.origins
         self._program = notes.origins.graph.program
+        self._assignment = MemberAssignment(
+            notes.origins, lambda each, depth: self._is_nothing(each, t.UNKNOWN, NO_FACTS, depth)
+        )
 
     def may_be(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a pointer, or what is handed over by its address, may lead to nothing."""
@@ -68,7 +60,7 @@ class NullPointers:
         value = value.target if isinstance(value, e.AddressOf) else value
         if not _may_be_null(_type_of(value)):
             return None
-        value = _bare(value)
+        value = bare(value)
         if not (isinstance(value, e.Local) and self._notes.is_parameter(value)):
             return None
         is_known = any(Holds(name) in facts for name in names_of(facts, value))
@@ -76,7 +68,7 @@ class NullPointers:
 
     def gives(self, call: s.Call) -> bool:
         """Whether a call gives a new object, or another pointer that is not null."""
-        name = _last_name(call).partition(" ")[0]
+        name = last_name(call).partition(" ")[0]
         leads = _leads(_type_of(call.target)) and not isinstance(call.callee, s.ValueCallee)
         stored = self._name, CallResult(call)
         return name in MAKING or (leads and not self._is_nothing(stored, t.UNKNOWN, NO_FACTS, 0))
@@ -131,11 +123,15 @@ class NullPointers:
         ]
         if not nothing:
             return False
-        known_of, asked = self._notes.counts.unset, (key, frozenset(f for f, _ in nothing))
+        known_of = self._notes.counts.unset
+        asked = key, frozenset(f for f, _ in nothing), self._assignment.is_end(value, around)
         if asked not in known_of:
-            known_of[asked] = self._unset_in(key, asked[1], depth)
+            known_of[asked] = self._assignment.unset_in(*asked, depth)
         unset = known_of[asked]
-        return unset is None or (function in unset and IsThere(value) not in facts)
+        may_be_unset = unset is None or (function in unset and IsThere(value) not in facts)
+        return may_be_unset and not self._assignment.is_kept_by(
+            value, key, function, asked[1], depth
+        )
 
     def _may_get_nothing(self, parameter: str, function: str, depth: int) -> bool:
         """Whether a function may get nothing for a pointer: `given` says so of its own ones."""
@@ -167,7 +163,7 @@ class NullPointers:
 
     def _gives_nothing(self, call: s.Call, function: str, facts: Facts, depth: int) -> bool:
         """Whether a function of a library may find nothing, or lead to the first of no elements."""
-        name = _last_name(call)
+        name = last_name(call)
         of = getattr(call.callee, "receiver", None)
         first = next((a.value for a in call.arguments), of) if of is None else of
         if name in SEARCHING or first is None:
@@ -178,137 +174,6 @@ class NullPointers:
             return self._may_be(first, function, facts, depth)
         return name in LEADING_TO_FIRST and not self._bounds.size(first, facts)
 
-    # --- definite assignment ---------------------------------------------------------------------
-
-    def _unset_in(self, key: Key, nothing: Iterable[str], depth: int) -> frozenset[str] | None:
-        """The functions that may run before a variable leads to something.
-
-        Of the functions that store `nothing` in it; None where it may stay so, or become so again.
-        """
-        if not isinstance(key, Member | GlobalVariable):
-            return None
-        found, asked = set[str](), set[str]()
-        firsts = [f for f in map(self._program.function, nothing) if f.kind in _FIRST]
-        for first in firsts:
-            found.add(first.name)
-            bodies = [each for each in self._entries(first) if each in self._program]
-            for at, entry in enumerate(bodies):
-                body = tuple(_in_order(self._program.function(entry).body))
-                before = self._before(key, entry, body, depth)
-                if before is not None:
-                    asked.add(entry)
-                    found |= before | self._origins.all_run(bodies[:at])
-                    break
-            else:
-                return None
-        others = set(nothing).difference(f.name for f in firsts)
-        return frozenset(found) if others <= asked else None
-
-    def _entries(self, first: Function) -> list[str]:
-        """A constructor and what runs before else is served; of variables of files `main`."""
-        if first.kind is FunctionKind.MODULE:
-            mains = [n for n in self._program.functions if n.partition(" ")[0] == _MAIN]
-            places = {n: self._program.function(n).place for n in mains}
-            return [n for n, p in places.items() if _is_in(p, first.name)]
-        return [first.name, *(f"{first.owner}::{entry}" for entry in sorted(first_called()))]
-
-    def _before(self, key: Key, function: str, body: s.Body, depth: int) -> frozenset[str] | None:
-        """What runs before a function stores something under a name; None where it may not do so.
-
-        Neither does it where it stores nothing there again, or lets callbacks run before.
-        """
-        at = self._first_store(key, body, function, depth)
-        if at is None or self._empties(key, _until_served(body, at + 1), function, depth):
-            return None
-        before = list(self._origins.runs(_at_once(body[:at]), function))
-        if any(map(_serves, (n for _, inner in before for n in walk(inner)))):
-            return None
-        return frozenset(n for n, _ in before)
-
-    def _first_store(self, key: Key, body: s.Body, function: str, depth: int) -> int | None:
-        """The first of some statements that stores something under a name whenever it runs."""
-        for at, node in enumerate(body):
-            if self._always_stores(key, node, function, depth):
-                return at
-            if function.partition(" ")[0] != _MAIN and any(
-                isinstance(n, s.Return) for n in walk(node)
-            ):
-                return None
-        return None
-
-    def _always_stores(self, key: Key, node: s.Statement, function: str, depth: int) -> bool:
-        match node:
-            case s.Assign() | s.Declare() | s.Call() if key in dict(_stores(node, function)):
-                return not self._empties(key, (node,), function, depth)
-            case s.Call(_, s.FunctionCallee(name)) if depth <= _DEEPEST:
-                body = tuple(_in_order(self._program.function(name).body))
-                return self._first_store(key, body, name, depth + 1) is not None
-            case _:
-                return False
-
-    def _empties(self, key: Key, body: s.Body, function: str, depth: int) -> bool:
-        """Whether some statements may store nothing under a name."""
-        stores = (each for node in walk(body) for each in _stores(node, function))
-        return any(
-            self._is_nothing((function, value), t.UNKNOWN, NO_FACTS, depth + 1)
-            for other, value in stores
-            if other == key
-        )
-
-
-def _is_in(place: Span, path: str) -> bool:
-    """Whether a place is in a file."""
-    return isinstance(place, SourceSpan) and place.source.path == path
-
-
-def _in_order(body: s.Body) -> Iterator[s.Statement]:
-    """Statements that run one after the other whenever the first does, but for exceptions."""
-    for node in body:
-        match node:
-            case s.Block(inner) | s.Try(inner, ()):
-                yield from _in_order(inner)
-            case s.Unsequenced(parts):
-                for part in parts:
-                    yield from _in_order(part)
-            case _:
-                yield node
-
-
-def _at_once(body: s.Body) -> s.Body:
-    """Some statements without those that ask for what calls back later."""
-    return tuple(n for n in body if _last_name(n) not in named(*ASKING) | BINDING)
-
-
-def _until_served(body: s.Body, start: int) -> s.Body:
-    """Some statements up to the last one that lets callbacks run, if there is one."""
-    serving = [at for at, node in enumerate(body) if any(map(_serves, walk(node)))]
-    return body[start : serving[-1] + 1 if serving else None]
-
-
-def _serves(node: object) -> bool:
-    """Whether a call lets callbacks run."""
-    return _last_name(node) in waiting() | running_callbacks()
-
-
-def _last_name(node: object) -> str:
-    callee = node.callee if isinstance(node, s.Call) else None
-    return getattr(callee, "name", "").partition("<")[0].rpartition("::")[2]
-
-
-def _stores(node: object, function: str) -> Iterator[tuple[Key, Value]]:
-    """The variables that a node stores in, with what it stores there."""
-    yield from ((key, _NULL) for key in emptied_by(node, function))
-    match node:
-        case s.Assign(target, value) | s.Declare(target, _, value) if value is not None:
-            stored: Value = value
-        case s.Call(target) if target is not None:
-            stored = CallResult(node)
-        case _:
-            return
-    key = key_of(target, function)
-    if key is not None:
-        yield key, stored
-
 
 def _returns_nothing(node: object) -> bool:
     """Whether a statement gives null, or an optional without a value, as it is written."""
@@ -317,16 +182,6 @@ def _returns_nothing(node: object) -> bool:
         and node.value is not None
         and any(isinstance(n, e.Literal) and n.value is None for n in walk(node.value))
     )
-
-
-def _bare(value: e.Expression) -> e.Expression:
-    """A pointer itself, which a reference may lead to."""
-    while True:
-        match value:
-            case e.Dereference(of) | e.Convert(_, of) | e.Copy(of) | e.Move(of):
-                value = of
-            case _:
-                return value
 
 
 def _may_be_null(type_: t.Type) -> bool:

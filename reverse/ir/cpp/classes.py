@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 from rebsync.records import dataclass
 from rebsync.reverse.ir import types as t
-from rebsync.reverse.ir.cpp.context import World
+from rebsync.reverse.ir.cpp.context import Unlowered, World
 from rebsync.reverse.ir.cpp.symbols import ClassSymbol, FieldSymbol, FunctionSymbol
 from rebsync.reverse.ir.cpp.types import Declared, ReferenceKind
 
@@ -214,3 +214,10 @@ def _constructs(world: World, declared: Declared) -> bool:
 def implicit_constructor(owner: ClassSymbol) -> str:
     """The name of the constructor that the language declares by itself."""
     return f"{owner.name}::{owner.simple}"
+
+
+def called_implicitly(owner: ClassSymbol) -> str:
+    """The same where it is called; templates have none, as it depends on their arguments."""
+    if owner.is_template:
+        raise Unlowered("an object of a template that declares no constructor")
+    return implicit_constructor(owner)

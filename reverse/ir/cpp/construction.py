@@ -12,8 +12,8 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.alternatives import call_chosen, one_of
 from rebsync.reverse.ir.cpp.classes import (
+    called_implicitly,
     copies_trivially,
-    implicit_constructor,
     is_base,
     is_copy,
     members,
@@ -56,7 +56,7 @@ def construct(
             raise Unlowered("a construction that no constructor is declared for")
         constructor = None
         if needs_constructor(context.world, owner):
-            constructor = implicit_constructor(owner)
+            constructor = called_implicitly(owner)
         context.emit(s.Construct(target, owner.name, (), constructor, place))
         return
     try:
@@ -81,7 +81,7 @@ def _constructed_by(
 ) -> None:
     """An object made by one of its class's constructors."""
     if function.is_default and not values:
-        name = implicit_constructor(owner)
+        name = called_implicitly(owner)
         context.emit(s.Construct(target, owner.name, (), name, place))
         return
     parameters = signature(context.world, function).parameters

@@ -12,6 +12,7 @@ from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.cpp.classes import (
     DataMember,
+    called_implicitly,
     implicit_constructor,
     members,
     needs_constructor,
@@ -238,12 +239,12 @@ def _base(context: Context, name: str, base: ClassSymbol | None, node: Node | No
         if nodes:
             raise Unlowered("a base that is copied or made of values")
         if needs_constructor(context.world, base):
-            callee = s.FunctionCallee(implicit_constructor(base))
+            callee = s.FunctionCallee(called_implicitly(base))
             context.emit(s.Call(None, callee, (s.CallArgument(this),), place))
         return
     function = resolve(context, base.constructors, argument_values(context, nodes))
     if function.is_default:
-        callee = s.FunctionCallee(implicit_constructor(base))
+        callee = s.FunctionCallee(called_implicitly(base))
         context.emit(s.Call(None, callee, (s.CallArgument(this),), place))
         return
     receiver = Value(this, t.Record(base.name), is_lvalue=True)
