@@ -310,8 +310,8 @@ def _made(command: Command, names: dict[str, str], project: str, package: str) -
     span, words = command.span, [argument.text for argument in command.arguments]
     match command.name:
         case "project" if words:
-            name = words[0].replace(package, OWN) if package else words[0]
-            yield "project of the build", "", "", name, span
+            called = words[0].replace(package, OWN) if package else words[0]
+            yield "project of the build", "", "", called, span
         case "add_executable" if words:
             target = names.get(words[0], words[0])
             for path in words[1:]:
