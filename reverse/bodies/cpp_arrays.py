@@ -72,7 +72,8 @@ def _assigned(reader: CppStatementReader, node: Node) -> Sequence[m.Statement] |
         other = part(value, "left")
         if plain_type(reader.expressions, other) != type_:
             return None
-        copied = m.Assign("=", *(reader.expressions.read(n) for n in (target, other)))
+        one, known = reader.expressions.read(target), reader.expressions.read(other)
+        copied = m.Assign("=", one, known)
         return [*first, m.ExpressionStatement(copied, (), reader.cpp.span(node))]
     if value.type not in ("initializer_list", "compound_literal_expression"):
         return None

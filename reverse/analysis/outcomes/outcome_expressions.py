@@ -386,7 +386,7 @@ def _is_streamed(value: e.Expression) -> bool:
     """Whether a text is in a chain of `<<`, as in what a macro puts behind a stream."""
     match value:
         case e.Binary(Operator.SHIFT_LEFT, left, right):
-            texts = t.Text | t.Reference
-            return isinstance(getattr(right, "type", t.UNKNOWN), texts) or _is_streamed(left)
+            type_ = getattr(right, "type", t.UNKNOWN)
+            return isinstance(type_, t.Text | t.Reference) or _is_streamed(left)
         case _:
             return False
