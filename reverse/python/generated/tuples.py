@@ -59,8 +59,8 @@ def parts(
         case "call", _ if is_tuple(reader, called := text_of(field(node, "function"))):
             fields = fields_of(reader, called) or ()
             if has_splat(node):
-                found = _unpacked(reader, named(field(node, "arguments")))
-                return found if found and len(found) == len(fields) else None
+                spread = _unpacked(reader, named(field(node, "arguments")))
+                return spread if spread and len(spread) == len(fields) else None
             of_fields = dict(given_to(node, fields) or ())
             return _calm([reader.expression(of_fields[f]) for f in fields if f in of_fields])
         case _:
