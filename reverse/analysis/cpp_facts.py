@@ -250,8 +250,8 @@ def _moved(node: Node) -> Iterator[t.Type]:
     match getattr(node, "type", None):
         case t.Container(_, elements):
             yield from elements
-        case t.Optional(of):
-            yield of
+        case t.Optional(element):
+            yield element
         case _:
             pass
 

@@ -328,8 +328,8 @@ def _made(command: Command, names: dict[str, str], project: str, package: str) -
                 yield "name of a program", names.get(target, target), "", shown, span
         case "set_target_properties" if words:
             target = names.get(words[0], words[0])
-            shown = (f'"{w}"' if w == "" else w for w in words[1:])
-            yield "name of a program", target, "", squeezed(" ".join(shown)), span
+            told = (f'"{w}"' if w == "" else w for w in words[1:])
+            yield "name of a program", target, "", squeezed(" ".join(told)), span
         case "ament_package" | "catkin_package":
             yield "project of the build", "", "package", "there", span
         case "install" | "catkin_install_python":
