@@ -25,6 +25,7 @@ _LOOKS = (
 _TAKING = frozenset({"front", "back", "top", "pop", "pop_back", "pop_front", "erase"})
 _POINTER = re.compile(r"\*|optional")
 _ELEMENT = re.compile(r"(\w+)\[(\d+)\]")
+_STATE = "state_pub_"  # whether a class has one is a fact of its state's message
 _ROOT = re.compile(r"[*&(]*(?:this\s*->\s*)?(\w+)")
 
 
@@ -56,6 +57,8 @@ def failures(
         if any(lookup.holds(o) and o != lookup for o in found):
             continue  # what is in it says it
         root = _ROOT.match(function.cpp.source.text, lookup.start)
+        if root is not None and root[1] == _STATE:
+            continue
         is_told = any(s.start <= lookup.start < s.end for s in map(span, told))
         if is_told or root is None or root[1] not in variables:
             yield lookup, NOTHING_THERE
