@@ -213,10 +213,13 @@ class GeneratedSystem:
     def _started(self, node: LaunchedNode) -> tuple[str, list[str]] | None:
         """The class that a node's program makes a rebec of, and its private parameters."""
         names = {c.name for c in self.read}
+        space, _, component = str(node.type).rpartition("::")  # loaded into a container
         for program in self.programs:
-            if node.type not in (program.name, program.stem):
+            if not space and node.type not in (program.name, program.stem):
                 continue
             for made, keys in (*_made(program.main), *made_in(self.code, program.main)):
+                if space and made.rpartition("::")[2] != component:
+                    continue
                 if class_name(made) in names:
                     return class_name(made), keys
         if self.python is not None and isinstance(node.type, str):

@@ -42,6 +42,8 @@ _PLAIN = re.compile(
     r"|mutex|atomic<.*>|chrono::[\w:<>, ]+)\Z",
     re.DOTALL,
 )
+_DEEPEST = 8  # of classes and names for types within each other
+_REFERRING = ("pointer_declarator", "reference_declarator")
 _CONSTANT = ("constexpr", "constinit")
 _STOP = "mailbox_.stop();"  # as it is generated
 _RUNNING = ("new_expression", "delete_expression", "assignment_expression", "update_expression")
@@ -108,13 +110,14 @@ def _function(node: Node) -> Iterator[tuple[Node, str]]:
 
 def _declared(code: Code, node: Node) -> Iterator[tuple[Node, str]]:
     """A declaration of variables of which one is initialised by what may do anything."""
-    if inside(node, "function_declarator") and not inside(node, "init_declarator"):
+    declarators = node.children_by_field_name("declarator")
+    initialised = any(d.type == "init_declarator" for d in declarators)
+    if not initialised and any(_of_function(d) for d in declarators):
         if _EARLY_FUNCTION.search(text_of(node)) and "attribute" in text_of(node):
             yield node, _EARLY
         return
     words = {text_of(child) for child in node.children}
-    declarators = node.children_by_field_name("declarator")
-    is_elsewhere = "extern" in words and not inside(node, "init_declarator")
+    is_elsewhere = "extern" in words and not initialised
     if not declarators or is_elsewhere or not words.isdisjoint(_CONSTANT):
         return
     is_plain = all(_is_plain_value(code, d.child_by_field_name("value")) for d in declarators)
@@ -122,6 +125,12 @@ def _declared(code: Code, node: Node) -> Iterator[tuple[Node, str]]:
     type_ = node.child_by_field_name("type")
     if not is_plain or not (pointer or (type_ is not None and _is_plain_type(code, type_))):
         yield node, _INITIALISED
+
+
+def _of_function(declarator: Node) -> bool:
+    return declarator.type == "function_declarator" or bool(
+        inside(declarator, "function_declarator")
+    )
 
 
 def _inner(declarator: Node) -> Node:
@@ -162,7 +171,7 @@ def _is_plain_call(code: Code, call: CppCall) -> bool:
         return False
     name = call.name.rpartition("::")[2]
     if name in code.all_classes:
-        return name in _RUN_TIME or all(map(_does_nothing, code.all_classes[name]))
+        return name in _RUN_TIME or all(_does_nothing(code, c) for c in code.all_classes[name])
     own = code.definitions.get(("", call.name), ())
     known = is_known(call)
     return all(_only_gives(f) or (known and _is_ours(f)) for f in own) if own else known
@@ -179,15 +188,19 @@ def _is_ours(function: CppFunction) -> bool:
     return is_runtime_header(function.cpp.source.path)
 
 
-def _is_plain_type(code: Code, type_: Node) -> bool:
+def _is_plain_type(code: Code, type_: Node, depth: int = 0) -> bool:
     """Whether to make an object of a type runs nothing that is not known."""
-    if type_.type in _CLASSES:
-        return not any(True for _ in calls_in(type_))
-    text = " ".join(text_of(type_).split())
+    is_class = type_.type in _CLASSES
+    called = type_.child_by_field_name("name") if is_class else type_
+    text = " ".join(text_of(called).split()) if called is not None else ""
     name = text.partition("<")[0].rpartition("::")[2]
+    if is_class and name not in code.all_classes:
+        return not any(True for _ in calls_in(type_))
     if name in code.all_classes and name not in _RUN_TIME:
-        return all(map(_does_nothing, code.all_classes[name]))
-    is_known_name = name in _RUN_TIME or name in code.aliases or "auto" in text
+        return all(_does_nothing(code, c, depth) for c in code.all_classes[name])
+    if (others := code.aliases.get(name)) and name not in _RUN_TIME:
+        return depth < _DEEPEST and all(_is_plain_type(code, a.type, depth + 1) for a in others)
+    is_known_name = name in _RUN_TIME or "auto" in text
     return is_known_name or bool(_PLAIN.match(text)) or is_passive(text) or not _runs(text)
 
 
@@ -196,7 +209,7 @@ def _runs(type_: str) -> bool:
     return "::" in type_ or not starts_nothing(type_)
 
 
-def _does_nothing(owner: CppClass) -> bool:
+def _does_nothing(code: Code, owner: CppClass, depth: int = 0) -> bool:
     """Whether to make an object of a class stores values alone."""
     special = (owner.name, f"~{owner.name}")
     made = [f for f in inside(owner.node, "function_definition") if _name_of(f) in special]
@@ -205,7 +218,18 @@ def _does_nothing(owner: CppClass) -> bool:
     initialised = inside(owner.node, "field_initializer_list")
     values = [f.value for f in owner.fields if f.value is not None]
     stores = not any(True for node in (*initialised, *values) for _ in calls_in(node))
-    return not owner.bases and own and stores and all(not named(part(f, "body")) for f in made)
+    parts = (_is_plain_type(code, type_, depth + 1) for type_ in _member_types(owner))
+    is_plain = own and stores and all(not named(part(f, "body")) for f in made)
+    return not owner.bases and is_plain and depth < _DEEPEST and all(parts)
+
+
+def _member_types(owner: CppClass) -> Iterator[Node]:
+    """The types of the objects that are made with an object."""
+    for field in inside(owner.node, "field_declaration"):
+        declarators = field.children_by_field_name("declarator")
+        held = (d for d in declarators if d.type not in _REFERRING and not _of_function(d))
+        if any(True for _ in held):
+            yield part(field, "type")
 
 
 def _name_of(function: Node) -> str:
