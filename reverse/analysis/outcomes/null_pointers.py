@@ -46,9 +46,6 @@ class NullPointers:
         self._bounds = bounds
         self._origins = notes.origins
         self._program = notes.origins.graph.program
-        self._assignment = MemberAssignment(
-            notes.origins, lambda each, depth: self._is_nothing(each, t.UNKNOWN, NO_FACTS, depth)
-        )
 
     def may_be(self, value: e.Expression, facts: Facts) -> bool:
         """Whether a pointer, or what is handed over by its address, may lead to nothing."""
@@ -72,6 +69,13 @@ class NullPointers:
         leads = _leads(_type_of(call.target)) and not isinstance(call.callee, s.ValueCallee)
         stored = self._name, CallResult(call)
         return name in MAKING or (leads and not self._is_nothing(stored, t.UNKNOWN, NO_FACTS, 0))
+
+    @property
+    def _assignment(self) -> MemberAssignment:
+        """Made each time: kept here, neither would be freed without a collection."""
+        return MemberAssignment(
+            self._origins, lambda each, depth: self._is_nothing(each, t.UNKNOWN, NO_FACTS, depth)
+        )
 
     @property
     def _name(self) -> str:
