@@ -23,7 +23,6 @@ from rebsync.reverse.ir import expressions as e
 from rebsync.reverse.ir import statements as s
 from rebsync.reverse.ir import types as t
 from rebsync.reverse.ir.operators import Conversion
-from rebsync.reverse.ir.program import FunctionKind
 from rebsync.reverse.ir.walk import walk
 from rebsync.reverse.libraries.size_effects import (
     LEADING_ON,
@@ -33,8 +32,6 @@ from rebsync.reverse.libraries.size_effects import (
 )
 
 _DEEPEST = 4  # of variables that are stored in others
-_FIRST = (FunctionKind.CONSTRUCTOR, FunctionKind.MODULE)
-_MAIN = "main"
 _NULL = e.Literal(None)
 
 
