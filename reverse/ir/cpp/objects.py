@@ -181,10 +181,6 @@ def _is_made(context: Context, value: Value) -> bool:
     return any(n.endswith(("make_shared", "allocate_shared", "_pointer_cast")) for n in names)
 
 
-def _of_library(type_: t.Type) -> bool:
-    return isinstance(type_, t.Record | t.RosMessage | t.RosHandle)
-
-
 def passed(context: Context, value: Value, declared: Declared, place: Span) -> e.Expression:
     """An argument for a parameter: a value of its own, or a reference ([dcl.init.ref])."""
     if declared.reference is ReferenceKind.NONE:
