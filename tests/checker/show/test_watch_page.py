@@ -39,3 +39,15 @@ def test_the_page_follows(chromium: Browser, tmp_path: Path) -> None:
     waits_for(chromium, "drift.html?2 run (all is well), drift (all is well)")
     tell(tmp_path, 2, run="all is well")
     waits_for(chromium, "run.html?2 run (all is well)")
+
+
+def test_the_page_keeps_what_has_not_changed(chromium: Browser, tmp_path: Path) -> None:
+    shell = Path(watch.__file__).with_name("watch.html")
+    (tmp_path / "index.html").write_bytes(shell.read_bytes())
+    tell(tmp_path, 1, run="violated", drift="findings")
+    chromium.open(tmp_path / "index.html")
+    waits_for(chromium, "run.html?1 run (violated), drift (findings)")
+    chromium.run("window.button = document.querySelector('nav button'); window.button.focus()")
+    chromium.run("window.asked = 0; const s = show; show = (p) => { s(p); window.asked += 1; }")
+    chromium.until(lambda each: each.run("return window.asked"), lambda asked: asked >= 2)
+    assert chromium.run("return window.button === document.activeElement")
