@@ -1,7 +1,7 @@
 """Files that are no code to read, but that come before generated code, or before a library's.
 
 An extension module comes before a module of Python of its name (importlib, FileFinder), a header
-without a suffix before the one of the C++ library, and a `pyproject.toml` before `setup.py`.
+without the suffix of one before that of the C++ library, and a `pyproject.toml` before `setup.py`.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ from collections.abc import Collection, Iterator, Sequence
 from posixpath import dirname
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.reverse.files.packages import Listing
+from rebsync.reverse.files.packages import CODE, Listing, suffix_of
 from rebsync.reverse.files.stores import Disk, Entry, Store, join
 
 _COMPILED = re.compile(r"(\w+)(?:\.[\w-]+)*\.(?:so|pyd|pyc)")
-_STANDARD = re.compile(r"[a-z_]+")
-_HEADERS, _SETUP, _PROJECT, _INIT = "include", "setup.py", "pyproject.toml", "/__init__.py"
+_PROSE = frozenset({".md", ".rst", ".txt"})
+_HEADERS, _SETUP, _PROJECT, _INIT = "include/", "setup.py", "pyproject.toml", "/__init__.py"
 _BUILDING = re.compile(r"^\s*\[+\s*(?:project|build-system|tool\.setuptools)\b", re.MULTILINE)
 _IMPORTED = "Python may import this in place of other code"
 _INCLUDED = "this is included in place of a header of the library"
@@ -27,15 +27,30 @@ def overriding_files(listing: Listing, generated: Collection[str]) -> dict[str, 
     """Such files by their paths in a package, each with what it does."""
     files = listing.store or Disk()
     found = dict.fromkeys(_compiled_python(files, listing.root, generated), _IMPORTED)
-    if any(n.startswith(f"{_HEADERS}/") for n in generated):
-        for entry in _entries(files, join(listing.root, _HEADERS)):
-            if _STANDARD.fullmatch(entry.name) and not entry.is_dir():
-                found[f"{_HEADERS}/{entry.name}"] = _INCLUDED
+    headers = [n for n in generated if n.startswith(_HEADERS)]
+    if headers:
+        own = {_HEADERS + n.split("/")[1] for n in headers}
+        found |= dict.fromkeys(_of_no_suffix(files, listing.root, own), _INCLUDED)
     for setup in (n for n in generated if n.rpartition("/")[2] == _SETUP):
         name = setup.removesuffix(_SETUP) + _PROJECT
         if _BUILDING.search(_text(files, join(listing.root, name))):
             found[name] = _BUILT
     return found
+
+
+def _of_no_suffix(files: Store, root: str, own: Collection[str]) -> Iterator[str]:
+    """What may be included and has not the name of a header, but in folders of the package."""
+    folders = [_HEADERS]
+    while folders:
+        folder = folders.pop()
+        for entry in _entries(files, join(root, folder)):
+            name = folder + entry.name
+            if name in own or entry.name.startswith("."):
+                continue
+            if entry.is_dir() and not entry.is_symlink():
+                folders.append(f"{name}/")
+            elif entry.is_dir() or suffix_of(name) not in CODE | _PROSE:
+                yield name
 
 
 def _compiled_python(files: Store, root: str, generated: Collection[str]) -> Iterator[str]:

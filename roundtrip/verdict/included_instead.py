@@ -7,7 +7,7 @@ before the folders of other packages and of generated messages ([cpp.include], G
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from posixpath import dirname, join, normpath
 
@@ -35,7 +35,7 @@ def included_instead(
 ) -> Iterator[Findings]:
     """The headers that the files that were generated include in place of others."""
     paths = now.listing.files
-    new = [n for n in now.changed if n not in record.files and suffix_of(n) in HEADERS]
+    new = [n for n in now.changed if n not in record.files and _is_header(n)]
     if not new:
         return
     beside: dict[str, str] = {}
@@ -48,12 +48,34 @@ def included_instead(
     others = {dirname(n) for n in names if f"{_FOLDER}{n}" not in record.files}
     own = {dirname(n) for n in names if f"{_FOLDER}{n}" in record.files}
     of_others = tuple(f"{_FOLDER}{folder}/" for folder in others - own - {""})
+    meant = _meant_by(paths)
     for header in new:
         name = beside.get(header, header.removeprefix(_FOLDER))
-        is_instead = header.startswith(_FOLDER) and (name in names or bool(_OF_C.fullmatch(name)))
-        if header in paths and (is_instead or header in beside or header.startswith(of_others)):
+        is_unknown = header not in meant and name.partition("/")[0] not in own
+        is_instead = name in names or is_unknown or bool(_OF_C.fullmatch(name))
+        is_instead = header.startswith((*of_others, *([_FOLDER] if is_instead else ())))
+        if header in paths and (is_instead or header in beside):
             message = f'this is included in place of what generated code means by "{name}"'
             yield finding(read_source(paths[header]), NOWHERE, message)
+
+
+def _is_header(name: str) -> bool:
+    """Whether a file may be included: in `include`, whatever its name ends with."""
+    return suffix_of(name) in HEADERS or name.startswith(_FOLDER)
+
+
+def _meant_by(paths: Mapping[str, str]) -> set[str]:
+    """The headers that code of a package includes: of others it is not known who means them."""
+    code = ((n, path) for n, path in paths.items() if suffix_of(n) in CODE)
+    asked = {(dirname(n), name) for n, path in code for _, name in _includes(path)}
+    return {normpath(join(f, name)) for of, name in asked for f in (of, _FOLDER)}
+
+
+def _meant_by(paths: Mapping[str, str]) -> set[str]:
+    """The headers that code of a package includes: of others it is not known who means them."""
+    code = ((n, path) for n, path in paths.items() if suffix_of(n) in CODE)
+    asked = {(dirname(n), name) for n, path in code for _, name in _includes(path)}
+    return {normpath(join(f, name)) for of, name in asked for f in (of, _FOLDER)}
 
 
 def _includes(path: str) -> list[tuple[str, str]]:
