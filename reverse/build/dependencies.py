@@ -7,6 +7,7 @@ from collections.abc import Collection
 
 from rebsync.reverse.build.cmake import BUILD, read_build
 from rebsync.reverse.build.manifests import read_manifest
+from rebsync.reverse.build.standard_modules import is_standard
 from rebsync.reverse.files.packages import CODE
 from rebsync.reverse.files.python_files import SUFFIX
 from rebsync.reverse.libraries.cpp import including
@@ -22,6 +23,7 @@ _LAUNCHING = frozenset(
 )
 # Modules whose packages rosdep names otherwise.
 _OTHERWISE = {"cv2": "opencv", "google": "protobuf", "sklearn": "scikit", "RPi": "rpi.gpio"}
+_TESTS = "test"  # of Python's library, which nothing else of it imports
 _OF_INTERFACES = re.compile(r"message_(?:generation|runtime)|rosidl_default_\w+")
 
 
@@ -54,3 +56,9 @@ def gives_module(depends: Collection[str], module: str) -> bool:
     return module in (*depends, *brought) or any(
         name.startswith("python") and f"-{word}-" in f"{name.lower()}-" for name in depends
     )
+
+
+def is_of_libraries(name: str) -> bool:
+    """Whether the client libraries, or what they import, may mean a module by a name."""
+    brought = (name in (library, *modules) for library, modules in brings().items())
+    return (is_standard(name) and name != _TESTS) or any(brought)

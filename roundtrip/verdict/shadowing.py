@@ -6,15 +6,13 @@ first stands in place of a library's module. `sitecustomize` is imported before 
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator
-from contextlib import suppress
 from posixpath import dirname
 
 from rebsync.diagnostics import Findings
 from rebsync.files import read_source
-from rebsync.reverse.build.standard_modules import is_standard
-from rebsync.reverse.libraries.registry import brings
+from rebsync.reverse.build.dependencies import is_of_libraries
+from rebsync.reverse.syntax.py_module import imported_packages
 from rebsync.roundtrip.package.record import Record
 from rebsync.roundtrip.package.state import PackageState
 from rebsync.roundtrip.verdict.missing_definitions import finding
@@ -22,7 +20,6 @@ from rebsync.source import NOWHERE
 
 _SUFFIX, _INIT = ".py", "/__init__.py"
 _ALWAYS = frozenset({"sitecustomize", "usercustomize"})
-_TESTS = "test"  # of Python's library, which nothing else of it imports
 
 
 def shadowing(record: Record, now: PackageState) -> Iterator[Findings]:
@@ -34,34 +31,17 @@ def shadowing(record: Record, now: PackageState) -> Iterator[Findings]:
     code = [n for n in record.files if n in paths and _is_python(n)]
     roots = {dirname(n) for n in code if not n.endswith(_SUFFIX)}
     roots |= {dirname(dirname(n)) for n in code if n.endswith(_INIT)}
-    imported = {m for n in code for m in _imported(read_source(paths[n]).text)}
+    imported = {m for n in code for m in imported_packages(read_source(paths[n]).text)}
     for name in new:
         module = name.removesuffix(_INIT).removesuffix(_SUFFIX)
         folder, _, stem = module.rpartition("/")
         is_instead = name.endswith(_INIT) and f"{module}{_SUFFIX}" in record.files
         own = {n.removesuffix(_INIT) for n in code}
-        is_meant = stem in imported | _ALWAYS or _is_of_libraries(stem)
+        is_meant = stem in imported | _ALWAYS or is_of_libraries(stem)
         is_first = folder in roots and is_meant and module not in own
         if is_instead or is_first:
             message = f'Python imports this in place of what generated code means by "{stem}"'
             yield finding(read_source(paths[name]), NOWHERE, message)
-
-
-def _imported(text: str) -> Iterator[str]:
-    """The outermost packages that a module imports by their names; none where it does not parse."""
-    with suppress(SyntaxError, ValueError):
-        for node in ast.walk(ast.parse(text)):
-            match node:
-                case ast.Import(names):
-                    yield from (each.name.partition(".")[0] for each in names)
-                case ast.ImportFrom(str(module), level=0):
-                    yield module.partition(".")[0]
-
-
-def _is_of_libraries(name: str) -> bool:
-    """Whether the client libraries, or what they import, may mean a module by a name."""
-    brought = (name in (library, *modules) for library, modules in brings().items())
-    return (is_standard(name) and name != _TESTS) or any(brought)
 
 
 def _is_python(name: str) -> bool:
