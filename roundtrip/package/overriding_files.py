@@ -16,10 +16,12 @@ from rebsync.reverse.files.stores import Disk, Entry, Store, join
 
 _COMPILED = re.compile(r"(\w+)(?:\.[\w-]+)*\.(?:so|pyd|pyc)")
 _STANDARD = re.compile(r"[a-z_]+")
-_HEADERS, _SETUP, _PROJECT, _INIT = "include", "setup.py", "pyproject.toml", "/__init__.py"
+_HEADERS, _GCH = "include", ".gch"
+_SETUP, _PROJECT, _INIT = "setup.py", "pyproject.toml", "/__init__.py"
 _BUILDING = re.compile(r"^\s*\[+\s*(?:project|build-system|tool\.setuptools)\b", re.MULTILINE)
 _IMPORTED = "Python may import this in place of other code"
 _INCLUDED = "this is included in place of a header of the library"
+_PRECOMPILED = "this may be included in place of the header that it is compiled from"
 _BUILT = "this says anew what is built of the package"
 
 
@@ -31,6 +33,10 @@ def overriding_files(listing: Listing, generated: Collection[str]) -> dict[str, 
         for entry in _entries(files, join(listing.root, _HEADERS)):
             if _STANDARD.fullmatch(entry.name) and not entry.is_dir():
                 found[f"{_HEADERS}/{entry.name}"] = _INCLUDED
+    for folder in {dirname(n) for n in generated if n.startswith(f"{_HEADERS}/")}:
+        names = (f"{folder}/{e.name}" for e in _entries(files, join(listing.root, folder)))
+        precompiled = (n for n in names if n.endswith(_GCH) and n.removesuffix(_GCH) in generated)
+        found |= dict.fromkeys(precompiled, _PRECOMPILED)
     for setup in (n for n in generated if n.rpartition("/")[2] == _SETUP):
         name = setup.removesuffix(_SETUP) + _PROJECT
         if _BUILDING.search(_text(files, join(listing.root, name))):

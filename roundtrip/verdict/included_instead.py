@@ -1,7 +1,8 @@
-"""New headers that are included in place of what generated code means by a name.
+"""New headers that are included in place of what other code means by a name.
 
 A quoted include looks beside the file that it is in first, and then, as all do, in `include`,
-before the folders of other packages and of generated messages ([cpp.include], GCC's -I).
+before the folders of other packages and of generated messages ([cpp.include], GCC's -I). Headers
+of libraries find there what nothing in the package includes.
 """
 
 from __future__ import annotations
@@ -47,13 +48,23 @@ def included_instead(
                 beside[normpath(join(dirname(user), name))] = name
     others = {dirname(n) for n in names if f"{_FOLDER}{n}" not in record.files}
     own = {dirname(n) for n in names if f"{_FOLDER}{n}" in record.files}
+    of_own = tuple(f"{folder}/" for folder in own - {""})
     of_others = tuple(f"{_FOLDER}{folder}/" for folder in others - own - {""})
+    meant = {path for n, at in paths.items() if suffix_of(n) in CODE for path in _meant(n, at)}
     for header in new:
         name = beside.get(header, header.removeprefix(_FOLDER))
-        is_instead = header.startswith(_FOLDER) and (name in names or bool(_OF_C.fullmatch(name)))
+        is_of_libraries = bool(_OF_C.fullmatch(name)) or header not in meant
+        is_own = name not in names and (name.startswith(of_own) or not is_of_libraries)
+        is_instead = header.startswith(_FOLDER) and not is_own
         if header in paths and (is_instead or header in beside or header.startswith(of_others)):
-            message = f'this is included in place of what generated code means by "{name}"'
+            message = f'this is included in place of what other code means by "{name}"'
             yield finding(read_source(paths[header]), NOWHERE, message)
+
+
+def _meant(name: str, path: str) -> Iterator[str]:
+    """The headers that a file of the package may include."""
+    for _, header in _includes(path):
+        yield from (f"{_FOLDER}{header}", normpath(join(dirname(name), header)))
 
 
 def _includes(path: str) -> list[tuple[str, str]]:
