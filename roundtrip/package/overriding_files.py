@@ -1,7 +1,8 @@
 """Files that are no code to read, but that come before generated code, or before a library's.
 
 An extension module comes before a module of Python of its name (importlib, FileFinder), a header
-without a suffix before the one of the C++ library, and a `pyproject.toml` before `setup.py`.
+without a suffix before the one of the C++ library, and a `pyproject.toml` before `setup.py`. What
+tells colcon or catkin to ignore a package comes before all of it.
 """
 
 from __future__ import annotations
@@ -11,17 +12,34 @@ from collections.abc import Collection, Iterator, Sequence
 from posixpath import dirname
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.reverse.files.packages import Listing
+from rebsync.reverse.files.packages import IGNORING, Listing
 from rebsync.reverse.files.stores import Disk, Entry, Store, join
+from rebsync.source import Source
+from rebsync.toml import read_toml
 
+_MANIFEST, _OF_COLCON = "package.xml", "colcon.pkg"
+_LOOKING = frozenset(
+    {
+        "autopep8",
+        "bandit",
+        "black",
+        "codespell",
+        "coverage",
+        "flake8",
+        "isort",
+        "mypy",
+        "pydocstyle",
+    }
+    | {"pylint", "pyright", "pytest", "ruff", "tox", "vulture", "yapf"}
+)
 _COMPILED = re.compile(r"(\w+)(?:\.[\w-]+)*\.(?:so|pyd|pyc)")
 _STANDARD = re.compile(r"[a-z_]+")
 _HEADERS, _GCH = "include", ".gch"
 _SETUP, _PROJECT, _INIT = "setup.py", "pyproject.toml", "/__init__.py"
-_BUILDING = re.compile(r"^\s*\[+\s*(?:project|build-system|tool\.setuptools)\b", re.MULTILINE)
 _IMPORTED = "Python may import this in place of other code"
 _INCLUDED = "this is included in place of a header of the library"
 _PRECOMPILED = "this may be included in place of the header that it is compiled from"
+_NOT_BUILT = "with this, nothing of the package is built"
 _BUILT = "this says anew what is built of the package"
 
 
@@ -39,9 +57,26 @@ def overriding_files(listing: Listing, generated: Collection[str]) -> dict[str, 
         found |= dict.fromkeys(precompiled, _PRECOMPILED)
     for setup in (n for n in generated if n.rpartition("/")[2] == _SETUP):
         name = setup.removesuffix(_SETUP) + _PROJECT
-        if _BUILDING.search(_text(files, join(listing.root, name))):
+        if _says_what_is_built(_text(files, join(listing.root, name))):
             found[name] = _BUILT
+    for folder in {dirname(n) for n in generated if n.rpartition("/")[2] == _MANIFEST}:
+        for entry in _entries(files, join(listing.root, folder) if folder else listing.root):
+            if entry.name in IGNORING or entry.name == _OF_COLCON:
+                why = _BUILT if entry.name == _OF_COLCON else _NOT_BUILT
+                found[f"{folder}/{entry.name}".lstrip("/")] = why
     return found
+
+
+def _says_what_is_built(text: str) -> bool:
+    """Whether a `pyproject.toml` has more than tables of tools that only look at code."""
+    try:
+        table = read_toml(Source(_PROJECT, text)).values
+    except RebsyncError:
+        return True  # pip and setuptools end there
+    tools = table.get("tool", {})
+    return not table.keys() <= {"tool"} or not (
+        isinstance(tools, dict) and tools.keys() <= _LOOKING
+    )
 
 
 def _compiled_python(files: Store, root: str, generated: Collection[str]) -> Iterator[str]:

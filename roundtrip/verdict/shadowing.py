@@ -7,11 +7,12 @@ first stands in place of a library's module. `sitecustomize` is imported before 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from posixpath import dirname
 
 from rebsync.diagnostics import Findings
 from rebsync.files import read_source
+from rebsync.reverse.build.standard_modules import is_standard
 from rebsync.roundtrip.package.record import Record
 from rebsync.roundtrip.package.state import PackageState
 from rebsync.roundtrip.verdict.missing_definitions import finding
@@ -37,10 +38,15 @@ def shadowing(record: Record, now: PackageState) -> Iterator[Findings]:
         folder, _, stem = module.rpartition("/")
         is_instead = name.endswith(_INIT) and f"{module}{_SUFFIX}" in record.files
         own = {n.removesuffix(_INIT) for n in code}
-        is_first = folder in roots and stem in imported | _ALWAYS and module not in own
+        is_first = folder in roots and module not in own and _may_be_imported(stem, imported)
         if is_instead or is_first:
             message = f'Python imports this in place of what generated code means by "{stem}"'
             yield finding(read_source(paths[name]), NOWHERE, message)
+
+
+def _may_be_imported(module: str, imported: Collection[str]) -> bool:
+    """Whether what runs imports a module: the code itself, or a library one of Python's."""
+    return module in imported or module in _ALWAYS or is_standard(module)
 
 
 def _is_python(name: str) -> bool:
