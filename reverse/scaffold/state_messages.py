@@ -33,6 +33,7 @@ _FLAT = re.compile(r"flatten\s*\(\s*(.*?)\s*,\s*\w+\s*\.\s*(\w+)\s*\)\s*;", re.D
 _SENT = re.compile(
     r"(?:this\s*->\s*)?(\w+)\s*(?:\.|->)\s*publish\s*\(\s*(?:std::move\()?\s*\*?(\w*)"
 )
+_NAMING = frozenset({"enum", "using"})  # these may name something else as a state variable is
 _ALWAYS = frozenset({"server", "arguments", "arrival", "start", "now"})
 FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
 
@@ -119,6 +120,8 @@ class _Telling:
             of, name, part, operator, value = found.groups()
             how = "" if (part, operator) == ("", "=") else f"{part} {operator} "
             return (name, f"{how}{_value(value, self.served)}") if of == self.message else None
+        if statement.partition(" ")[0] in _NAMING:
+            return "", squeezed(statement)
         declared = _DECLARED.match(statement)
         if declared is None or _MADE.match(statement) is not None or not self._hides(declared[1]):
             return None
