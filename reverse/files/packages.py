@@ -26,7 +26,7 @@ _OTHERS = frozenset(
     {".launch", ".msg", ".srv", ".action", ".yaml", ".yml", ".xml", ".cmake", ".in"}
 )
 _NAMED = frozenset({"CMakeLists.txt", "rebsync.toml", "setup.cfg"})
-_IGNORING = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
+IGNORING = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
 # What a build leaves in a directory of its own: by this it is told from code of the same name.
 _BUILT = frozenset({"CMakeCache.txt", ".catkin", "_setup_util.py", "local_setup.sh", ".built_by"})
 _BUILDS = frozenset({"build", "devel", "install", "log"})
@@ -172,7 +172,7 @@ class _Walk:
                 raise os_mistake(folder, error) from None
             listing.odd[inside] = _reason(folder, error)
             return []
-        if inside and any(e.name in _IGNORING for e in every):
+        if inside and any(e.name in IGNORING for e in every):
             return []
         return [e for e in every if not e.name.startswith(".") and e.name != "node_modules"]
 

@@ -93,7 +93,7 @@ class PythonPart:
             is_own = made in names and carry(made, NO_PYTHON_CLASSES) == called
             module = self.scripts.get(program)
             if module is None:
-                runs = program in (path, path.removesuffix(".py"))
+                runs = not self.scripts and program in (path, path.removesuffix(".py"))
             else:
                 runs = is_module(scope.py.source.path, module)
             if runs and is_own:

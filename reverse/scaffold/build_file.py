@@ -43,6 +43,7 @@ _STEERING = re.compile(
     r"|EXTERNAL_OBJECT|GENERATED|EXCLUDE_FROM_ALL|(?:\w+_)?INCLUDE_DIRECTORIES"
     r"|CMAKE_(?:UNITY_BUILD\w*|PRECOMPILE_HEADERS|LINK_\w+|MODULE_PATH|PREFIX_PATH|FIND_\w+|AUTO\w+)"
     r"|PROJECT_NAME|CATKIN_\w+_DESTINATION|CMAKE_(?:EXECUTABLE_SUFFIX\w*|INSTALL_PREFIX)"
+    r"|(?:catkin|ros(?:cpp|idl_\w+)|rcl\w+|ament_\w+|message_\w+|\w+_msgs|\w+_interfaces)_(?:DIR|ROOT)"
 )
 # Properties of targets, and variables that these get them from, that change nothing of what is run.
 _CALM_PROPERTY = re.compile(

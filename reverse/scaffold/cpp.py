@@ -15,7 +15,8 @@ from rebsync.source import Source, Span
 MAIN = re.compile(r"\bint\s+main\s*\(")
 _STARTED = re.compile(r"\bmailbox_\s*\.\s*start\s*\(\s*\)")
 _SHOWS = re.compile(r"\bmailbox_\s*\.\s*onServed\s*\(")
-_COMMENT = re.compile(rf"{LINE_COMMENT}|/\*.*?\*/", re.DOTALL)
+_STRING = r'"(?:\\.|[^"\\\n])*"'
+_COMMENT = re.compile(rf"({_STRING})|{LINE_COMMENT}|/\*.*?\*/", re.DOTALL)
 _BROKEN = re.compile(r'\w+(?:\s*::\s*\w+)+|"[^"\n\\]*"(?:\s*"[^"\n\\]*")+')
 _SENSOR = re.compile(r'[:,]\s*(\w+)\s*[({]\s*\*?\s*\w+\s*,\s*("[^"]*")\s*[)}]')
 _PLAYED = re.compile(r'\bnode\s*\.\s*advertise\s*<[^;()]*>\s*\(\s*"([^"]*)"')
@@ -37,13 +38,14 @@ _STATE = re.compile(
 )
 _KEPT_LAST = re.compile(r"\brclcpp::KeepLast\((\w+)\)")
 _STOPPED = re.compile(r"~(\w+)\s*\([^;{]*\{[^}]*\bmailbox_\s*\.\s*stop\s*\(\s*\)")
-_COMPONENT = re.compile(r"\bRCLCPP_COMPONENTS_REGISTER_NODE\s*\(\s*(?:\w+\s*::\s*)*(\w+)\s*\)")
+_REGISTER = "RCLCPP_COMPONENTS_REGISTER_NODE"
+_COMPONENT = re.compile(rf"\b{_REGISTER}\s*\(\s*(?:\w+\s*::\s*)*(\w+)\s*\)")
 _WHOLE = frozenset({"int", "int64_t", "std::int64_t", "long"})
 
 
 def facts_in_cpp(program: str, source: Source) -> Iterator[Fact]:
     """The facts in a file; `program` is the name of a program that has its `main` there."""
-    text = _COMMENT.sub(lambda m: " " * len(m[0]), source.text)
+    text = _COMMENT.sub(lambda m: m[1] or " " * len(m[0]), source.text)
     text = _BROKEN.sub(joined, text)
     joints, told = _joints(source, text), told_in_cpp(source, text)
     found = chain(joints, told, _made(program, source, text), _in_ros2(source, text))
@@ -56,9 +58,10 @@ def _joints(source: Source, text: str) -> Iterator[Fact]:
     if owner is None:
         return
     servers = {m[1]: m[2].strip('"') for m in _SERVER.finditer(text)}
-    for m in _STARTED.finditer(text):
+    bare = _without_strings(text)
+    for m in _STARTED.finditer(bare):
         yield Fact("start of serving", owner[1], "", "there", source, Span(*m.span()))
-    for m in _SHOWS.finditer(text):
+    for m in _SHOWS.finditer(bare):
         yield Fact("state after each body", owner[1], "", "shown", source, Span(*m.span()))
     for m in _SENSOR.finditer(text):
         yield Fact("sensor", owner[1], m[1], m[2], source, Span(*m.span(2)))
@@ -103,7 +106,8 @@ def _posted_in(text: str, handler: str, servers: Mapping[str, str]) -> str:
 
 def _in_ros2(source: Source, text: str) -> Iterator[Fact]:
     """Of a source or header: parameters with their types, the state's quality, components."""
-    for m in _STOPPED.finditer(text):
+    bare = _without_strings(text)
+    for m in _STOPPED.finditer(bare):
         yield Fact("end of serving", m[1], "", "there", source, Span(*m.span()))
     owner = _OWNER.search(text)
     if owner is None:
@@ -114,8 +118,14 @@ def _in_ros2(source: Source, text: str) -> Iterator[Fact]:
     for m in _STATE.finditer(text):
         quality = _plain_quality("".join(m[1].split()))
         yield Fact("quality of the state", owner[1], "", quality, source, Span(*m.span()))
-    for m in _COMPONENT.finditer(text):
+    is_redefined = f"define {_REGISTER}" in text
+    for m in _COMPONENT.finditer(bare) if not is_redefined else ():
         yield Fact("component", m[1], "", "registered", source, Span(*m.span()))
+
+
+def _without_strings(text: str) -> str:
+    """The text with blanks for all strings, which only name what other code does."""
+    return re.sub(_STRING, lambda m: " " * len(m[0]), text)
 
 
 def _plain_quality(said: str) -> str:

@@ -5,6 +5,7 @@ They are read from each file alone, whatever the model says.
 
 from __future__ import annotations
 
+import posixpath
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from functools import lru_cache
@@ -43,6 +44,7 @@ def facts_of(paths: Mapping[str, str], package: str = "") -> Facts:
     launches: list[Source] = []
 
     def load(path: str) -> Source | None:
+        path = posixpath.normpath(path)
         inside = path.removeprefix("/")
         # of two packages that are one output, each is in a folder of its own
         found = (p for n, p in paths.items() if p == path or f"/{n}".endswith(f"/{inside}"))

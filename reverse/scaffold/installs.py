@@ -34,7 +34,10 @@ def installed(
         elif kind == "TARGETS":
             place = _place(_PROGRAMS in to or not to, to)
             yield "installed program", "", names.get(text, text), place + only, span
-        elif kind in _FILES and _is_over_others(text, kind, to):
+        elif kind in _FILES and (
+            _is_over_others(text, kind, to)
+            or (_PROGRAMS in to and _is_over_programs(text, kind, words, names))
+        ):
             shown = f"install {' '.join(words)}"
             yield "step of the build", "", shown, "given", span
         elif kind == "DIRECTORY" and not text.startswith("include"):  # no node needs headers there
@@ -65,6 +68,15 @@ def _is_over_others(text: str, kind: str, to: Sequence[str]) -> bool:
         if used and place != f"{_SHARED}/{path if is_folder else folder}":
             return True
     return False
+
+
+def _is_over_programs(text: str, kind: str, words: Sequence[str], names: Mapping[str, str]) -> bool:
+    """Whether what is installed beside programs is named as one of them, or may be."""
+    if kind == "DIRECTORY":
+        return text.endswith("/")  # its files themselves
+    renamed = words[words.index("RENAME") + 1 :] if "RENAME" in words else []
+    name = renamed[0] if renamed else text.rpartition("/")[2]
+    return name in names.values() or "$" in name
 
 
 def _destination(words: Sequence[str], at: int, project: str) -> list[str]:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from rebsync.records import dataclass
 from rebsync.reverse.launch.launch_files import read_launch
 from rebsync.reverse.launch.launch_values import Surroundings
-from rebsync.reverse.launch.parameters import YAML
 from rebsync.reverse.launch.xml_tree import XmlElement, read_xml
 from rebsync.reverse.scaffold.fact import (
     NOT_GIVEN,
@@ -19,7 +17,6 @@ from rebsync.reverse.scaffold.fact import (
     SHOWN,
     SPACE,
     TYPE,
-    UNKNOWN,
     Fact,
     has_bearing,
     speaks,
@@ -31,7 +28,7 @@ from rebsync.source import Source
 
 _ENTRY = re.compile(r"\s*(\w+):\s*(?:-?\d+|true|false)\s*")
 Load = Callable[[str], "Source | None"]
-_ARGUMENT = re.compile(r"\$\(arg\s+(\w+)\s*\)")
+_STARTED = ("pkg", "respawn", "args", "launch-prefix", "machine")
 _BY_NAMES = "topic_tools"  # whose programs publish under names alone that they are handed
 
 
@@ -43,37 +40,10 @@ def facts_of_launch(source: Source, package: str) -> Iterator[Fact]:
         names = [name for name, _ in found]
         given = {name: value for name, value in found if names.count(name) == 1}
         yield from _Tags(source, package, frozenset(_nodes(root)), given).facts(root)
-        yield from _arguments(source, root)
-
-
-def _arguments(source: Source, root: XmlElement) -> Iterator[Fact]:
-    """The arguments for which roslaunch ends: used without a declaration, or declared again."""
-    declared = Counter(
-        each.get("name")
-        for each in _inside(root)
-        if each.name == "arg" and not {"if", "unless"} & each.attributes.keys()
-    )
-    named = {each.get("name") for each in _inside(root) if each.name == "arg"}
-    for each in (root, *_inside(root)):
-        for text in (a.value for a in each.attributes.values()):
-            for name in {*_ARGUMENT.findall(text)} - named:
-                why = f"nothing here gives the argument `{name}`"
-                yield Fact(UNKNOWN, name, f"the <{each.name}>", why, source, each.span)
-        if each.name == "arg" and declared[each.get("name")] > 1:
-            why = "the argument is declared above"
-            yield Fact(UNKNOWN, "", f"the <arg> `{each.get('name')}`", why, source, each.span)
-
-
-def _inside(element: XmlElement) -> Iterator[XmlElement]:
-    """The tags in a tag, but for what an included file is given."""
-    for each in element.elements():
-        yield each
-        if each.name != "include":
-            yield from _inside(each)
 
 
 def facts_of_settings(source: Source, load: Load) -> Iterator[Fact]:
-    """What a launch file with all that it loads sets of the run-time part, and YAML that is none.
+    """What a launch file with all that it loads sets of the run-time part.
 
     The file of parameters that is generated has facts of its own.
     """
@@ -82,9 +52,6 @@ def facts_of_settings(source: Source, load: Load) -> Iterator[Fact]:
         name = "/".join(given.name.split("/")[-2:])
         if has_bearing(name) and not given.source.path.endswith(PARAMETERS):
             yield Fact("setting", "", name, str(given.value), given.source, given.span)
-    for unknown in launch.unknowns:
-        if unknown.what == YAML and not unknown.source.path.endswith(PARAMETERS):
-            yield Fact(UNKNOWN, "", unknown.what, unknown.why, unknown.source, unknown.span)
 
 
 def _is_plain(text: str) -> bool:
@@ -151,6 +118,8 @@ class _Tags:
                 yield from self._node(element, given)
             case "env" if not name.startswith(SHOWN):
                 yield self._fact("environment", self.node, name, value, element)
+            case "machine" if given.get("default", "never") not in ("false", "never"):
+                yield self._fact("environment", "", "machine", name, element)
             case "include" if not is_of_package(given.get("file", ""), self.package):
                 yield self._fact("launch file", "", given.get("file", ""), "included", element)
             case "remap":
@@ -185,7 +154,7 @@ class _Tags:
         command = f"{given.get('pkg', '')} {given.get('type', '')} {given.get('args', '')}".strip()
         if given.get("pkg") not in (self.package, _BY_NAMES) and speaks(command.split()):
             yield self._fact("command", "", command, "started", element)
-        told = {key: given.get(key, "") for key in ("pkg", "respawn", "args", "launch-prefix")}
+        told = {key: given.get(key, "") for key in _STARTED}
         if told["pkg"] == self.package:
             told["pkg"] = OWN
         if not _may_rename(told["args"]):

@@ -13,7 +13,7 @@ from rebsync.reverse.launch.launch_files_ros2 import read_ros2_launch, speaks_ro
 from rebsync.reverse.launch.launch_values import Surroundings
 from rebsync.reverse.launch.launched import Launch, LaunchedNode
 from rebsync.reverse.launch.parameters import ParameterValue
-from rebsync.reverse.scaffold.fact import HANDED, OPEN, UNKNOWN, Fact, is_of_runtime
+from rebsync.reverse.scaffold.fact import HANDED, OPEN, PARAMETERS, UNKNOWN, Fact, is_of_runtime
 from rebsync.reverse.unknowns import Open, Text
 from rebsync.source import Source, Span
 
@@ -22,7 +22,8 @@ Load = Callable[[str], "Source | None"]
 _LAUNCH = re.compile(r"\.launch(?:\.py|\.xml|\.ya?ml)?\Z")
 _LOADED = r"ya?ml|xml|launch|py"
 # Files of which each has facts of its own for remaps and namespaces.
-_READ_ALONE = (".launch", ".launch.py")
+_ROS_1 = ".launch"
+_READ_ALONE = (_ROS_1, ".launch.py")
 _PACKAGE = re.compile(r"""\b(?:pkg|package)["']?\s*[=:]\s*([^\s,)>]+)""")
 _MORE = re.compile(r"include|ExecuteProcess|ExecuteLocal|<executable|executable:", re.I)
 # Programs that publish under no name that they are given: they record, show, or tell of frames.
@@ -55,13 +56,13 @@ def facts_of_others(sources: Iterable[Source], load: Load, package: str) -> Iter
     read = {
         source.path: _read(source, load, package)
         for source in sources
-        if _may_start_others(source.text, package)
+        if source.path.endswith(_ROS_1) or _may_start_others(source.text, package)
     }
     included = {each.path for launch in read.values() for each in launch.sources[1:]}
     for path, launch in read.items():
         if path not in included:
             yield from _facts(launch, package)
-            yield from _missing(launch, package)
+            yield from _unknown(launch, package)
 
 
 def is_launch(path: str) -> bool:
@@ -112,12 +113,21 @@ def _of_commands(launch: Launch) -> Iterator[Fact]:
             yield Fact(HANDED, "", "command", told, command.source, command.span)
 
 
-def _missing(launch: Launch, package: str) -> Iterator[Fact]:
-    """Files of the package that are included or loaded, and are not there: nothing is started."""
+def _unknown(launch: Launch, package: str) -> Iterator[Fact]:
+    """What roslaunch refuses, or nobody knows, but for what nodes of other packages are handed.
+
+    Of ROS 2, files of the package that are included or loaded, and are not there: nothing is
+    started.
+    """
     own = re.compile(rf"`(?:share:/{re.escape(package)}/|(?!share:))[^`]*\.(?:{_LOADED})`")
+    is_ros_1 = launch.sources[0].path.endswith(_ROS_1)
+    others = [(node.source, node.span) for node in launch.nodes if node.package != package]
     for unknown in launch.unknowns:
-        told = f"{unknown.what} {unknown.why}"
-        if own.search(told) and told.endswith("not at hand"):
+        told, at = f"{unknown.what} {unknown.why}", unknown.span.start
+        is_missing = own.search(told) is not None and told.endswith("not at hand")
+        is_own = is_ros_1 and not unknown.source.path.endswith(PARAMETERS)
+        is_handed = any(unknown.source is s and span.start <= at < span.end for s, span in others)
+        if is_missing or (is_own and not is_handed):
             yield Fact(UNKNOWN, "", unknown.what, unknown.why, unknown.source, unknown.span)
 
 

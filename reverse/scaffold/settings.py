@@ -27,7 +27,7 @@ from rebsync.source import NOWHERE, Source, Span
 
 _ALL_NODES = "/**/"  # under what ROS 2 has the parameters that all nodes are given
 _ANCHOR = re.compile(r"&\S+\s+")
-_WHOLE, _FRACTION = "a whole number", "a fraction"
+_WHOLE, _FRACTION, _TEXT = "a whole number", "a fraction", "a text"
 _TYPES = {
     _WHOLE: re.compile(r"[+-]?(?:0x[\da-fA-F]+|\d[\d_]*)"),
     _FRACTION: re.compile(r"[+-]?(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?"),
@@ -41,16 +41,16 @@ _ROS2 = "ros__parameters:"
 _UNIT = re.compile(r"^[ \t]*time_unit:[ \t]*([\d.]+)[ \t]*(?:#.*)?$", re.MULTILINE)
 _FOLDERS = frozenset({("develop", "script_dir"), ("install", "install_scripts")})
 _BUILDING = re.compile(
-    r"options.*|entry_points|build(?!_scripts).*|install.*|develop|global|easy_install"
+    r"options.*|entry_points|build(?!_scripts).*|install.*|develop|global|easy_install|aliases"
 )
 
 
 def facts_of_message(source: Source, package: str) -> Iterator[Fact]:
     message = Path(source.path).stem
-    unknowns = read_message(source, package, message).unknowns if _is_message(source) else ()
-    for unknown in unknowns:
+    read = read_message(source, package, message)
+    for unknown in read.unknowns if _is_message(source) else ():
         yield Fact(UNKNOWN, message, unknown.what, unknown.why, source, unknown.span)
-    if is_state_message(source.text):
+    if is_state_message(read):
         yield from facts_of_state_message(message, source)
         return
     for m in FIELD.finditer(source.text):
@@ -100,12 +100,14 @@ def _parameter(section: str, name: str, value: str, source: Source, at: Span) ->
             value = _METRES
         elif whole == "mailbox/settle" and _settles(value, source.text):
             value = _SETTLES
+        elif value[:1] in ("'", '"') and value[1:-1].isalpha() and _type_of(value[1:-1]) == _TEXT:
+            value = value[1:-1]
         yield Fact("parameter", "", whole, value, source, at)
 
 
 def _settles(value: str, text: str) -> bool:
     """Whether a node waits long enough, and far less than a unit of time."""
-    units = [float(m[1]) for m in _UNIT.finditer(text) if _type_of(m[1]) != "a text"]
+    units = [float(m[1]) for m in _UNIT.finditer(text) if _type_of(m[1]) != _TEXT]
     is_plain = _type_of(value) == _FRACTION and "e" not in value.lower()
     return is_plain and _LEAST <= float(value) <= _MOST and all(u >= 1 for u in units)
 
@@ -118,7 +120,7 @@ def _is_length(value: str) -> bool:
 
 def _type_of(value: str) -> str:
     """The type that a value has in YAML, as ROS tells them apart."""
-    return next((name for name, pattern in _TYPES.items() if pattern.fullmatch(value)), "a text")
+    return next((name for name, pattern in _TYPES.items() if pattern.fullmatch(value)), _TEXT)
 
 
 def facts_of_setup(source: Source) -> Iterator[Fact]:

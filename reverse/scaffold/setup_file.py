@@ -59,7 +59,9 @@ class SetupFile:
             case ast.keyword("data_files", ast.List(listed)):
                 for each in listed:
                     for name, text in self._installed(each):
-                        yield self._fact("installed file", name, text, each)
+                        # elsewhere it may come in place of a program or a module
+                        kind = "installed file" if name.startswith("share/") else PYTHON_SETTING
+                        yield self._fact(kind, name, text, each)
             case ast.keyword("packages", value):
                 yield self._fact("Python package", "packages", self._packages(value), value)
             case ast.keyword(str(name), value) if name in BUILDING:
@@ -96,10 +98,11 @@ class SetupFile:
         match entry:
             case ast.Tuple([to, from_]):
                 folder, files = self._text(to), self._listed(from_)
-                if folder is not None and files is not None:
-                    for file in files:
+                if folder is not None:
+                    for file in [plain(from_)] if files is None else files:
                         last = file.rpartition("/")[2]
-                        yield self._named(f"{folder}/{last}"), self._named(file)
+                        path = posixpath.normpath(f"{folder}/{last}")
+                        yield self._named(path), self._named(file)
                     return
             case _:
                 pass

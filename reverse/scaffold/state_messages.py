@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from rebsync.records import dataclass
+from rebsync.reverse.build.messages import MessageFile
 from rebsync.reverse.scaffold.fact import TOLD, TOLD_TYPE, Fact
 from rebsync.reverse.scaffold.texts import squeezed
 from rebsync.source import Source, Span
@@ -32,13 +33,14 @@ _FLAT = re.compile(r"flatten\s*\(\s*(.*?)\s*,\s*\w+\s*\.\s*(\w+)\s*\)\s*;", re.D
 _SENT = re.compile(
     r"(?:this\s*->\s*)?(\w+)\s*(?:\.|->)\s*publish\s*\(\s*(?:std::move\()?\s*\*?(\w*)"
 )
-_MESSAGE = re.compile(r"^string server\nstring arguments$", re.MULTILINE)
+_NAMING = frozenset({"enum", "using"})  # these may name something else as a state variable is
+_ALWAYS = frozenset({"server", "arguments", "arrival", "start", "now"})
 FIELD = re.compile(r"^[ \t]*([\w/\[\]]+)[ \t]+(\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
 
 
-def is_state_message(text: str) -> bool:
-    """Whether the text of a message type is that of a state message."""
-    return _MESSAGE.search(text) is not None
+def is_state_message(message: MessageFile) -> bool:
+    """Whether a message type is a state message, by the fields that each of them has."""
+    return {field.name for field in message.fields} >= _ALWAYS
 
 
 def facts_of_state_message(message: str, source: Source) -> Iterator[Fact]:
@@ -118,6 +120,8 @@ class _Telling:
             of, name, part, operator, value = found.groups()
             how = "" if (part, operator) == ("", "=") else f"{part} {operator} "
             return (name, f"{how}{_value(value, self.served)}") if of == self.message else None
+        if statement.partition(" ")[0] in _NAMING:
+            return "", squeezed(statement)
         declared = _DECLARED.match(statement)
         if declared is None or _MADE.match(statement) is not None or not self._hides(declared[1]):
             return None

@@ -14,6 +14,7 @@ from pathlib import Path
 from rebsync.diagnostics import RebsyncError
 from rebsync.files import read_bytes, read_source
 from rebsync.records import dataclass
+from rebsync.reverse.files.packages import IGNORING
 from rebsync.roundtrip.package.digests import is_text_of
 from rebsync.roundtrip.package.managed import SKIPPED, SUFFIX, ManagedPackage
 from rebsync.roundtrip.package.manifest import BASE_MODEL
@@ -21,7 +22,6 @@ from rebsync.roundtrip.package.record import Record
 from rebsync.trees import GIT
 
 _ALIKE = 0.5  # of the lines, as git has it
-_IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +65,7 @@ def _likeness(model: str, root: str) -> float:
 def _models(tree: str) -> Iterator[str]:
     """The models in a directory, but for what is hidden, built, or of a repository within."""
     for folder, folders, names in os.walk(tree):
-        if _IGNORED & set(names) or (folder != tree and GIT in (*folders, *names)):
+        if IGNORING & set(names) or (folder != tree and GIT in (*folders, *names)):
             folders.clear()
             continue
         folders[:] = sorted(n for n in folders if n[0] != "." and n not in SKIPPED)

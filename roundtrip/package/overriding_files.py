@@ -2,6 +2,7 @@
 
 An extension module comes before a module of Python of its name (importlib, FileFinder), a header
 without the suffix of one before that of the C++ library, and a `pyproject.toml` before `setup.py`.
+What tells colcon or catkin to ignore a package comes before all of it.
 """
 
 from __future__ import annotations
@@ -11,15 +12,34 @@ from collections.abc import Collection, Iterator, Sequence
 from posixpath import dirname
 
 from rebsync.diagnostics import RebsyncError
-from rebsync.reverse.files.packages import CODE, Listing, suffix_of
+from rebsync.reverse.files.packages import CODE, IGNORING, Listing, suffix_of
 from rebsync.reverse.files.stores import Disk, Entry, Store, join
+from rebsync.source import Source
+from rebsync.toml import read_toml
 
+_MANIFEST, _OF_COLCON = "package.xml", "colcon.pkg"
+_LOOKING = frozenset(
+    {
+        "autopep8",
+        "bandit",
+        "black",
+        "codespell",
+        "coverage",
+        "flake8",
+        "isort",
+        "mypy",
+        "pydocstyle",
+    }
+    | {"pylint", "pyright", "pytest", "ruff", "tox", "vulture", "yapf"}
+)
 _COMPILED = re.compile(r"(\w+)(?:\.[\w-]+)*\.(?:so|pyd|pyc)")
 _PROSE = frozenset({".md", ".rst", ".txt"})
-_HEADERS, _SETUP, _PROJECT, _INIT = "include/", "setup.py", "pyproject.toml", "/__init__.py"
-_BUILDING = re.compile(r"^\s*\[+\s*(?:project|build-system|tool\.setuptools)\b", re.MULTILINE)
+_HEADERS, _GCH = "include/", ".gch"
+_SETUP, _PROJECT, _INIT = "setup.py", "pyproject.toml", "/__init__.py"
 _IMPORTED = "Python may import this in place of other code"
 _INCLUDED = "this is included in place of a header of the library"
+_PRECOMPILED = "this may be included in place of the header that it is compiled from"
+_NOT_BUILT = "with this, nothing of the package is built"
 _BUILT = "this says anew what is built of the package"
 
 
@@ -31,10 +51,19 @@ def overriding_files(listing: Listing, generated: Collection[str]) -> dict[str, 
     if headers:
         own = {_HEADERS + n.split("/")[1] for n in headers}
         found |= dict.fromkeys(_of_no_suffix(files, listing.root, own), _INCLUDED)
+    for folder in {dirname(n) for n in headers}:
+        names = (f"{folder}/{e.name}" for e in _entries(files, join(listing.root, folder)))
+        precompiled = (n for n in names if n.endswith(_GCH) and n.removesuffix(_GCH) in generated)
+        found |= dict.fromkeys(precompiled, _PRECOMPILED)
     for setup in (n for n in generated if n.rpartition("/")[2] == _SETUP):
         name = setup.removesuffix(_SETUP) + _PROJECT
-        if _BUILDING.search(_text(files, join(listing.root, name))):
+        if _says_what_is_built(_text(files, join(listing.root, name))):
             found[name] = _BUILT
+    for folder in {dirname(n) for n in generated if n.rpartition("/")[2] == _MANIFEST}:
+        for entry in _entries(files, join(listing.root, folder) if folder else listing.root):
+            if entry.name in IGNORING or entry.name == _OF_COLCON:
+                why = _BUILT if entry.name == _OF_COLCON else _NOT_BUILT
+                found[f"{folder}/{entry.name}".lstrip("/")] = why
     return found
 
 
@@ -51,6 +80,18 @@ def _of_no_suffix(files: Store, root: str, own: Collection[str]) -> Iterator[str
                 folders.append(f"{name}/")
             elif entry.is_dir() or suffix_of(name) not in CODE | _PROSE:
                 yield name
+
+
+def _says_what_is_built(text: str) -> bool:
+    """Whether a `pyproject.toml` has more than tables of tools that only look at code."""
+    try:
+        table = read_toml(Source(_PROJECT, text)).values
+    except RebsyncError:
+        return True  # pip and setuptools end there
+    tools = table.get("tool", {})
+    return not table.keys() <= {"tool"} or not (
+        isinstance(tools, dict) and tools.keys() <= _LOOKING
+    )
 
 
 def _compiled_python(files: Store, root: str, generated: Collection[str]) -> Iterator[str]:

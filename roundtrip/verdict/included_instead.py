@@ -1,13 +1,14 @@
-"""New headers that are included in place of what generated code means by a name.
+"""New headers that are included in place of what other code means by a name.
 
 A quoted include looks beside the file that it is in first, and then, as all do, in `include`,
-before the folders of other packages and of generated messages ([cpp.include], GCC's -I).
+before the folders of other packages and of generated messages ([cpp.include], GCC's -I). Headers
+of libraries find there what nothing in the package includes.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import suppress
 from posixpath import dirname, join, normpath
 
@@ -35,7 +36,7 @@ def included_instead(
 ) -> Iterator[Findings]:
     """The headers that the files that were generated include in place of others."""
     paths = now.listing.files
-    new = [n for n in now.changed if n not in record.files and _is_header(n)]
+    new = [n for n in now.changed if n not in record.files and suffix_of(n) in HEADERS]
     if not new:
         return
     beside: dict[str, str] = {}
@@ -47,35 +48,23 @@ def included_instead(
                 beside[normpath(join(dirname(user), name))] = name
     others = {dirname(n) for n in names if f"{_FOLDER}{n}" not in record.files}
     own = {dirname(n) for n in names if f"{_FOLDER}{n}" in record.files}
+    of_own = tuple(f"{folder}/" for folder in own - {""})
     of_others = tuple(f"{_FOLDER}{folder}/" for folder in others - own - {""})
-    meant = _meant_by(paths)
+    meant = {path for n, at in paths.items() if suffix_of(n) in CODE for path in _meant(n, at)}
     for header in new:
         name = beside.get(header, header.removeprefix(_FOLDER))
-        is_unknown = header not in meant and name.partition("/")[0] not in own
-        is_instead = name in names or is_unknown or bool(_OF_C.fullmatch(name))
-        is_instead = header.startswith((*of_others, *([_FOLDER] if is_instead else ())))
-        if header in paths and (is_instead or header in beside):
-            message = f'this is included in place of what generated code means by "{name}"'
+        is_of_libraries = bool(_OF_C.fullmatch(name)) or header not in meant
+        is_own = name not in names and (name.startswith(of_own) or not is_of_libraries)
+        is_instead = header.startswith(_FOLDER) and not is_own
+        if header in paths and (is_instead or header in beside or header.startswith(of_others)):
+            message = f'this is included in place of what other code means by "{name}"'
             yield finding(read_source(paths[header]), NOWHERE, message)
 
 
-def _is_header(name: str) -> bool:
-    """Whether a file may be included: in `include`, whatever its name ends with."""
-    return suffix_of(name) in HEADERS or name.startswith(_FOLDER)
-
-
-def _meant_by(paths: Mapping[str, str]) -> set[str]:
-    """The headers that code of a package includes: of others it is not known who means them."""
-    code = ((n, path) for n, path in paths.items() if suffix_of(n) in CODE)
-    asked = {(dirname(n), name) for n, path in code for _, name in _includes(path)}
-    return {normpath(join(f, name)) for of, name in asked for f in (of, _FOLDER)}
-
-
-def _meant_by(paths: Mapping[str, str]) -> set[str]:
-    """The headers that code of a package includes: of others it is not known who means them."""
-    code = ((n, path) for n, path in paths.items() if suffix_of(n) in CODE)
-    asked = {(dirname(n), name) for n, path in code for _, name in _includes(path)}
-    return {normpath(join(f, name)) for of, name in asked for f in (of, _FOLDER)}
+def _meant(name: str, path: str) -> Iterator[str]:
+    """The headers that a file of the package may include."""
+    for _, header in _includes(path):
+        yield from (f"{_FOLDER}{header}", normpath(join(dirname(name), header)))
 
 
 def _includes(path: str) -> list[tuple[str, str]]:

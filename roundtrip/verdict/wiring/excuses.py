@@ -22,6 +22,7 @@ from rebsync.reverse.scaffold.fact import (
     Fact,
     Facts,
 )
+from rebsync.reverse.unknowns import Open
 from rebsync.roundtrip.diff.difference import (
     Added,
     Aspect,
@@ -58,6 +59,7 @@ _UNWANTED = frozenset(
     }
 )
 _ALONE = r"(?<![\w.]){}\b(?!\s+as\b)"
+_OPEN = f"{Open.__name__}("  # a value that depends on how it is launched
 _HELPING = frozenset({PROGRAM, PLAYED, TYPE, SPACE})
 
 
@@ -130,9 +132,11 @@ class Excuses:
 
     @property
     def _are_by_one_clock(self) -> bool:
-        """Whether all generated nodes follow the same clock."""
+        """Whether all generated nodes follow the same clock, of the two that there are."""
         given = (self.today.get(("node", name, CLOCK), ()) for name in self._nodes)
-        return len({fact.value for facts in given for fact in facts}) < 2
+        told = {fact.value for facts in given for fact in facts}
+        others = told - {repr(True), repr(False), NOT_GIVEN}
+        return len(told) < 2 and all(value.startswith(_OPEN) for value in others)
 
     @property
     def _nodes(self) -> frozenset[str]:
