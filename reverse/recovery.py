@@ -26,7 +26,7 @@ from rebsync.reverse.generated.cpp_classes import Classes
 from rebsync.reverse.generated.cpp_kept import Memory, read_with
 from rebsync.reverse.generated.messages import OwnMessages, own_messages
 from rebsync.reverse.generated.noexcept_functions import ending_the_node
-from rebsync.reverse.generated.one_definition import defined_again
+from rebsync.reverse.generated.one_definition import defined_again, in_place_of_others
 from rebsync.reverse.generated.parameters import odd_arguments
 from rebsync.reverse.generated_system import GeneratedSystem, unit_of_time
 from rebsync.reverse.graph import Graph
@@ -232,6 +232,7 @@ class _Reading:
             self.findings.all += at_the_end(self.code, owner)
         if chosen:
             self.findings.all += beside_main(self.code)
+            self.findings.all += in_place_of_others(self.code)
             self.findings.all += ending_the_node(self.code, classes.form)
         names = {owner.name for owner in chosen}
         for program in self.programs:

@@ -29,6 +29,7 @@ from rebsync.reverse.libraries.routines import Language
 from rebsync.reverse.libraries.tables.runtime import names_in_model
 from rebsync.reverse.syntax.cpp_calls import string_of
 from rebsync.reverse.syntax.cpp_tree import Cpp, named, part, squeezed, text_of
+from rebsync.static.types import INT
 
 _CLOCK = names_in_model(Language.CPP)
 # The function under which a statement of `@Move` is read, until it is one.
@@ -58,6 +59,10 @@ def built_in(
     member = reader.scope.members[text_of(target).removeprefix("this->")]
     span = reader.cpp.span(node)
     function = text_of(part(name, "name") if name.type == "template_method" else name)
+    if name.type == "template_method" and function == "delay":
+        kept = [reader.scope.carried(each) for each in named(part(name, "arguments"))]
+        if [k is not None and (k.type, k.bits, k.wide) == (INT, 0, 0) for k in kept] != [True]:
+            raise reader.unread(node, "this is made another type before it is waited for")
     if isinstance(member, Runtime) and member.kind == "drive" and function == "move":
         return reader.calls(node, None, MOVE, arguments)
     if not isinstance(member, Runtime) or member.kind != "mailbox":

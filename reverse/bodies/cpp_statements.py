@@ -30,6 +30,7 @@ from rebsync.reverse.bodies import (
 )
 from rebsync.reverse.bodies.cpp_expression_reader import Exchange
 from rebsync.reverse.bodies.cpp_expressions import MOVE
+from rebsync.reverse.bodies.cpp_hiding import check_hiding
 from rebsync.reverse.bodies.cpp_mailbox import has_mailbox
 from rebsync.reverse.bodies.cpp_statement_reader import CppStatementReader
 from rebsync.reverse.bodies.cpp_unknowns import Demote, Unknown
@@ -142,6 +143,7 @@ class CppStatements(CppStatementReader):
         around = self._touching
         try:
             read: Sequence[m.Statement] = ()
+            check_hiding(self, node)
             if node.id in self.scope.instead or not self._is_outside(node):
                 read = self._one(node, annotations, local)
             if not read:

@@ -23,7 +23,6 @@ from rebsync.reverse.syntax.cpp_index import CONTAINERS, Code, CppClass, CppFunc
 from rebsync.reverse.syntax.cpp_tree import Cpp, inside, named, part, text_of
 
 _INITIALISED = "this is initialised before `main`: what it does then is not in the model"
-_EARLY = "this runs before or after `main`: what it does is not in the model"
 _REPLACED = "this may stand in place of a function of a library or of the run-time part"
 _OTHERWISE = "what the compiler makes of the code because of this is not in the model"
 _ENDING = "this runs when the node ends: what it does is not in the model"
@@ -34,7 +33,13 @@ _CLASSES = ("class_specifier", "struct_specifier", "union_specifier")
 _PRAGMA = re.compile(
     r"#\s*pragma\s+(?!once\b|GCC\s+diagnostic|clang\s+diagnostic|warning\b|region\b|endregion\b)"
 )
-_EARLY_FUNCTION = re.compile(r"\b(?:constructor|destructor|init_priority|ifunc|alias|weakref)\b")
+# Attributes that change neither when code runs, nor what it does, nor which of several is taken.
+_CALM_ATTRIBUTE = re.compile(
+    r"(?:(?:gnu|clang)::)?(?:_*(?:(?:maybe_)?unused|deprecated|nodiscard|warn_unused_result"
+    r"|fallthrough|(?:un)?likely|noinline|always_inline|hot|cold|format|visibility)_*)\Z"
+)
+_ATTRIBUTES = ("attribute_specifier", "attribute_declaration", "ms_declspec_modifier")
+_ASSEMBLED = "gnu_asm_expression"
 _REPLACEABLE = re.compile(r"\boperator\s*(?:new|delete)\b")
 _PLAIN = re.compile(
     r"(?:(?:std::)?(?:u?int(?:8|16|32|64)?(?:_t)?|size_t|float|double|bool|char|long|short|unsigned"
@@ -44,9 +49,14 @@ _PLAIN = re.compile(
 )
 _DEEPEST = 8  # of classes and names for types within each other
 _REFERRING = ("pointer_declarator", "reference_declarator")
+_TYPE_NAMES = ("type_identifier", "identifier")
 _CONSTANT = ("constexpr", "constinit")
 _STOP = "mailbox_.stop();"  # as it is generated
-_RUNNING = ("new_expression", "delete_expression", "assignment_expression", "update_expression")
+_WORDS = ("true", "false", "null")
+_RUNNING = (
+    *("new_expression", "delete_expression", "assignment_expression", "update_expression"),
+    *("throw_statement", "co_await_expression"),
+)
 _CALLABLE = ("identifier", "qualified_identifier", "field_expression", "template_function")
 _RUN_TIME = frozenset({"Server", "When"})  # the plain records of the run-time part
 
@@ -55,7 +65,7 @@ def beside_main(code: Code) -> Iterator[Finding]:
     """All such places in files that are not of the run-time part."""
     for cpp in code.files:
         if not is_runtime_header(cpp.source.path):
-            for node, why in _outside(code, cpp, cpp.root):
+            for node, why in (*_told_to_compiler(cpp), *_outside(code, cpp, cpp.root)):
                 yield Finding(Grade.UNREADABLE, cpp.source, cpp.span(node), why)
 
 
@@ -69,6 +79,21 @@ def at_the_end(code: Code, owner: CppClass) -> Iterator[Finding]:
                 yield Finding(
                     Grade.UNREADABLE, function.cpp.source, span, _ENDING, within=owner.name
                 )
+
+
+def _told_to_compiler(cpp: Cpp) -> Iterator[tuple[Node, str]]:
+    """Attributes that are not known to be calm, and what is written for the assembler."""
+    for node in inside(cpp.root, *_ATTRIBUTES, _ASSEMBLED):
+        if node.type == _ASSEMBLED or not all(map(_CALM_ATTRIBUTE.match, _attributes(node))):
+            yield node, _OTHERWISE
+
+
+def _attributes(node: Node) -> list[str]:
+    """The names of attributes, without their arguments."""
+    if node.type == "attribute_declaration":
+        return [text_of(each).partition("(")[0] for each in named(node)]
+    within = text_of(node).partition("(")[2].removeprefix("(")
+    return re.findall(r"[\w:]+", re.sub(r"\([^()]*\)", "", within))
 
 
 def _outside(code: Code, cpp: Cpp, scope: Node) -> Iterator[tuple[Node, str]]:
@@ -88,23 +113,20 @@ def _outside(code: Code, cpp: Cpp, scope: Node) -> Iterator[tuple[Node, str]]:
             case "template_declaration" if _is_specialisation(node):
                 if not _is_of_own(code, node):
                     yield node, _REPLACED
+                yield from _outside(code, cpp, node)
             case kind if kind in _CLASSES:
                 yield from _static_members(code, node)
-            case kind if kind in CONTAINERS and kind != "template_declaration":
+            case kind if kind in CONTAINERS:
                 yield from _outside(code, cpp, node)
             case _:
                 pass
 
 
 def _function(node: Node) -> Iterator[tuple[Node, str]]:
-    head = text_of(node).partition("{")[0]
     above = node.parent
     linkage = above.parent if above is not None and above.type == "declaration_list" else above
     is_c = linkage is not None and linkage.type == "linkage_specification"
-    if "attribute" in head or "[[" in head:
-        if _EARLY_FUNCTION.search(head):
-            yield node, _EARLY
-    elif is_c or _REPLACEABLE.search(head):
+    if is_c or _REPLACEABLE.search(text_of(node).partition("{")[0]):
         yield node, _REPLACED
 
 
@@ -113,18 +135,37 @@ def _declared(code: Code, node: Node) -> Iterator[tuple[Node, str]]:
     declarators = node.children_by_field_name("declarator")
     initialised = any(d.type == "init_declarator" for d in declarators)
     if not initialised and any(_of_function(d) for d in declarators):
-        if _EARLY_FUNCTION.search(text_of(node)) and "attribute" in text_of(node):
-            yield node, _EARLY
         return
     words = {text_of(child) for child in node.children}
     is_elsewhere = "extern" in words and not initialised
     if not declarators or is_elsewhere or not words.isdisjoint(_CONSTANT):
         return
-    is_plain = all(_is_plain_value(code, d.child_by_field_name("value")) for d in declarators)
+    is_plain = _names_plain(code, node) and all(
+        _is_plain_value(code, d.child_by_field_name("value")) for d in declarators
+    )
     pointer = all(_inner(d).type == "pointer_declarator" for d in declarators)
     type_ = node.child_by_field_name("type")
     if not is_plain or not (pointer or (type_ is not None and _is_plain_type(code, type_))):
         yield node, _INITIALISED
+
+
+def _names_plain(code: Code, node: Node) -> bool:
+    """Whether the package's classes named in values, or given to templates, do nothing."""
+    values = [d.child_by_field_name("value") for d in inside(node, "init_declarator")]
+    given = (*inside(node, "template_argument_list"), *(v for v in values if v is not None))
+    names = {text_of(name) for each in given for name in inside(each, *_TYPE_NAMES)}
+    own = (c for name in names - _RUN_TIME for c in code.all_classes.get(name, ()))
+    return all(_does_nothing(code, c) for c in own)
+
+
+def _operates(code: Code, value: Node) -> bool:
+    """Whether a value may be made by an operator, or a conversion, that does more than that."""
+    if value.type.endswith("_literal") or value.type in _WORDS:
+        return value.type == "user_defined_literal"
+    members = (f for found in code.all_classes.values() for c in found for f in c.functions)
+    every = (*members, *(f for found in code.definitions.values() for f in found))
+    own = (f for f in every if f.name.startswith("operator") and not _is_ours(f))
+    return any(not _only_gives(f) for f in own)
 
 
 def _of_function(declarator: Node) -> bool:
@@ -155,6 +196,8 @@ def _is_plain_value(code: Code, value: Node | None) -> bool:
     if value is None:
         return True
     if inside(value, *_RUNNING, "compound_statement") and not _only_lambda(value):
+        return False
+    if _operates(code, value):
         return False
     called = (c.child_by_field_name("function") for c in inside(value, "call_expression"))
     if any(f is not None and f.type not in _CALLABLE for f in called):

@@ -11,6 +11,7 @@ import re
 from tree_sitter import Node
 
 from rebsync.records import dataclass
+from rebsync.reverse.bodies.cpp_hiding import names_given
 from rebsync.reverse.bodies.effects.cpp_call_effects import is_calm
 from rebsync.reverse.bodies.effects.cpp_effects import Effects
 from rebsync.reverse.bodies.effects.touches import Touches
@@ -240,10 +241,11 @@ class Beside:
 def _declared(statement: Node) -> set[str]:
     """The names that a statement declares for those that follow it."""
     if statement.type != "declaration":
-        return set()
+        return set(names_given(statement))
     found = statement.children_by_field_name("declarator")
     names = (d.child_by_field_name("declarator") or d for d in found)
-    return {text_of(n) for d in names for n in inside(d, "identifier")}
+    variables = {text_of(n) for d in names for n in inside(d, "identifier")}
+    return variables | {*names_given(statement)}
 
 
 def _tells_frames(call: CppCall) -> bool:

@@ -1,7 +1,8 @@
 """What the constructors of generated classes give to the parts of the run-time part.
 
 The mailbox, the drive and the sensors are of the node itself: with another handle they are on other
-topics, and read other parameters.
+topics, and read other parameters. Members are made in the order of the class, whatever that of the
+initialisers ([class.base.init]): what names a member that stands behind has nothing yet.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from collections.abc import Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.syntax.cpp_index import CppClass, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, squeezed, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, named, squeezed, text_of
 
 _PARTS = ("Mailbox", "Drive")
 _SENSOR = "Sensor<"
@@ -32,3 +33,16 @@ def odd_handles(owner: CppClass, constructor: CppFunction) -> Iterator[Node]:
             is_own = is_own and [text_of(n) for n in given[1:]] == ["mailbox_"]
         if not is_own:
             yield initialiser
+
+
+def too_early(owner: CppClass, constructor: CppFunction) -> Iterator[Node]:
+    """The initialisers of members, and their own first values, that name a member behind them."""
+    fields = sorted((*owner.fields, *owner.others), key=lambda f: f.node.start_byte)
+    listed = named(constructor.initialisers) if constructor.initialisers is not None else ()
+    given = {text_of(i.named_children[0]): i.named_children[-1] for i in listed}
+    hidden = {p.name for p in constructor.parameters}
+    for index, field in enumerate(fields):
+        made = given.get(field.name, field.value)
+        behind = {f.name for f in fields[index:]} - hidden
+        if any(text_of(n) in behind for n in inside(made, "identifier", "field_identifier")):
+            yield made or field.node

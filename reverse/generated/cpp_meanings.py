@@ -33,12 +33,13 @@ _HEADER = re.compile(r"\.(?:h|hh|hpp|hxx|inl|ipp|tpp)\Z", re.IGNORECASE)
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """A place that gives a name another meaning."""
+    """A place that gives a name another meaning; a macro does so in what is included behind it."""
 
     name: str
     cpp: Cpp
     node: Node
     why: str
+    is_macro: bool = False
 
 
 def is_runtime_header(path: str) -> bool:
@@ -54,6 +55,7 @@ def other_meanings(code: Code) -> tuple[Meaning, ...]:
     if macros:
         known = RESERVED | CPP_KEYWORDS
         known |= {name for cpp in own for name in (*_declared(cpp), *_of_others(cpp))}
+        known |= {name for cpp in _of_runtime(code) for name in _NAME.findall(cpp.source.text)}
         found += [m for m in macros if m.name in known or m.name.startswith(libraries.logging())]
     for (owner, name), functions in code.definitions.items():
         if not owner and name in RESERVED:
@@ -74,7 +76,12 @@ def in_files_of(code: Code, owner: CppClass, meaning: Meaning) -> bool:
     if not _HEADER.search(place) and place not in files:
         return False
     word = re.compile(rf"\b{meaning.name}\b")
-    return any(word.search(cpp.source.text) for cpp in files.values())
+    others = _of_runtime(code) if meaning.is_macro else []
+    return any(word.search(cpp.source.text) for cpp in (*files.values(), *others))
+
+
+def _of_runtime(code: Code) -> list[Cpp]:
+    return [cpp for cpp in code.files if is_runtime_header(cpp.source.path)]
 
 
 def _macros(cpp: Cpp) -> Iterator[Meaning]:
@@ -83,7 +90,7 @@ def _macros(cpp: Cpp) -> Iterator[Meaning]:
             name, value = node.child_by_field_name("name"), node.child_by_field_name("value")
             if name is not None and value is not None:
                 why = f'what this macro makes of "{text_of(name)}" is not read'
-                yield Meaning(text_of(name), cpp, node, why)
+                yield Meaning(text_of(name), cpp, node, why, is_macro=True)
 
 
 def _declared(cpp: Cpp) -> Iterator[str]:

@@ -19,13 +19,14 @@ from rebsync.reverse.generated.cpp_beside import Beside
 from rebsync.reverse.generated.cpp_descriptors import number_of
 from rebsync.reverse.generated.cpp_failures import failures
 from rebsync.reverse.generated.cpp_idle import working
-from rebsync.reverse.generated.cpp_initialisers import odd_handles
+from rebsync.reverse.generated.cpp_initialisers import odd_handles, too_early
 from rebsync.reverse.generated.cpp_names import declared_type
 from rebsync.reverse.generated.cpp_queues import odd_queue
 from rebsync.reverse.generated.cpp_roles import (
     OFFERING,
     Roles,
     call_in,
+    held_by,
     odd_priorities,
 )
 from rebsync.reverse.generated.cpp_shims import Fields, odd_in_shim
@@ -134,6 +135,8 @@ def _odd_in(
                 yield told, "this refers to what is gone when it is called"
         for told in odd_handles(owner, function):
             yield told, "this is not given the node that the others are of"
+        for told in too_early(owner, function):
+            yield told, "this is made before a member that it names"
     elif name in roles.shims and name not in topics:
         odd = (function.node,)
         why = "no subscription takes messages to this: those of others do not arrive"
@@ -308,7 +311,10 @@ def _hands_on(call: CppCall, function: str, given: Sequence[str] | None) -> bool
     found = call_in(call.arguments[-1]) if call.arguments else None
     passed = [text_of(a) for a in found[1]] if found is not None else []
     in_order = given is None or passed == list(given)[len(given) - len(passed) :]
-    return found is not None and found[0] == function and in_order
+    if found is None or found[0] != function or not in_order:
+        return False
+    lambda_ = call.arguments[-1]
+    return given is None or lambda_.type != "lambda_expression" or not held_by(lambda_)
 
 
 def _odd_in_state(

@@ -40,7 +40,7 @@ from rebsync.reverse.syntax.cpp_calls import CppCall, assigned_in, call_of, call
 from rebsync.reverse.syntax.cpp_declarations import parameters_in
 from rebsync.reverse.syntax.cpp_index import Code, CppClass, CppFunction, CppParameter
 from rebsync.reverse.syntax.cpp_numerals import whole_number
-from rebsync.reverse.syntax.cpp_tree import Cpp, last_name, named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import Cpp, inside, last_name, named, part, text_of
 
 _DEEP = 100
 # The calls that offer a server, and how many arguments each takes.
@@ -350,7 +350,17 @@ def call_in(body: Node) -> tuple[str, list[Node]] | None:
     call = call_of(inner[0]) if len(inner) == 1 else None
     if call is None or not (call.target is None or call.target.type == "this"):
         return None
-    return call.name, list(call.arguments)
+    return (
+        None
+        if call.target is None and call.name in held_by(body)
+        else (call.name, list(call.arguments))
+    )
+
+
+def held_by(lambda_: Node) -> set[str]:
+    """The names that a lambda declares itself: what it captures under them, and its parameters."""
+    held = inside(lambda_, "lambda_capture_initializer")
+    return {text_of(part(each, "left")) for each in held} | {p.name for p in parameters_of(lambda_)}
 
 
 def _is_deep(depth: Node) -> bool:

@@ -11,9 +11,11 @@ from collections.abc import Collection, Iterator
 from tree_sitter import Node
 
 from rebsync.reverse.findings import Finding, Grade
+from rebsync.reverse.generated.env_values import constant
+from rebsync.reverse.syntax.ancestors import ancestors
 from rebsync.reverse.syntax.cpp_calls import CppCall, call_of, calls_in
 from rebsync.reverse.syntax.cpp_index import Code, CppFunction
-from rebsync.reverse.syntax.cpp_tree import named, part, text_of
+from rebsync.reverse.syntax.cpp_tree import inside, named, part, text_of
 
 DECLARES = "declare_parameter"
 # Its arguments but for `ignore_override`, by which nobody else gives the parameter a value.
@@ -22,10 +24,14 @@ READS = frozenset({"param", DECLARES, "declareArray"})
 _HINT = "compute with it in the model's constructor"
 _TELLS = frozenset({"described"})  # what stands in the arguments, but for values
 _SMALL = frozenset({"char", "float", "int8_t", "int16_t", "short", "uint8_t", "uint16_t"})
+_KINDS = {
+    **dict.fromkeys(("int", "int32_t", "int64_t", "long", *_SMALL - {"float"}), int),
+    **{"bool": bool, "double": float, "float": float},
+}
 _CONVERTS = frozenset({"static_cast", "narrow"})
 
 
-def read_by(value: Node | None, type_: str) -> CppCall | None:
+def read_by(value: Node | None, type_: str, converts: bool = False) -> CppCall | None:
     """The call that gives a value which is no more than a parameter, converted to its own type."""
     if value is None:
         return None
@@ -33,20 +39,33 @@ def read_by(value: Node | None, type_: str) -> CppCall | None:
     if call is not None and call.name in READS:
         asked = all(c.name in _TELLS for a in call.arguments for c in calls_in(a))
         is_given = call.name != DECLARES or len(call.arguments) <= MOST_DECLARED
-        return call if asked and is_given and _fits(call, _plain(type_)) else None
+        fits = _fits(call, _plain(type_)) and (converts or _plain(type_) not in _SMALL)
+        return call if asked and is_given and fits else None
     if value.type in ("parenthesized_expression", "initializer_list") and len(named(value)) == 1:
-        return read_by(named(value)[0], type_)
+        return read_by(named(value)[0], type_, converts)
     if call is not None and call.name in _CONVERTS and len(call.arguments) == 1:
-        return read_by(call.arguments[0], "") if _is_to(call, type_) else None
+        return read_by(call.arguments[0], type_, True) if _is_to(call, type_) else None
     return None
 
 
 def _fits(call: CppCall, type_: str) -> bool:
-    """Whether a type has all values of a parameter, as far as both are written."""
-    if type_ == "bool":
-        words = (text_of(each) for each in (*call.types, *call.arguments[1:2]))
-        return any(word in ("bool", "true", "false") for word in words)
-    return type_ not in _SMALL
+    """Whether a parameter is asked for as what a type holds: others are not given, or rounded.
+
+    Without a type a client library asks for that of what stands in for the value.
+    """
+    if call.types or type_ not in _KINDS:
+        asked = _plain(text_of(call.types[0])) if call.types else type_
+        return type_ not in _KINDS or _KINDS.get(asked) is _KINDS[type_]
+    return any(_kind_of(each) is _KINDS[type_] for each in call.arguments[1:2])
+
+
+def _kind_of(value: Node) -> type | None:
+    """The kind of a constant, or of one that the file names so."""
+    for node in inside([value, *ancestors(value)][-1], "declaration"):
+        made = node.child_by_field_name("declarator")
+        if made is not None and text_of(made).partition("=")[0].strip() == text_of(value):
+            return _KINDS.get(_plain(text_of(part(node, "type"))))
+    return type(constant(value))
 
 
 def _is_to(call: CppCall, type_: str) -> bool:

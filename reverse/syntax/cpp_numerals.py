@@ -16,6 +16,7 @@ _REAL = re.compile(
 _REAL_OF_HEX = re.compile(
     r"(0x(?:[0-9a-f]+\.?[0-9a-f]*|\.[0-9a-f]+)p[+-]?[0-9]+)([fl]?)\Z", re.IGNORECASE
 )
+_SEPARATOR = re.compile(r"(?<=[0-9a-f])'(?=[0-9a-f])", re.IGNORECASE)  # `'2'` is a character
 _OCTAL = re.compile(r"0[0-9]+\Z")
 
 
@@ -55,7 +56,7 @@ def numeral(text: str) -> Numeral | None:
     None where it is no number of C++, or one that no double holds.
     """
     sign = _SIGN.match(text)
-    plain = text[sign.end() if sign is not None else 0 :].replace("'", "")
+    plain = _SEPARATOR.sub("", text[sign.end() if sign is not None else 0 :])
     minus = -1 if sign is not None and sign[1] == "-" else 1
     try:
         if whole := _WHOLE.match(plain):

@@ -52,7 +52,8 @@ def takes_part(node: s.Call) -> bool:
 
 
 def is_position(value: e.Expression) -> bool:
-    """Whether a value is a number that need not be zero."""
+    """Whether a value is a number that need not be zero, or leads to one."""
+    value = _bare(value)
     is_number = isinstance(getattr(value, "type", None), t.Integer)
     return is_number and not (isinstance(value, e.Literal) and value.value == 0)
 

@@ -43,7 +43,7 @@ FILES = (
     *("results.toml", "surroundings.toml", "undefined.toml", "needless_python.toml"),
     *("gate15b_python.toml", "gate15_cpp.toml", "gate15_python.toml"),
     *("gate16_cpp.toml", "gate16_python.toml"),
-    *("gate17_cpp.toml", "gate17_python.toml"),
+    *("gate17_cpp.toml", "gate17_python.toml", "hidden_cpp.toml"),
 )
 MIXED = Path(__file__).parents[2] / "reverse" / "mixed_cases"
 
