@@ -200,6 +200,11 @@ _FUNCTIONS: tuple[tuple[str, str], ...] = (
     ("text", "warnings.warn"),
     ("maxsize:whole|none?", "functools.lru_cache"),
     (
+        "init=number repr=number eq=number order=number unsafe_hash=number frozen=number "
+        "match_args=number kw_only=number slots=number",
+        "dataclasses.dataclass",
+    ),
+    (
         "any *any",
         """
         logging.debug logging.info logging.warning logging.error logging.critical logging.warn

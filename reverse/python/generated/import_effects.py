@@ -7,14 +7,17 @@ nothing but to bind names may change the run-time part, the environment, or the 
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator
 from typing import TypeAlias, TypeGuard
 
+from rebsync.reverse.analysis.outcomes.outcome_calls import UNKNOWN_CALL
 from rebsync.reverse.build.built_python import files_of_import, imported_by
 from rebsync.reverse.findings import Findings, Unread
 from rebsync.reverse.libraries.effects import of_function
 from rebsync.reverse.libraries.routines import Effect, Language
+from rebsync.reverse.python.generated.people_program import PeopleProgram, is_import
 from rebsync.reverse.python.generated.slicing.log_words import COMPUTING
+from rebsync.reverse.syntax.py_index import PyCode
 from rebsync.reverse.syntax.py_module import module_of
 from rebsync.source import Source, Span
 
@@ -60,11 +63,10 @@ _MAKING = frozenset({"__init__", "__new__", "__post_init__", "__call__"})
 _BINDS = (ast.Import, ast.ImportFrom, ast.Pass, ast.Global, ast.Nonlocal)
 
 
-def list_import_effects(
-    sources: Mapping[str, Source], generated: Collection[str], findings: Findings
-) -> None:
+def list_import_effects(code: PyCode, generated: Collection[str], findings: Findings) -> None:
     """Lists what modules do that generated ones import; these are given by their paths."""
-    trees = {path: module_of(sources[path].text) for path in sources}
+    sources = {path: scope.py.source for path, scope in code.modules.items()}
+    trees = {path: module_of(source.text) for path, source in sources.items()}
     reached = set[str]()
     waiting = [path for path, source in sources.items() if source.path in generated]
     while waiting:
@@ -74,11 +76,44 @@ def list_import_effects(
         fresh = {p for n in names for p in files_of_import(n, path, sources)} - reached
         reached |= fresh
         waiting += fresh
-    for path in sorted(reached):
+    # What cannot be parsed is listed, and what is generated is read itself.
+    own = [p for p in reached if trees[p] is not None and sources[p].path not in generated]
+    acting = _acting_when_imported(code, generated, own) if own else {}
+    for path in sorted(own):
         tree, source = trees[path], sources[path]
-        if tree is None or source.path in generated:
-            continue  # what cannot be parsed is listed, and what is generated is read itself
-        _list(source, _ImportedCode(tree).acting(), findings)
+        lines = {n.lineno for n in _ImportedCode(tree).acting()} if tree is not None else set[int]()
+        _list(source, sorted(lines | acting[path]), findings)
+
+
+def _acting_when_imported(
+    code: PyCode, generated: Collection[str], paths: Collection[str]
+) -> dict[str, set[int]]:
+    """The lines of modules, by their paths, at which an import of them may act, by their form."""
+    people = PeopleProgram(code, frozenset(generated))
+    program = people.imported()
+    outcomes = people.outcomes(program)
+    found = {path: set[int]() for path in paths}
+    # What a module lacks is asked of its `__getattr__`, by imports of names as well.
+    run = [n for path in paths for n in (path, f"{path}:__getattr__") if n in program.functions]
+    for problem in (problem for name in run for problem in outcomes.of(name)):
+        of = problem.function.partition(":")[0]
+        if of in found and not is_import(program.function(problem.function), problem.place):
+            source = code.modules[of].py.source
+            line = source.position(problem.place.start).line
+            is_made = problem.why == UNKNOWN_CALL and line in _made_decorators(source)
+            found[of] |= set() if is_made else {line}
+    return found
+
+
+def _made_decorators(source: Source) -> set[int]:
+    """The lines at which all decorators are of the standard library, made with constants."""
+    code = _ImportedCode(module_of(source.text) or ast.Module([], []))
+    nodes = (n for n in ast.walk(code.tree) if isinstance(n, ast.ClassDef | ast.FunctionDef))
+    return {
+        node.decorator_list[0].lineno
+        for node in nodes
+        if node.decorator_list and all(map(code.is_library_decorator, node.decorator_list))
+    }
 
 
 def list_definition_effects(source: Source, own: Collection[str], findings: Findings) -> None:
@@ -90,7 +125,8 @@ def list_definition_effects(source: Source, own: Collection[str], findings: Find
     if tree is not None:
         package = source.path.split("/")[-2:][0]
         made = {"values.When", f"{package}.values.When"}
-        _list(source, _ImportedCode(tree, _PLAIN | made).defining(own), findings)
+        acting = _ImportedCode(tree, _PLAIN | made).defining(own)
+        _list(source, [n.lineno for n in acting], findings)
 
 
 def acting_lines(source: Source) -> frozenset[int] | None:
@@ -108,7 +144,7 @@ def list_setup_effects(source: Source, findings: Findings) -> None:
     """Lists what `setup.py` does besides to say what is installed."""
     tree = module_of(source.text)
     if tree is not None:
-        _list(source, _ImportedCode(tree, _IN_SETUP).acting(), findings)
+        _list(source, [n.lineno for n in _ImportedCode(tree, _IN_SETUP).acting()], findings)
 
 
 def list_launch_effects(source: Source, findings: Findings) -> None:
@@ -118,14 +154,13 @@ def list_launch_effects(source: Source, findings: Findings) -> None:
         return
     code = _LaunchCode(tree)
     functions = (n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef))
-    _list(source, code.acting(), findings)
-    for function in functions:
-        _list(source, code.acting_in(function), findings)
+    acting = [*code.acting(), *(n for function in functions for n in code.acting_in(function))]
+    _list(source, [n.lineno for n in acting], findings)
 
 
-def _list(source: Source, nodes: Iterable[ast.stmt], findings: Findings) -> None:
-    for node in nodes:
-        start = source.start_of(node.lineno)
+def _list(source: Source, lines: Iterable[int], findings: Findings) -> None:
+    for number in lines:
+        start = source.start_of(number)
         line = source.text[start:].partition("\n")[0]
         findings.unreadable(source, Unread(Span(start, start + len(line)), _WHY), "")
 
@@ -134,7 +169,7 @@ class _ImportedCode:
     """One module: its statements, what its imports call things, and the classes that it defines."""
 
     def __init__(self, tree: ast.Module, plain: frozenset[str] = _PLAIN) -> None:
-        self._tree = tree
+        self.tree = tree
         self._plain = plain
         self._aliases: dict[str, str] = {}
         self._functions = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
@@ -153,7 +188,7 @@ class _ImportedCode:
 
     def acting(self) -> Iterator[ast.stmt]:
         """The statements that may do more than to bind names."""
-        return self._acting(self._tree.body)
+        return self._acting(self.tree.body)
 
     def _acting(self, body: Iterable[ast.stmt]) -> Iterator[ast.stmt]:
         for node in body:
@@ -183,7 +218,7 @@ class _ImportedCode:
 
     def defining(self, own: Collection[str]) -> Iterator[ast.stmt]:
         """The definitions at the top that may do more than to bind their names."""
-        for node in self._tree.body:
+        for node in self.tree.body:
             match node:
                 case ast.ClassDef(name=name, body=body) if name in own:
                     yield from (n for n in body if _is_function(n) and not self._is_plain_head(n))
@@ -199,10 +234,15 @@ class _ImportedCode:
         """Whether to define a function evaluates nothing that may act but for its decorators."""
         args = node.args
         parts = [*args.defaults, *args.kw_defaults]
-        if self._aliases.get("annotations") != "__future__.annotations":
+        if not self._defers:
             every = (*args.posonlyargs, *args.args, *args.kwonlyargs, args.vararg, args.kwarg)
             parts += [node.returns, *(a.annotation for a in every if a is not None)]
         return all(self._is_plain(part) for part in parts if part is not None)
+
+    @property
+    def _defers(self) -> bool:
+        """Whether annotations are not evaluated."""
+        return self._aliases.get("annotations") == "__future__.annotations"
 
     @staticmethod
     def _never_here(test: ast.expr) -> bool:
@@ -216,8 +256,9 @@ class _ImportedCode:
                 return decorated and self._is_plain_head(node)
             case ast.Assign(targets=targets, value=value):
                 return all(map(self._is_own, targets)) and self._is_plain(value)
-            case ast.AnnAssign(target=target, value=value):
-                return _is_name(target) and (value is None or self._is_plain(value))
+            case ast.AnnAssign(target=target, annotation=type_, value=value):
+                evaluated = [*([] if self._defers else [type_]), *([value] if value else [])]
+                return _is_name(target) and all(map(self._is_plain, evaluated))
             case ast.Expr(value=value):
                 return self._is_plain(value)
             case _:
@@ -263,6 +304,15 @@ class _ImportedCode:
         )
         decorated = all(map(self._is_plain_decorator, node.decorator_list))
         return is_plain and decorated and _CLASS_HOOKS.isdisjoint(hooks)
+
+    def is_library_decorator(self, node: ast.expr) -> bool:
+        """Whether it is one that only wraps, perhaps made with constants."""
+        given = (
+            [*node.args, *(k.value for k in node.keywords)] if isinstance(node, ast.Call) else ()
+        )
+        name = self._name_of(node.func if isinstance(node, ast.Call) else node)
+        is_own = name in self._functions or name in self._classes
+        return name in _PLAIN and not is_own and all(isinstance(g, ast.Constant) for g in given)
 
     def _is_plain_decorator(self, node: ast.expr) -> bool:
         if isinstance(node, ast.Call):
