@@ -7,7 +7,7 @@ nothing but to bind names may change the run-time part, the environment, or the 
 from __future__ import annotations
 
 import ast
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from tree_sitter import Node
 
@@ -20,8 +20,10 @@ from rebsync.reverse.python.generated.people_program import PeopleProgram, is_im
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_module import module_of
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
-from rebsync.source import Source, Span
+from rebsync.reverse.syntax.py_tree import field, named, text_of
+from rebsync.source import NOWHERE, Source, Span
 
+_NAMES_MODEL = "is the model's"
 _WHY = "this runs when the module is imported: what it does is not in the model"
 
 
@@ -65,8 +67,10 @@ def _acting_when_imported(
         of = problem.function.partition(":")[0]
         if of in found and not is_import(program.function(problem.function), problem.place):
             source = code.modules[of].py.source
+            around = program.function(problem.function).place
+            place = problem.place if problem.place != NOWHERE else around
             is_made = _is_made_decorator(problem, source)
-            found[of] |= set() if is_made else {source.position(problem.place.start).line}
+            found[of] |= set() if is_made else {source.position(place.start).line}
     return found
 
 
@@ -83,41 +87,64 @@ def _is_made_decorator(problem: Problem, source: Source) -> bool:
     )
 
 
-def list_definition_effects(source: Source, own: Collection[str], findings: Findings) -> None:
+def list_definition_effects(
+    code: PyCode, module: Scope, own: Collection[str], findings: Findings
+) -> None:
     """Lists what runs in a module of generated classes when functions and classes are defined.
 
     `own` are the names of these classes, which are read themselves.
     """
-    tree = module_of(source.text)
-    if tree is not None:
-        package = source.path.split("/")[-2:][0]
-        made = {"values.When", f"{package}.values.When"}
-        acting = ImportedCode(tree, PLAIN | made).defining(own)
-        _list(source, [n.lineno for n in acting], findings)
+    source, tree = module.py.source, module_of(module.py.source.text)
+    if tree is None:
+        return
+    package = source.path.split("/")[-2:][0]
+    made = {"values.When", f"{package}.values.When"}
+    acting = {n.lineno for n in ImportedCode(tree, PLAIN | made).defining(own)}
+    classes = [(n, n.child_by_field_name("definition") or n) for n in named(module.node)]
+    others = [
+        node
+        for node, of in classes
+        if of.type == "class_definition" and text_of(field(of, "name")) not in own
+    ]
+    _list(source, sorted(acting | _acting_at(code, module, others, asks=False)), findings)
 
 
-def acting_lines(code: PyCode, module: Scope, statements: Iterable[Node]) -> frozenset[int] | None:
+def acting_lines(code: PyCode, module: Scope, statements: Sequence[Node]) -> frozenset[int] | None:
     """The lines of a module of classes at which statements stand that may do more than bind names.
 
     `statements` are those of its top that nothing else reads. None: Python takes no such module.
     """
-    source, tree = module.py.source, module_of(module.py.source.text)
+    tree = module_of(module.py.source.text)
     if tree is None:
         return None
+    found = _acting_at(code, module, statements, asks=True)
+    return found | {node.lineno for node in ImportedCode(tree).acting()}
+
+
+def _acting_at(
+    code: PyCode, module: Scope, statements: Sequence[Node], *, asks: bool
+) -> frozenset[int]:
+    """The first lines of those statements at the top of a module of classes that may act.
+
+    `asks` is whether to name what is of the run-time part counts as well.
+    """
+    if not statements:
+        return frozenset()
+    source = module.py.source
     modules = {path: each.py.source for path, each in code.modules.items()}
     people = PeopleProgram(code, frozenset(s.path for s in modules.values() if is_runtime_file(s)))
     program = people.imported()
     outcomes = people.outcomes(program)
     top = program.function(next(path for path, each in modules.items() if each is source))
-    acting = (
+    return frozenset(
         node.start_point.row + 1
         for node in statements
         for problem in outcomes.of_statements(top, module.py.span(node))
         if not problem.raises
+        and (asks or not problem.why.endswith(_NAMES_MODEL))
         and not is_import(program.function(problem.function), problem.place)
         and not _is_made_decorator(problem, source)
     )
-    return frozenset(acting) | {node.lineno for node in ImportedCode(tree).acting()}
 
 
 def list_setup_effects(source: Source, findings: Findings) -> None:

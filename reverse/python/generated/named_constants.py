@@ -183,7 +183,9 @@ class CodeConstants(PyValues):
                 is_whole = len(given) == len(named(field(call, "arguments")))
                 return is_whole and all(n.type == "integer" for n in given)
             case (Class(owner),):
-                body = [named(s)[0] for s in named(field(owner.node, "body")) if named(s)]
+                line = (each for each in lineage(self.values, owner) if isinstance(each, Scope))
+                bodies = (s for each in line for s in named(field(each.node, "body")))
+                body = [named(s)[0] for s in bodies if named(s)]
                 is_record = _FROZEN.issuperset(owner.decorators) and self._is_plain(owner)
                 return is_record and all(
                     s.type == "assignment" or is_constant_text(s) for s in body
