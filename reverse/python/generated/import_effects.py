@@ -106,23 +106,26 @@ def list_definition_effects(
         for node, of in classes
         if of.type == "class_definition" and text_of(field(of, "name")) not in own
     ]
-    _list(source, sorted(acting | _acting_at(code, module, others, asks=False)), findings)
+    _list(source, sorted(acting | _acting_at(code, module, own, others, asks=False)), findings)
 
 
-def acting_lines(code: PyCode, module: Scope, statements: Sequence[Node]) -> frozenset[int] | None:
+def acting_lines(
+    code: PyCode, module: Scope, own: Collection[str], statements: Sequence[Node]
+) -> frozenset[int] | None:
     """The lines of a module of classes at which statements stand that may do more than bind names.
 
-    `statements` are those of its top that nothing else reads. None: Python takes no such module.
+    `own` are the names of these classes, `statements` those of its top that nothing else reads.
+    None: Python takes no such module.
     """
     tree = module_of(module.py.source.text)
     if tree is None:
         return None
-    found = _acting_at(code, module, statements, asks=True)
+    found = _acting_at(code, module, own, statements, asks=True)
     return found | {node.lineno for node in ImportedCode(tree).acting()}
 
 
 def _acting_at(
-    code: PyCode, module: Scope, statements: Sequence[Node], *, asks: bool
+    code: PyCode, module: Scope, own: Collection[str], statements: Sequence[Node], *, asks: bool
 ) -> frozenset[int]:
     """The first lines of those statements at the top of a module of classes that may act.
 
@@ -132,10 +135,12 @@ def _acting_at(
         return frozenset()
     source = module.py.source
     modules = {path: each.py.source for path, each in code.modules.items()}
-    people = PeopleProgram(code, frozenset(s.path for s in modules.values() if is_runtime_file(s)))
+    path = next(path for path, each in modules.items() if each is source)
+    runtime = frozenset(s.path for s in modules.values() if is_runtime_file(s))
+    people = PeopleProgram(code, runtime, classes=frozenset(f"{path}:{name}" for name in own))
     program = people.imported()
     outcomes = people.outcomes(program)
-    top = program.function(next(path for path, each in modules.items() if each is source))
+    top = program.function(path)
     return frozenset(
         node.start_point.row + 1
         for node in statements

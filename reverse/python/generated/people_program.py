@@ -19,11 +19,18 @@ from rebsync.source import Span
 
 
 class PeopleProgram:
-    """`generated` are the paths of the modules of classes and of the run-time part."""
+    """`generated` are the paths of the modules of classes and of the run-time part, `classes` the
+    names in the form of further classes of the model, of which the modules are looked at.
+    """
 
     def __init__(
-        self, code: PyCode, generated: frozenset[str], fields: MessageFields = no_fields
+        self,
+        code: PyCode,
+        generated: frozenset[str],
+        fields: MessageFields = no_fields,
+        classes: frozenset[str] = frozenset(),
     ) -> None:
+        self.own_classes = classes
         self.whole = python_program(code)
         self.code = code
         self.generated = generated
@@ -41,6 +48,8 @@ class PeopleProgram:
         path, _, function = name.partition(":")
         if path not in self.code.modules:
             return False
+        if f"{path}:{function.partition('.')[0]}" in self.own_classes:
+            return True
         source = self.code.modules[path].py.source
         if not function or is_runtime_file(source):
             return source.path in self.generated
