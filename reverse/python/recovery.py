@@ -181,7 +181,7 @@ def read_python(
         list_import_effects(python.sources, python.code, _read_paths(python), findings)
         for module in {id(o.module): o.module for o in classes.owners}.values():
             names = {o.name for o in classes.owners if o.module is module}
-            list_definition_effects(python.code, module, names, findings)
+            list_definition_effects(module.py.source, names, findings)
         list_sensor_effects(python.code, _read_paths(python), known, findings)
     is_people = partial(_is_people, own=own)
     scripts = scripts_of(files or {})

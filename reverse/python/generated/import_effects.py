@@ -20,10 +20,8 @@ from rebsync.reverse.python.generated.people_program import PeopleProgram, is_im
 from rebsync.reverse.syntax.py_index import PyCode, Scope
 from rebsync.reverse.syntax.py_module import module_of
 from rebsync.reverse.syntax.py_runtime_files import is_runtime_file
-from rebsync.reverse.syntax.py_tree import field, named, text_of
 from rebsync.source import NOWHERE, Source, Span
 
-_NAMES_MODEL = "is the model's"
 _WHY = "this runs when the module is imported: what it does is not in the model"
 
 
@@ -87,26 +85,17 @@ def _is_made_decorator(problem: Problem, source: Source) -> bool:
     )
 
 
-def list_definition_effects(
-    code: PyCode, module: Scope, own: Collection[str], findings: Findings
-) -> None:
+def list_definition_effects(source: Source, own: Collection[str], findings: Findings) -> None:
     """Lists what runs in a module of generated classes when functions and classes are defined.
 
     `own` are the names of these classes, which are read themselves.
     """
-    source, tree = module.py.source, module_of(module.py.source.text)
-    if tree is None:
-        return
-    package = source.path.split("/")[-2:][0]
-    made = {"values.When", f"{package}.values.When"}
-    acting = {n.lineno for n in ImportedCode(tree, PLAIN | made).defining(own)}
-    classes = [(n, n.child_by_field_name("definition") or n) for n in named(module.node)]
-    others = [
-        node
-        for node, of in classes
-        if of.type == "class_definition" and text_of(field(of, "name")) not in own
-    ]
-    _list(source, sorted(acting | _acting_at(code, module, own, others, asks=False)), findings)
+    tree = module_of(source.text)
+    if tree is not None:
+        package = source.path.split("/")[-2:][0]
+        made = {"values.When", f"{package}.values.When"}
+        acting = ImportedCode(tree, PLAIN | made).defining(own)
+        _list(source, [n.lineno for n in acting], findings)
 
 
 def acting_lines(
@@ -120,19 +109,6 @@ def acting_lines(
     tree = module_of(module.py.source.text)
     if tree is None:
         return None
-    found = _acting_at(code, module, own, statements, asks=True)
-    return found | {node.lineno for node in ImportedCode(tree).acting()}
-
-
-def _acting_at(
-    code: PyCode, module: Scope, own: Collection[str], statements: Sequence[Node], *, asks: bool
-) -> frozenset[int]:
-    """The first lines of those statements at the top of a module of classes that may act.
-
-    `asks` is whether to name what is of the run-time part counts as well.
-    """
-    if not statements:
-        return frozenset()
     source = module.py.source
     modules = {path: each.py.source for path, each in code.modules.items()}
     path = next(path for path, each in modules.items() if each is source)
@@ -140,16 +116,15 @@ def _acting_at(
     people = PeopleProgram(code, runtime, classes=frozenset(f"{path}:{name}" for name in own))
     program = people.imported()
     outcomes = people.outcomes(program)
-    top = program.function(path)
-    return frozenset(
+    acting = (
         node.start_point.row + 1
         for node in statements
-        for problem in outcomes.of_statements(top, module.py.span(node))
+        for problem in outcomes.of_statements(program.function(path), module.py.span(node))
         if not problem.raises
-        and (asks or not problem.why.endswith(_NAMES_MODEL))
         and not is_import(program.function(problem.function), problem.place)
         and not _is_made_decorator(problem, source)
     )
+    return frozenset(acting) | {node.lineno for node in ImportedCode(tree).acting()}
 
 
 def list_setup_effects(source: Source, findings: Findings) -> None:

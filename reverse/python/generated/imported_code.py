@@ -185,9 +185,12 @@ class ImportedCode:
         above = (self._classes.get(ast.unparse(base)) for base in node.bases)
         hooks = (n.name for c in above if c is not None for n in c.body if _is_function(n))
         is_plain = all(map(self._is_plain, bases)) and all(
-            k.arg != "metaclass" or ast.unparse(k.value).endswith(("ABCMeta", "EnumMeta"))
+            k.arg != "metaclass" or self._name_of(k.value) in ("abc.ABCMeta", "enum.EnumMeta")
             for k in node.keywords
         )
+        is_enumeration = any(self._name_of(base).startswith("enum.") for base in node.bases)
+        own = {n.name for n in node.body if _is_function(n)} if is_enumeration else set[str]()
+        is_plain = is_plain and own.isdisjoint(_MAKING | {"_generate_next_value_"})
         decorated = all(map(self._is_plain_decorator, node.decorator_list))
         return is_plain and decorated and _CLASS_HOOKS.isdisjoint(hooks)
 
@@ -220,7 +223,7 @@ class ImportedCode:
                 return False
             case _:
                 pass
-        inner = (child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr))
+        inner = (part for child in ast.iter_child_nodes(node) for part in _parts(child))
         return all(map(self._is_plain, inner))
 
     def _is_plain_call(self, function: ast.expr) -> bool:
@@ -295,6 +298,19 @@ class LaunchCode(ImportedCode):
         if name.startswith(_LAUNCH) or name.rpartition(".")[2] in _DESCRIBES:
             return True
         return super()._is_plain_call(function)
+
+
+def _parts(node: ast.AST) -> list[ast.expr]:
+    """The expressions that a child of an expression is, or holds."""
+    match node:
+        case ast.keyword(value=value):
+            return [value]
+        case ast.comprehension(iter=of, ifs=tests):
+            return [of, *tests]
+        case ast.expr():
+            return [node]
+        case _:
+            return []
 
 
 def _is_name(target: ast.expr) -> bool:
